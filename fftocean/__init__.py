@@ -1,0 +1,67 @@
+"""
+fftocean: order a sea in the words of oceanography, get a tile of water that repeats without a seam in space and in time.
+
+Names are loaded when first used, so that `import fftocean` does not wait for compilers and FFT libraries.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fftocean import gerstner as gerstner
+    from fftocean.errors import FFTOceanError as FFTOceanError
+    from fftocean.errors import IntegrityError as IntegrityError
+    from fftocean.errors import JobError as JobError
+    from fftocean.errors import OutputError as OutputError
+    from fftocean.errors import ParameterError as ParameterError
+    from fftocean.errors import SeaWarning as SeaWarning
+    from fftocean.ocean import Frame as Frame
+    from fftocean.ocean import Ocean as Ocean
+    from fftocean.physics import dispersion as dispersion
+    from fftocean.physics import moments as moments
+    from fftocean.physics.sea import Sea as Sea
+    from fftocean.physics.sea import WaveSystem as WaveSystem
+    from fftocean.physics.sea import from_compass as from_compass
+    from fftocean.physics.spectra import JONSWAP as JONSWAP
+    from fftocean.physics.spectra import TMA as TMA
+    from fftocean.physics.spectra import CustomSpectrum as CustomSpectrum
+    from fftocean.physics.spectra import PiersonMoskowitz as PiersonMoskowitz
+    from fftocean.physics.spectra import TabulatedSpectrum as TabulatedSpectrum
+    from fftocean.physics.spreading import Blend as Blend
+    from fftocean.physics.spreading import CosinePower as CosinePower
+    from fftocean.physics.spreading import CosineSquared as CosineSquared
+    from fftocean.physics.spreading import DonelanBanner as DonelanBanner
+    from fftocean.products import jacobian as jacobian
+    from fftocean.products import minimum_eigenvalue as minimum_eigenvalue
+    from fftocean.products import normals as normals
+
+__version__ = "0.1.0"
+
+_ROOMS = {
+    "fftocean.errors": ("FFTOceanError", "IntegrityError", "JobError", "OutputError", "ParameterError", "SeaWarning"),
+    "fftocean.ocean": ("Frame", "Ocean"),
+    "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
+    "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
+    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner"),
+    "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
+}
+_MODULES = {"dispersion": "fftocean.physics.dispersion", "moments": "fftocean.physics.moments", "gerstner": "fftocean.gerstner"}
+_HOME = {name: room for room, names in _ROOMS.items() for name in names}
+
+__all__ = sorted([*_HOME, *_MODULES])  # noqa: PLE0605
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from the room it lives in."""
+    if name in _MODULES:
+        value = importlib.import_module(_MODULES[name])
+    elif name in _HOME:
+        value = getattr(importlib.import_module(_HOME[name]), name)
+    else:
+        raise AttributeError(f"module 'fftocean' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -1,0 +1,56 @@
+"""Array types by name, and the memory there is for them."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.errors import ParameterError
+
+Real = npt.NDArray[np.floating[Any]]
+"""A real array, float32 or float64."""
+
+Complex = npt.NDArray[np.complexfloating[Any, Any]]
+"""A complex array, complex64 or complex128."""
+
+Integer = npt.NDArray[np.int64]
+"""Signed integers, 64 bit."""
+
+RealLike = npt.ArrayLike
+"""What `np.asarray(..., float)` takes: a number, a list, an array."""
+
+COMPLEX_OF = {"float32": np.dtype(np.complex64), "float64": np.dtype(np.complex128)}
+"""The complex type whose parts have the named real type."""
+
+
+def available_memory() -> float:
+    """Bytes that this process could still get: the machine's free memory or the control group's, whichever is less; inf if unknown."""
+    candidates = [float("inf")]
+    try:
+        for line in Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                candidates.append(1024.0 * int(line.split()[1]))
+    except (OSError, ValueError):
+        if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+            candidates.append(float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE"))
+    try:
+        limit = Path("/sys/fs/cgroup/memory.max").read_text().strip()
+        if limit != "max":
+            candidates.append(float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text()))
+    except (OSError, ValueError):
+        pass
+    return min(candidates)
+
+
+def require_memory(what: str, needed: float) -> None:
+    """
+    Refuse, before anything is allocated, what cannot fit.
+
+    Raises:
+        ParameterError: `needed` bytes are more than `available_memory()`.
+    """
+    available = available_memory()
+    if needed > available:
+        raise ParameterError(f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {max(available, 0.0) / 2**30:.1f} GiB are free")

@@ -1,0 +1,1 @@
+"""The continuous sea: no grid, no FFT, no chance."""

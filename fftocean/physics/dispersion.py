@@ -1,0 +1,150 @@
+"""The dispersion relation of water waves: omega(k), d omega/dk, k(omega), and the frequencies that close a loop."""
+
+import math
+
+import numpy as np
+
+from fftocean.arrays import Integer, Real, RealLike
+from fftocean.constants import GRAVITY, WATER_DENSITY
+from fftocean.errors import ParameterError
+
+
+def _argument(name: str, values: RealLike, unit: str) -> Real:
+    """Return `values` as a float64 array of finite numbers >= 0."""
+    array = np.asarray(values, dtype=np.float64)
+    good = (array >= 0.0) & (array < np.inf)
+    if not np.all(good):
+        raise ParameterError(f"{name} must be finite and at least 0 {unit}, got {array[~good].flat[0]}")
+    return array
+
+
+def _water(depth: float, surface_tension: float) -> float:
+    """Check the water itself; return its kinematic surface tension sigma/rho [m^3/s^2]."""
+    if not depth > 0.0:
+        raise ParameterError(f"depth must be more than 0 m (inf is deep water), got {depth}")
+    if not 0.0 <= surface_tension < math.inf:
+        raise ParameterError(f"surface_tension must be finite and at least 0 N/m, got {surface_tension}")
+    return surface_tension / WATER_DENSITY
+
+
+def _times_depth(k: Real, depth: float) -> Real:
+    """k h, with 0 h = 0 also in infinitely deep water."""
+    if math.isinf(depth):
+        return np.where(k > 0.0, np.inf, 0.0)
+    with np.errstate(over="ignore"):  # inf is as deep as it gets
+        return k * depth
+
+
+def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
+    """
+    Return omega(k):  omega^2 = (g k + (sigma/rho) k^3) tanh(k h).
+
+    Args:
+        k: wavenumber magnitude, any shape, [rad/m], >= 0.
+        depth: still-water depth h [m]; `math.inf` is deep water.
+        surface_tension: sigma [N/m]; 0 leaves capillary waves out, `constants.SURFACE_TENSION` is sea water.
+
+    Returns:
+        Same shape as `k`, [rad/s].
+
+    Raises:
+        ParameterError: a negative or non-finite wavenumber or tension, a depth that is not positive.
+
+    Source: Lamb, Hydrodynamics (1932), art. 228 and 267.
+    Pinned by tests/physics/test_dispersion.py: deep and shallow limits, and the round trip through `wavenumber`.
+    """
+    kinematic_tension = _water(depth, surface_tension)
+    k = _argument("k", k, "rad/m")
+    return np.sqrt((GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth)))
+
+
+def group_to_phase_speed(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
+    """
+    Return (d omega/dk) / (omega/k) [-]: 1/2 for deep gravity waves, 1 for shallow ones, 3/2 for capillaries.
+
+    With x = k h and s = (sigma/rho) k^2:  1/2 ((g + 3 s)/(g + s) + 2x / sinh 2x).
+    """
+    kinematic_tension = _water(depth, surface_tension)
+    k = _argument("k", k, "rad/m")
+    s = kinematic_tension * k**2
+    x2 = np.minimum(2.0 * _times_depth(k, depth), 700.0)  # sinh overflows past 710; x/sinh x is 0 long before
+    return 0.5 * ((GRAVITY + 3.0 * s) / (GRAVITY + s) + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0))
+
+
+def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
+    """
+    Return d(omega)/dk, the speed at which wave energy travels.
+
+    Args:
+        k: wavenumber magnitude, any shape, [rad/m], > 0.
+        depth: still-water depth [m]; `math.inf` is deep water.
+        surface_tension: sigma [N/m].
+
+    Returns:
+        Same shape as `k`, [m/s].
+
+    Raises:
+        ParameterError: as `angular_frequency`, and for k = 0, where deep water has no finite answer.
+
+    Source: Lamb, Hydrodynamics (1932), art. 236.
+    Pinned by tests/physics/test_dispersion.py, against a central difference of `angular_frequency`.
+    """
+    k = _argument("k", k, "rad/m")
+    if np.any(k == 0.0):
+        raise ParameterError("k must be more than 0 rad/m for a group velocity, got 0.0")
+    return angular_frequency(k, depth, surface_tension) / k * group_to_phase_speed(k, depth, surface_tension)
+
+
+def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
+    """
+    Return k(omega), the inverse of `angular_frequency`, to a few units in the last place.
+
+    Newton's method on ln omega(ln k): its slope is the ratio of group to phase speed, always between 1/2 and 3/2, so
+    the step never overshoots far, from the shallowest water to the shortest capillary.
+
+    Args:
+        omega: angular frequency, any shape, [rad/s], >= 0.
+        depth: still-water depth [m]; `math.inf` is deep water.
+        surface_tension: sigma [N/m].
+
+    Returns:
+        Same shape as `omega`, [rad/m].
+
+    Raises:
+        ParameterError: as `angular_frequency`.
+
+    Source: the first guess is Eckart's (1952), k = (omega^2/g) / sqrt(tanh(omega^2 h/g)).
+    Pinned by tests/physics/test_dispersion.py, against 40-digit arithmetic, to 4 eps.
+    """
+    kinematic_tension = _water(depth, surface_tension)
+    omega = _argument("omega", omega, "rad/s")
+    deep = omega**2 / GRAVITY
+    if math.isinf(depth) and kinematic_tension == 0.0:
+        return deep
+    moving = deep > 0.0
+    w, k = omega[moving], deep[moving]
+    k = k / np.sqrt(np.tanh(_times_depth(k, depth)))
+    if kinematic_tension > 0.0:
+        k = np.minimum(k, np.cbrt(w**2 / kinematic_tension))
+    for _ in range(_NEWTON_STEPS):
+        misfit = angular_frequency(k, depth, surface_tension) / w - 1.0
+        k = k * np.exp(-np.log1p(misfit) / group_to_phase_speed(k, depth, surface_tension))
+    result = np.zeros_like(omega)
+    result[moving] = k
+    return result
+
+
+_NEWTON_STEPS = 6  # from a guess within 1/4 of the root in ln k, five steps reach the last digit; one for the road
+
+
+def loop_cycles(omega: RealLike, period: float) -> Integer:
+    """
+    Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2 pi)).
+
+    A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T; the slowest waves
+    are sped up to one turn a loop rather than frozen.
+
+    Source: Tessendorf 2001, section 4.4 (who truncates; rounding halves the error).
+    """
+    turns = np.rint(np.asarray(omega, dtype=np.float64) * (period / (2.0 * np.pi)))
+    return np.maximum(turns, 1.0).astype(np.int64)

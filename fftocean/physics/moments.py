@@ -1,0 +1,150 @@
+"""What the integrals of a spectrum say: m_n, Hs, Tp, Tz, mean direction and spread."""
+
+import math
+import warnings
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy as np
+
+from fftocean.arrays import Real
+from fftocean.errors import ParameterError
+
+# Spectra and seas are told apart by what they can do, not imported: this room lies below theirs.
+Spectrum = Any
+"""A `FrequencySpectrum`: callable on omega, with `.peak` and, where it has corners, `.breaks`."""
+
+
+def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf) -> float:
+    """
+    Return m_n, the integral of omega^n S(omega) from `low` to `high`  [m^2 (rad/s)^n].
+
+    Adaptive Gauss-Kronrod quadrature (QUADPACK) in omega/omega_p, piece by piece between the peak and the spectrum's corners.
+
+    Args:
+        spectrum: a `FrequencySpectrum`.
+        n: the order; any real number.
+        low, high: the band [rad/s].
+
+    Returns:
+        The moment, to about 1e-11 of itself; inf where the tail falls too slowly for it to exist (n >= 4 for omega^-5).
+
+    Raises:
+        ParameterError: a band that is not 0 <= low <= high, or a spectrum that the quadrature cannot resolve.
+    """
+    from scipy import integrate
+
+    if not 0.0 <= low <= high:
+        raise ParameterError(f"a band must have 0 <= low <= high, got {low} to {high} rad/s")
+    peak = float(spectrum.peak)
+
+    def integrand(x: float) -> float:
+        return float(x**n * spectrum(peak * x)) if x > 0.0 else 0.0
+
+    corners = [c / peak for c in (peak, *getattr(spectrum, "breaks", ()))]
+    if not getattr(spectrum, "breaks", ()):
+        corners += [0.5, 2.0]  # keep the peak's own scale in sight of the quadrature, whatever the band
+    edges = [low / peak, *sorted(c for c in set(corners) if low / peak < c < high / peak), high / peak]
+    if math.isinf(high) and _diverges(integrand):
+        return math.inf
+    total = 0.0
+    for a, b in zip(edges, edges[1:], strict=False):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", integrate.IntegrationWarning)
+            try:
+                total += integrate.quad(integrand, a, b, epsabs=0.0, epsrel=1e-11, limit=200)[0] if _any_energy(integrand, a, b) else 0.0
+            except integrate.IntegrationWarning:
+                # Sharp features: split the piece evenly and add the parts, which resolves all but fractals.
+                total += _split(integrand, a, b)
+    return total * peak ** (n + 1)
+
+
+def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool:
+    """Whether a piece holds anything at all: a relative tolerance cannot be met on nothing."""
+    probes = a + (b - a) * np.linspace(0.0, 1.0, 65) if math.isfinite(b) else a * np.geomspace(1.0, 1e6, 65)
+    return any(integrand(float(x)) > 0.0 for x in probes)
+
+
+def _split(integrand: Callable[[float], float], a: float, b: float) -> float:
+    """Integrate in 64 panels, in 1/x where the piece reaches to infinity, to an absolute 1e-12 of the whole."""
+    from scipy import integrate
+
+    if math.isinf(b):
+        return _split(lambda u: integrand(1.0 / u) / u**2 if u > 0.0 else 0.0, 0.0, 1.0 / a)
+    edges = np.linspace(a, b, 65)
+    panels = [integrate.quad(integrand, p, q, epsabs=1e-300, epsrel=1e-11, limit=200, full_output=1)[:2] for p, q in zip(edges, edges[1:], strict=False)]
+    total, error = (float(sum(column)) for column in zip(*panels, strict=True))
+    if error > 1e-6 * abs(total):
+        raise ParameterError(f"the spectrum is too rough to integrate between {a:g} and {b:g} times its peak: {total:g} +- {error:g}")
+    return total
+
+
+def _diverges(integrand: Callable[[float], float]) -> bool:
+    """Whether x times the integrand no longer falls far out on the tail."""
+    near, far = (x * integrand(x) for x in (1e4, 1e5))
+    return near > 0.0 and far > 0.9 * near
+
+
+def significant_wave_height(spectrum: Spectrum) -> float:
+    """Hs = 4 sqrt(m0) [m]."""
+    return 4.0 * math.sqrt(moment(spectrum, 0))
+
+
+def mean_period(spectrum: Spectrum) -> float:
+    """Tm01 = 2 pi m0/m1 [s]; NaN-free: 0 for a flat sea."""
+    m0, m1 = moment(spectrum, 0), moment(spectrum, 1)
+    return 2.0 * math.pi * m0 / m1 if m1 > 0.0 else 0.0
+
+
+def zero_crossing_period(spectrum: Spectrum) -> float:
+    """Tz = 2 pi sqrt(m0/m2) [s]; 0 for a flat sea."""
+    m0, m2 = moment(spectrum, 0), moment(spectrum, 2)
+    return 2.0 * math.pi * math.sqrt(m0 / m2) if m2 > 0.0 else 0.0
+
+
+def peak_period(spectrum: Spectrum) -> float:
+    """
+    Tp = 2 pi / omega at which S is highest [s], found on the curve itself; 0 for a flat sea.
+
+    For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that of the deep-water sea.
+    """
+    peak = float(spectrum.peak)
+    omega = np.union1d(peak * np.geomspace(0.1, 10.0, 4001), np.array(getattr(spectrum, "breaks", (peak,))))
+    s = spectrum(omega)
+    top = int(np.argmax(s))
+    if not s[top] > 0.0:
+        return 0.0
+    fine = np.linspace(omega[max(top - 1, 0)], omega[min(top + 1, omega.size - 1)], 2001)
+    return 2.0 * math.pi / float(fine[np.argmax(spectrum(fine))])
+
+
+def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float]:
+    """
+    Return the energy-weighted mean direction and the circular spread of waves, both in degrees.
+
+    mean = arg sum(E e^{i theta});  spread = sqrt(2 (1 - |sum E e^{i theta}| / sum E)).
+
+    Args:
+        variance: energy of each wave, any shape, any unit.
+        theta: direction toward which it goes, same shape, [rad].
+
+    Returns:
+        Direction toward, counter-clockwise from +x, in (-180, 180], and spread; (0, 0) for a flat sea.
+
+    Source: Kuik, van Vledder & Holthuijsen 1988.
+    """
+    total = float(np.sum(variance))
+    if not total > 0.0:
+        return 0.0, 0.0
+    mean = np.sum(variance * np.exp(1j * theta)) / total
+    return math.degrees(math.atan2(mean.imag, mean.real)), math.degrees(math.sqrt(max(2.0 * (1.0 - abs(mean)), 0.0)))
+
+
+def spectral_grid(peaks: Iterable[float], breaks: Iterable[float] = (), points: int = 400) -> Real:
+    """Frequencies [rad/s] on which to look at a sea: from a tenth of its lowest peak to 30 times its highest, dense round each, every corner."""
+    peaks = list(peaks)
+    if not peaks:
+        return np.geomspace(0.1, 10.0, 16)
+    wide = np.geomspace(0.1 * min(peaks), 30.0 * max(peaks), points)
+    near = [p * np.geomspace(0.6, 1.8, points) for p in peaks]
+    return np.unique(np.concatenate([wide, *near, np.fromiter(breaks, dtype=np.float64)]))

@@ -1,0 +1,136 @@
+"""The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fftocean.arrays import Real, RealLike
+from fftocean.errors import ParameterError
+from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION
+from fftocean.physics import moments
+from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum
+from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner, Spreading
+
+
+def from_compass(bearing: float) -> float:
+    """
+    Turn a meteorological bearing into our direction.
+
+    Args:
+        bearing: where the waves or the wind come FROM [degrees], clockwise from north, as forecasts and buoys give it.
+
+    Returns:
+        Where they go TO [degrees], counter-clockwise from east (+x), in [0, 360): a westerly, 270, is 0.
+    """
+    return (270.0 - DIRECTION.check("bearing", bearing)) % 360.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WaveSystem:
+    """One wind sea or swell: how much energy at each frequency, and where it goes."""
+
+    spectrum: FrequencySpectrum
+    spreading: Spreading = field(default_factory=DonelanBanner)
+    direction: float = 0.0  # toward which the waves go, counter-clockwise from +x [degrees]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.spectrum, FrequencySpectrum):
+            raise ParameterError(
+                f"spectrum must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {self.spectrum!r}"
+            )
+        if not callable(self.spreading):
+            raise ParameterError(f"spreading must be callable as D(omega, theta, peak), got {self.spreading!r}")
+        DIRECTION.check("direction", self.direction)
+
+    def density(self, omega: RealLike, theta: RealLike) -> Real:
+        """S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x."""
+        return self.spectrum(omega) * self.spreading(omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak)
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class Sea:
+    """
+    Several wave systems over one depth of water. No system is a flat sea.
+
+    A `Sea` is itself a frequency spectrum: call it with omega for the sum over its systems.
+    """
+
+    systems: tuple[WaveSystem, ...]
+    depth: float  # still-water depth [m]; inf is deep water
+    surface_tension: float  # [N/m]; 0 leaves capillary waves out
+
+    def __init__(
+        self, *waves: WaveSystem, systems: tuple[WaveSystem, ...] = (), depth: float = math.inf, surface_tension: float = 0.0
+    ) -> None:
+        systems = (*waves, *systems)
+        for system in systems:
+            if not isinstance(system, WaveSystem):
+                raise ParameterError(f"a sea is made of WaveSystem values, got {system!r}")
+        object.__setattr__(self, "systems", systems)
+        object.__setattr__(self, "depth", DEPTH.check("depth", depth))
+        object.__setattr__(self, "surface_tension", SURFACE_TENSION.check("surface_tension", surface_tension))
+
+    @classmethod
+    def from_wind(
+        cls,
+        *,
+        speed: float,
+        fetch: float,
+        depth: float = math.inf,
+        direction: float = 0.0,
+        gamma: float = 3.3,
+        spreading: Spreading | None = None,
+    ) -> "Sea":
+        """
+        The short way to a sea: TMA, spread by an even blend of Donelan-Banner and cos^2.
+
+        Args:
+            speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says so.
+            fetch: distance over which it blows [m].
+            depth: still-water depth [m].
+            direction: toward which the wind blows, counter-clockwise from +x [degrees].
+            gamma: peak enhancement of the growing sea [-].
+            spreading: another model of directional spreading.
+
+        Raises:
+            ParameterError: a value out of its range.
+        """
+        deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
+        spectrum = TMA(deep, DEPTH.check("depth", depth))
+        return cls(WaveSystem(spectrum=spectrum, spreading=spreading or Blend(), direction=direction), depth=depth)
+
+    @property
+    def peak(self) -> float:
+        """omega_p [rad/s] of the system whose own peak is highest; 1 for a sea without systems."""
+        return max(self.systems, key=lambda s: float(s.spectrum(s.spectrum.peak))).spectrum.peak if self.systems else 1.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the sum bends sharply: the systems' peaks and corners [rad/s]."""
+        return tuple(sorted({b for s in self.systems for b in (s.spectrum.peak, *getattr(s.spectrum, "breaks", ()))}))
+
+    def __call__(self, omega: RealLike, /) -> Real:
+        """S(omega) of all systems together, [m^2 s/rad]."""
+        omega = np.asarray(omega, dtype=np.float64)
+        return sum((s.spectrum(omega) for s in self.systems), np.zeros_like(omega))
+
+    def density(self, omega: RealLike, theta: RealLike) -> Real:
+        """S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is counter-clockwise from +x."""
+        omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), np.asarray(theta, dtype=np.float64))
+        return sum((s.density(omega, theta) for s in self.systems), np.zeros_like(omega))
+
+    @property
+    def variance(self) -> float:
+        """m0 [m^2]: the sum of the systems' own, each by quadrature."""
+        return sum(moments.moment(s.spectrum, 0) for s in self.systems)
+
+    @property
+    def hs(self) -> float:
+        """Significant wave height, 4 sqrt(m0) [m]."""
+        return 4.0 * math.sqrt(self.variance)
+
+    @property
+    def tp(self) -> float:
+        """Peak period of all systems together [s]; 0 for a flat sea."""
+        return moments.peak_period(self) if self.systems else 0.0
