@@ -1,0 +1,76 @@
+"""
+Every linear field of the sea, as one line of signs.
+
+All of them are derivatives of two functions of (x, y, t): the height h, and the displacement potential chi, whose gradient
+is the horizontal displacement D of the water at the surface. In wavenumber space
+
+    chi(k) = h(k) / (|k| tanh(|k| depth)),      d/dx = i kx,      d/dy = i ky,
+
+so D = grad chi = sum (+i k/|k|) / tanh(|k| depth) h(k) e^{i k.x}: +i draws water toward the crests and sharpens them.
+The time derivative turns h(k) = forward e^{-i omega t} + backward e^{+i omega t} by -i omega and +i omega.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from fftocean.arrays import Complex, Real
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """The derivative that a field is: of what, how often along x, y and t."""
+
+    of: Literal["height", "potential"]
+    dx: int
+    dy: int
+    dt: int
+    unit: str
+    caption: str
+
+    @property
+    def quarter_turns(self) -> int:
+        """The power of i in front: i^(dx + dy)."""
+        return (self.dx + self.dy) % 4
+
+
+FIELDS: dict[str, Field] = {
+    #                     of          dx dy dt
+    "height":      Field("height",    0, 0, 0, "m",   "vertical displacement"),
+    "displace_x":  Field("potential", 1, 0, 0, "m",   "horizontal displacement along x, before choppiness"),
+    "displace_y":  Field("potential", 0, 1, 0, "m",   "horizontal displacement along y, before choppiness"),
+    "slope_x":     Field("height",    1, 0, 0, "1",   "d height / dx"),
+    "slope_y":     Field("height",    0, 1, 0, "1",   "d height / dy"),
+    "stretch_xx":  Field("potential", 2, 0, 0, "1",   "d displace_x / dx"),
+    "stretch_xy":  Field("potential", 1, 1, 0, "1",   "d displace_x / dy = d displace_y / dx"),
+    "stretch_yy":  Field("potential", 0, 2, 0, "1",   "d displace_y / dy"),
+    "velocity_x":  Field("potential", 1, 0, 1, "m/s", "d displace_x / dt of the surface particle, before choppiness"),
+    "velocity_y":  Field("potential", 0, 1, 1, "m/s", "d displace_y / dt of the surface particle, before choppiness"),
+    "velocity_z":  Field("height",    0, 0, 1, "m/s", "d height / dt of the surface particle"),
+}  # fmt: skip
+
+EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
+"""The eight fields of a still: what `Ocean.frame` returns unless told otherwise."""
+
+
+def potential_factor(k: Real, depth: float) -> Real:
+    """1 / (k tanh(k h)) [m], the factor from height to displacement potential; 0 at k = 0, where there is no wave."""
+    k = np.asarray(k, dtype=np.float64)
+    with np.errstate(over="ignore"):
+        steepening = k * (1.0 if np.isinf(depth) else np.tanh(k * depth))
+    return np.divide(1.0, steepening, out=np.zeros_like(k), where=steepening > 0.0)
+
+
+def multiplier(field: Field, kx: Real, ky: Real, depth: float) -> Complex:
+    """
+    Return what h(k), or dh/dt(k), is multiplied with to give a field's spectrum.
+
+    Args:
+        field: a row of `FIELDS`.
+        kx, ky: wavenumbers, of one shape [rad/m].
+        depth: still-water depth [m].
+    """
+    factor = potential_factor(np.hypot(kx, ky), depth) if field.of == "potential" else 1.0
+    result: Complex = (1j * kx) ** field.dx * (1j * ky) ** field.dy * factor
+    return result

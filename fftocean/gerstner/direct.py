@@ -1,0 +1,128 @@
+"""
+The slow truth: the sea summed wave by wave, in float64, at any points of the surface.
+
+It takes the list of waves and nothing else from the fast path: no transform, no table of signs, no shared formula.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from fftocean.arrays import Real, RealLike
+from fftocean.errors import ParameterError
+
+
+class Waves(Protocol):
+    """A list of waves, each array (m,): height = sum of amplitude cos(kx x + ky y - omega t - phase)."""
+
+    @property
+    def kx(self) -> Real: ...
+    @property
+    def ky(self) -> Real: ...
+    @property
+    def amplitude(self) -> Real: ...
+    @property
+    def phase(self) -> Real: ...
+    @property
+    def omega(self) -> Real: ...
+
+
+class HasWaves(Protocol):
+    """What can be summed: an `Ocean`, or anything with its waves, depth and choppiness."""
+
+    choppiness: float
+
+    @property
+    def depth(self) -> float: ...
+    def modes(self) -> Waves: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """The water surface at parameters (x0, y0), each field of their shape; float64, SI; names as in `Frame`."""
+
+    x: Real  # where the particle is: x0 + choppiness displace_x [m]
+    y: Real
+    z: Real  # height [m]
+    height: Real
+    displace_x: Real  # before choppiness [m]
+    displace_y: Real
+    slope_x: Real
+    slope_y: Real
+    stretch_xx: Real
+    stretch_xy: Real
+    stretch_yy: Real
+    velocity_x: Real  # before choppiness [m/s]
+    velocity_y: Real
+    velocity_z: Real
+    normal: Real  # (..., 3), unit, of the displaced surface
+    jacobian: Real
+
+
+def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
+    """
+    Sum the sea wave by wave.
+
+    With phase angle f = kx x0 + ky y0 - omega t - phase, each wave of amplitude a gives height a cos f, and displaces the
+    water by -a (k/|k|) coth(|k| depth) sin f: the linear Lagrangian solution (Gerstner 1802 in deep water; Lamb 1932, art. 229).
+
+    Args:
+        ocean: whose waves to sum.
+        x0, y0: undisplaced positions, which broadcast [m].
+        t: time [s].
+
+    Returns:
+        Fields of the broadcast shape of x0 and y0. The cost is points times waves.
+
+    Raises:
+        ParameterError: a position or time that is not finite.
+    """
+    px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
+    if not (np.all(np.isfinite(px)) and np.all(np.isfinite(py)) and math.isfinite(t)):
+        raise ParameterError("x0, y0 and t must be finite")
+    waves = ocean.modes()
+    k = np.sqrt(waves.kx * waves.kx + waves.ky * waves.ky)
+    a, ux, uy = waves.amplitude, waves.kx / k, waves.ky / k
+    push = a if math.isinf(ocean.depth) else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
+    on_cosine = np.stack([a, push * ux * waves.omega, push * uy * waves.omega, -push * ux * waves.kx, -push * ux * waves.ky, -push * uy * waves.ky])
+    on_sine = np.stack([-push * ux, -push * uy, -a * waves.kx, -a * waves.ky, a * waves.omega])
+    start = waves.omega * t + waves.phase
+    flat_x, flat_y = px.ravel(), py.ravel()
+    cosines, sines = np.zeros((6, flat_x.size)), np.zeros((5, flat_x.size))
+    points = max(1, _CHUNK // max(k.size, 1))
+    for i in range(0, flat_x.size, points):
+        part = slice(i, i + points)
+        angle = np.outer(waves.kx, flat_x[part]) + np.outer(waves.ky, flat_y[part]) - start[:, None]
+        cosines[:, part], sines[:, part] = on_cosine @ np.cos(angle), on_sine @ np.sin(angle)
+    height, velocity_x, velocity_y, xx, xy, yy = (f.reshape(px.shape) for f in cosines)
+    displace_x, displace_y, slope_x, slope_y, velocity_z = (f.reshape(px.shape) for f in sines)
+
+    c = ocean.choppiness
+    along_x = np.stack([1.0 + c * xx, c * xy, slope_x], axis=-1)
+    along_y = np.stack([c * xy, 1.0 + c * yy, slope_y], axis=-1)
+    cross = np.cross(along_x, along_y)
+    length = np.linalg.norm(cross, axis=-1, keepdims=True)
+    normal = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])
+    return Surface(
+        x=px + c * displace_x,
+        y=py + c * displace_y,
+        z=height,
+        height=height,
+        displace_x=displace_x,
+        displace_y=displace_y,
+        slope_x=slope_x,
+        slope_y=slope_y,
+        stretch_xx=xx,
+        stretch_xy=xy,
+        stretch_yy=yy,
+        velocity_x=velocity_x,
+        velocity_y=velocity_y,
+        velocity_z=velocity_z,
+        normal=normal,
+        jacobian=cross[..., 2],
+    )
+
+
+_CHUNK = 2**21  # phase angles held at a time: 16 MiB

@@ -1,0 +1,57 @@
+"""
+Chance, as a function of (seed, mx, my): no generator to advance, so no order of drawing to get wrong.
+
+A wave's random numbers depend on its own integer wavenumbers alone: a finer grid, another thread count or another machine
+sees the same waves. The generator is Philox-4x32-10, a keyed bijection of counters (Salmon, Moraes, Dror & Shaw 2011).
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.arrays import Complex, Integer, Real
+
+Words = npt.NDArray[np.uint64]
+_LOW = np.uint64(0xFFFFFFFF)
+_HALF = np.uint64(32)
+
+
+def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
+    """
+    Return four random 32-bit words for each four-word counter, under a two-word key.
+
+    Words are kept in uint64, below 2^32, so that products do not overflow.
+
+    Source: Salmon et al., Parallel random numbers: as easy as 1, 2, 3 (2011).
+    Pinned by tests/test_noise.py, against the authors' known answers.
+    """
+    c0, c1, c2, c3 = counter
+    k0, k1 = key
+    for _ in range(10):
+        p0, p1 = np.uint64(0xD2511F53) * c0, np.uint64(0xCD9E8D57) * c2
+        c0, c1, c2, c3 = (p1 >> _HALF) ^ c1 ^ np.uint64(k0), p1 & _LOW, (p0 >> _HALF) ^ c3 ^ np.uint64(k1), p0 & _LOW
+        k0, k1 = (k0 + 0x9E3779B9) & 0xFFFFFFFF, (k1 + 0xBB67AE85) & 0xFFFFFFFF
+    return c0, c1, c2, c3
+
+
+def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
+    """Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1)."""
+    zero = np.zeros(np.shape(mx), dtype=np.uint64)
+    counter = (np.asarray(mx).astype(np.uint64) & _LOW, np.asarray(my).astype(np.uint64) & _LOW, zero, zero)
+    a, b, c, d = philox(counter, (seed & 0xFFFFFFFF, seed >> 32))
+    scale, eleven = 2.0**-53, np.uint64(11)
+    first = ((((a << _HALF) | b) >> eleven).astype(np.float64) + 1.0) * scale
+    second = (((c << _HALF) | d) >> eleven).astype(np.float64) * scale
+    return first, second
+
+
+def complex_normals(seed: int, mx: Integer, my: Integer) -> Complex:
+    """Return xi_r + i xi_i with independent unit normals, one for each wave (Box & Muller 1958)."""
+    radius, turn = _uniforms(seed, mx, my)
+    result: Complex = np.sqrt(-2.0 * np.log(radius)) * np.exp(2j * np.pi * turn)
+    return result
+
+
+def unit_phasors(seed: int, mx: Integer, my: Integer) -> Complex:
+    """Return e^{i phi} with phi uniform, one for each wave: the phase of `complex_normals`, its modulus fixed at 1."""
+    result: Complex = np.exp(2j * np.pi * _uniforms(seed, mx, my)[1])
+    return result

@@ -1,0 +1,388 @@
+"""One periodic patch of water: `Ocean.frame(t)` is a pure function of the ocean and the time."""
+
+import math
+import os
+import threading
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
+from fftocean.arrays import COMPLEX_OF, Complex, Real, require_memory
+from fftocean.errors import FieldError, ParameterError, SeaWarning
+from fftocean.fields import EIGHT, FIELDS, Field, potential_factor
+from fftocean.grid import Grid
+from fftocean.kernels import evolve, surface
+from fftocean.limits import CHOPPINESS, FRAMES, LOOP, TIME
+from fftocean.physics.sea import Sea
+from fftocean.transforms import inverse_transform
+
+_GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+POINTWISE = {"normal": _GEOMETRY, "jacobian": _GEOMETRY[2:]}
+"""The fields that are not linear, and the linear ones that they are made of."""
+
+
+class Frame:
+    """
+    The water at one moment: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
+
+    Only the fields that were asked for are there; the others raise `FieldError`. Displacements, stretches and horizontal
+    velocities are those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height), where c is
+    `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
+    """
+
+    __slots__ = ("_arrays", "choppiness", "grid", "t")
+
+    def __init__(self, t: float, grid: Grid, choppiness: float, arrays: Mapping[str, Real]) -> None:
+        self.t = t  # [s]
+        self.grid = grid
+        self.choppiness = choppiness
+        self._arrays = dict(arrays)
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """The names of the arrays that are here."""
+        return tuple(self._arrays)
+
+    def __getitem__(self, name: str) -> Real:
+        """
+        Return a field by name.
+
+        Raises:
+            FieldError: it was not asked for.
+        """
+        try:
+            return self._arrays[name]
+        except KeyError:
+            made = {"normal": ", or take fo.normals(frame)", "jacobian": ", or take fo.jacobian(frame)"}.get(name, "")
+            raise FieldError(f"this frame has {', '.join(self._arrays)}; for {name} ask frame(t, fields=({name!r}, ...)){made}") from None
+
+    def __repr__(self) -> str:
+        return f"Frame(t={self.t}, {self.grid.nx} x {self.grid.ny}, {', '.join(self._arrays)})"
+
+    @property
+    def height(self) -> Real:
+        """Vertical displacement [m]."""
+        return self["height"]
+
+    @property
+    def displace_x(self) -> Real:
+        """Horizontal displacement along x, choppiness not applied [m]."""
+        return self["displace_x"]
+
+    @property
+    def displace_y(self) -> Real:
+        """Horizontal displacement along y, choppiness not applied [m]."""
+        return self["displace_y"]
+
+    @property
+    def slope_x(self) -> Real:
+        """d height / dx [-]."""
+        return self["slope_x"]
+
+    @property
+    def slope_y(self) -> Real:
+        """d height / dy [-]."""
+        return self["slope_y"]
+
+    @property
+    def stretch_xx(self) -> Real:
+        """d displace_x / dx [-]."""
+        return self["stretch_xx"]
+
+    @property
+    def stretch_xy(self) -> Real:
+        """d displace_x / dy = d displace_y / dx [-]."""
+        return self["stretch_xy"]
+
+    @property
+    def stretch_yy(self) -> Real:
+        """d displace_y / dy [-]."""
+        return self["stretch_yy"]
+
+    @property
+    def velocity_x(self) -> Real:
+        """d displace_x / dt of the surface particle, choppiness not applied [m/s]."""
+        return self["velocity_x"]
+
+    @property
+    def velocity_y(self) -> Real:
+        """d displace_y / dt of the surface particle, choppiness not applied [m/s]."""
+        return self["velocity_y"]
+
+    @property
+    def velocity_z(self) -> Real:
+        """d height / dt of the surface particle [m/s]."""
+        return self["velocity_z"]
+
+    @property
+    def normal(self) -> Real:
+        """Unit normal of the displaced surface, (ny, nx, 3) [-]."""
+        return self["normal"]
+
+    @property
+    def jacobian(self) -> Real:
+        """Area of displaced over still surface [-]; below 0 it is folded."""
+        return self["jacobian"]
+
+
+class Ocean:
+    """
+    One periodic patch of a sea. `frame(t)` depends on t alone: ask for frames in any order.
+
+    Args:
+        sea: what is ordered.
+        n: samples a side, any whole number, or (nx, ny).
+        size: width of the patch [m], or (lx, ly).
+        seed: which of all the seas that it could be; a finer n at the same size and seed shows the same waves, sharper.
+        loop: period after which the water repeats exactly [s]; None lets it run free.
+        choppiness: factor on the horizontal displacement [-]: 1 is linear wave theory, 0 a plain height field.
+        dtype: "float32" or "float64", of the fields; amplitudes and phases are always float64.
+        amplitudes: "gaussian" as in nature, or "fixed" for random phases alone (see `seed_amplitudes`).
+        backend: "auto", "pyfftw" or "scipy".
+        planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
+
+    An ocean owns plans and buffers, and locks them while it computes: threads may share one, but only one of them works at a
+    time; give each its own to work in parallel.
+
+    Raises:
+        ParameterError: a value out of range, a sea whose spectrum is not finite and >= 0, or more memory than there is.
+    """
+
+    def __init__(
+        self,
+        sea: Sea,
+        *,
+        n: int | tuple[int, int],
+        size: float | tuple[float, float],
+        seed: int = 0,
+        loop: float | None = None,
+        choppiness: float = 1.0,
+        dtype: str = "float32",
+        amplitudes: Draw = "gaussian",
+        backend: str = "auto",
+        planning: str = "estimate",
+    ) -> None:
+        if not isinstance(sea, Sea):
+            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+        grid, dtype, loop = _checked(n, size, dtype, loop)
+        if loop is not None and loop < 4.0 * (tp := sea.tp):
+            warnings.warn(
+                f"a loop of {loop:g} s is less than four peak periods ({4.0 * tp:.1f} s): the long waves are visibly sped up or slowed down",
+                SeaWarning,
+                stacklevel=2,
+            )
+        self._set_up(sea, seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes), choppiness, dtype, backend, planning)
+
+    @classmethod
+    def from_modes(
+        cls,
+        modes: Iterable[tuple[int, int, float, float]],
+        *,
+        n: int | tuple[int, int],
+        size: float | tuple[float, float],
+        depth: float = math.inf,
+        surface_tension: float = 0.0,
+        loop: float | None = None,
+        choppiness: float = 1.0,
+        dtype: str = "float32",
+        backend: str = "auto",
+        planning: str = "estimate",
+    ) -> "Ocean":
+        """
+        Make an ocean of given waves: height = sum of a cos(k.x - omega t - phase), k = 2 pi (mx/lx, my/ly).
+
+        Args:
+            modes: (mx, my, amplitude [m], phase [rad]) of each wave; waves on the same (mx, my) add up.
+            depth: still-water depth [m].
+            surface_tension: [N/m].
+            n, size, loop, choppiness, dtype, backend, planning: as in `Ocean`.
+
+        Raises:
+            ParameterError: a wave that the grid cannot hold, or a value out of range.
+        """
+        grid, dtype, loop = _checked(n, size, dtype, loop)
+        amplitudes = place_modes(modes, grid, depth=depth, surface_tension=surface_tension, loop=loop)
+        ocean = cls.__new__(cls)
+        ocean._set_up(None, amplitudes, choppiness, dtype, backend, planning)
+        return ocean
+
+    def _set_up(self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, dtype: str, backend: str, planning: str) -> None:
+        self.sea = sea
+        self.amplitudes = amplitudes
+        self.grid = grid = amplitudes.grid
+        self.choppiness = CHOPPINESS.check("choppiness", choppiness)
+        self.dtype = dtype
+        self._potential = potential_factor(grid.k, amplitudes.depth)
+        self._require_range()
+        self._coarse, self._fine = _turns_per_second(amplitudes)
+        self._turns = np.empty(grid.half_shape)
+        self._height, self._source = (np.empty(grid.half_shape, dtype=COMPLEX_OF[dtype]) for _ in range(2))
+        self._transform = inverse_transform(grid.shape, dtype, backend=backend, planning=planning)
+        self._lock, self._pid = threading.Lock(), os.getpid()
+
+    def _require_range(self) -> None:
+        """Refuse a sea whose fields would overflow their type, however the waves meet."""
+        a = self.amplitudes
+        reach = np.abs(a.forward) + np.abs(a.backward)
+        k = self.grid.k
+        most = float(np.max([np.sum(reach * (1.0 + self._potential * k) * (1.0 + k) * (1.0 + a.running_omega))], initial=0.0))
+        limit = float(np.sqrt(np.finfo(self.dtype).max)) / max(self.choppiness, 1.0)  # the Jacobian multiplies two of them
+        if not 2.0 * most < limit:
+            raise ParameterError(f"waves must keep every field below {limit:.0e} to be computed in {self.dtype}, got {2.0 * most:.0e}")
+
+    @property
+    def depth(self) -> float:
+        """Still-water depth [m]."""
+        return self.amplitudes.depth
+
+    @property
+    def loop(self) -> float | None:
+        """The period after which the water repeats [s], or None."""
+        return self.amplitudes.loop
+
+    @property
+    def backend(self) -> str:
+        """The FFT library in use."""
+        return self._transform.backend
+
+    def modes(self) -> Modes:
+        """Return every wave: kx, ky, amplitude, phase and omega, each (m,), float64; the same sea as the frames show."""
+        return self.amplitudes.modes()
+
+    def frame(self, t: float, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
+        """
+        Return the water at time t.
+
+        Args:
+            t: any time [s]; on a loop, t and t + loop are the same moment.
+            fields: which arrays to compute: names of `fields.FIELDS`, "normal", "jacobian". Only what is asked is computed.
+            out: an earlier frame of this ocean with (at least) the same fields: its arrays are overwritten and returned.
+
+        Raises:
+            ParameterError: an unknown field, a time that is not finite, an `out` of another shape or dtype.
+        """
+        t = TIME.check("t", t)
+        if self.loop is None:
+            scale = t * 134217729.0  # 2^27 + 1 splits a double in two halves of 26 bits  (Veltkamp 1968)
+            t_coarse = scale - (scale - t)
+            turn = (self._coarse, self._fine, t_coarse, t - t_coarse)
+        else:
+            turn = (self._coarse, self._fine, math.fmod(t, self.loop) / self.loop, 0.0)
+        return self._render(t, fields, out, evolve.turns_at, turn)
+
+    def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
+        """
+        Return the j-th of `count` equally spaced frames of the loop; j and j + count give equal bits, for any whole j.
+
+        Raises:
+            ParameterError: this ocean does not loop, `j` or `count` is not a whole number, and as `frame`.
+        """
+        if self.loop is None or self.amplitudes.cycles is None:
+            raise ParameterError("loop_frame needs an ocean that loops: Ocean(..., loop=16.0)")
+        count = FRAMES.check_whole("count", count)
+        if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
+            raise ParameterError(f"j must be a whole number, got {j!r}")
+        step = int(j) % count
+        return self._render(self.loop * step / count, fields, out, evolve.turns_in_loop, (self.amplitudes.cycles, step, count))
+
+    def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Any, arguments: tuple[Any, ...]) -> Frame:
+        fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
+        for name in fields:
+            if name not in FIELDS and name not in POINTWISE:
+                raise ParameterError(f"a field must be one of {', '.join([*FIELDS, *POINTWISE])}, got {name!r}")
+        arrays = self._outputs(fields, out)
+        with self._locked():
+            turn(*arguments, self._turns)
+            needed = dict.fromkeys([*(f for f in fields if f in FIELDS), *(f for name in fields for f in POINTWISE.get(name, ()))])
+            linear = {name: arrays[name] if name in arrays else self._transform.empty() for name in needed}
+            self._linear(linear)
+        if "normal" in arrays:
+            surface.normals(*(linear[f] for f in POINTWISE["normal"]), self.choppiness, arrays["normal"])
+        if "jacobian" in arrays:
+            surface.jacobian(*(linear[f] for f in POINTWISE["jacobian"]), self.choppiness, arrays["jacobian"])
+        return Frame(t, self.grid, self.choppiness, arrays)
+
+    def _linear(self, outputs: Mapping[str, Real]) -> None:
+        """Compute linear fields into their arrays, sharing what they have in common: first by d/dt, then by what they derive from."""
+        a = self.amplitudes
+        for rate in (0, 1):
+            of_rate = {name: FIELDS[name] for name in outputs if FIELDS[name].dt == rate}
+            if not of_rate:
+                continue
+            if rate == 0:
+                evolve.evolve(a.forward, a.backward, self._turns, self._height)
+            else:
+                evolve.evolve_rate(a.forward, a.backward, self._turns, a.running_omega, self._height)
+            for source in ("height", "potential"):
+                names = [name for name, field in of_rate.items() if field.of == source]
+                if source == "potential" and names:
+                    evolve.multiply(self._height, self._potential, self._source)
+                for name in names:
+                    self._transform_derivative(self._height if source == "height" else self._source, FIELDS[name], outputs[name])
+
+    def _transform_derivative(self, spectrum: Complex, field: Field, out: Real) -> None:
+        """Transform one derivative of a spectrum."""
+        along_x, along_y = self.grid.kx**field.dx, self.grid.ky**field.dy
+        evolve.differentiate(spectrum, along_x, along_y, 1j**field.quarter_turns, self._transform.spectrum)
+        self._transform(out)
+
+    def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
+        """The arrays to write to: new ones, or those of an earlier frame."""
+        shapes = {name: (*self.grid.shape, 3) if name == "normal" else self.grid.shape for name in fields}
+        if out is None:
+            return {name: np.empty(shape, self.dtype) if name == "normal" else self._transform.empty() for name, shape in shapes.items()}
+        arrays = {}
+        for name, shape in shapes.items():
+            array = out[name]
+            if array.shape != shape or array.dtype != self.dtype or not array.flags.c_contiguous or not array.flags.writeable:
+                raise ParameterError(f"out.{name} must be a writeable, C-contiguous {self.dtype} array of shape {shape}, got {array.dtype} {array.shape}")
+            arrays[name] = array
+        return arrays
+
+    def _locked(self) -> threading.Lock:
+        """The lock on plans and buffers; a forked child gets a fresh one, as the parent's may be held by a thread that it does not have."""
+        if self._pid != os.getpid():
+            self._lock, self._pid = threading.Lock(), os.getpid()
+        return self._lock
+
+    def __repr__(self) -> str:
+        g = self.grid
+        return f"Ocean({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m, depth={self.depth:g}, loop={self.loop}, dtype={self.dtype!r})"
+
+
+def memory_needed(grid: Grid, dtype: str) -> float:
+    """Bytes that an ocean and one frame of its eight fields take, with what it takes to seed it."""
+    half = grid.half_shape[0] * grid.half_shape[1]
+    full = grid.nx * grid.ny
+    seeding = 30.0 * 8 * half
+    working = (2 * 16 + 8 * 8) * half + 3.5 * COMPLEX_OF[dtype].itemsize * half
+    return max(seeding, working + 8.0 * full * np.dtype(dtype).itemsize)
+
+
+def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float | None]:
+    """Check what the two ways to make an ocean have in common, before anything is allocated."""
+    grid = Grid.of(n, size)
+    name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
+    if name not in COMPLEX_OF:
+        raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
+    require_memory(f"an ocean of n = {grid.nx} x {grid.ny}", memory_needed(grid, name))
+    return grid, name, None if loop is None else LOOP.check("loop", loop)
+
+
+def _turns_per_second(amplitudes: Amplitudes) -> tuple[Real, Real]:
+    """
+    Split each wave's frequency into 26 leading bits and the rest; on a loop, whole turns and 0.
+
+    The rest is taken in extended precision where the machine has it, so that the phase of a wave is good to 1e-15 turns
+    even after 1e9 s.
+    """
+    if amplitudes.cycles is not None:
+        return amplitudes.cycles.astype(np.float64), np.zeros(amplitudes.omega.shape)
+    frequency = amplitudes.omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
+    rough = frequency.astype(np.float64)
+    scale = rough * 134217729.0
+    coarse = scale - (scale - rough)
+    return coarse, (frequency - coarse).astype(np.float64)
