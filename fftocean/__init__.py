@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fftocean import gerstner as gerstner
+    from fftocean.bake.baker import bake as bake
+    from fftocean.bake.job import Job as Job
     from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import IntegrityError as IntegrityError
     from fftocean.errors import JobError as JobError
@@ -34,21 +36,33 @@ if TYPE_CHECKING:
     from fftocean.products import jacobian as jacobian
     from fftocean.products import minimum_eigenvalue as minimum_eigenvalue
     from fftocean.products import normals as normals
+    from fftocean.proof import Check as Check
+    from fftocean.proof import verify as verify
+    from fftocean.statistics import Statistics as Statistics
+    from fftocean.statistics import measure as measure
 
 __version__ = "0.1.0"
 
 _ROOMS = {
+    "fftocean.bake.job": ("Job",),
     "fftocean.errors": ("FFTOceanError", "IntegrityError", "JobError", "OutputError", "ParameterError", "SeaWarning"),
     "fftocean.ocean": ("Frame", "Ocean"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
     "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
     "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner"),
     "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
+    "fftocean.proof": ("Check", "verify"),
+    "fftocean.statistics": ("Statistics", "measure"),
 }
-_MODULES = {"dispersion": "fftocean.physics.dispersion", "moments": "fftocean.physics.moments", "gerstner": "fftocean.gerstner"}
+_MODULES = {
+    "bake": "fftocean.bake",
+    "dispersion": "fftocean.physics.dispersion",
+    "moments": "fftocean.physics.moments",
+    "gerstner": "fftocean.gerstner",
+}
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
-__all__ = sorted([*_HOME, *_MODULES])  # noqa: PLE0605
+__all__ = sorted([*_HOME, *_MODULES])
 
 
 def __getattr__(name: str) -> Any:

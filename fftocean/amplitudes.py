@@ -43,6 +43,7 @@ class Amplitudes:
     backward: Complex  # the same
     variance_forward: Real  # E_k, the expected a^2/2 of the wave at +k [m^2]
     variance_backward: Real  # of the wave at -k [m^2]
+    draw: Literal["gaussian", "fixed", "given"]
     omega: Real = field(init=False)  # as the dispersion relation has it, before any loop [rad/s]
     cycles: Integer | None = field(init=False)  # whole turns in a loop
 
@@ -116,7 +117,7 @@ def seed_amplitudes(sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None =
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
     forward[rows, columns], backward[rows, columns] = h0, np.conj(h0_opposite)
     variance_forward[rows, columns], variance_backward[rows, columns] = ahead, astern
-    return Amplitudes(grid, sea.depth, sea.surface_tension, loop, forward, backward, variance_forward, variance_backward)
+    return Amplitudes(grid, sea.depth, sea.surface_tension, loop, forward, backward, variance_forward, variance_backward, draw)
 
 
 def place_modes(
@@ -139,14 +140,17 @@ def place_modes(
         except (TypeError, ValueError) as error:
             raise ParameterError(f"a wave must be (mx, my, amplitude, phase), got {wave!r}") from error
         if not (mx == int(mx) and my == int(my) and (mx or my) and abs(mx) <= reach_x and abs(my) <= reach_y):
-            raise ParameterError(f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, not both 0, got ({mx}, {my})")
+            raise ParameterError(
+                f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, not both 0, got ({mx}, {my})"
+            )
         mx, my = int(mx), int(my)
         h0 = 0.5 * LENGTH.check("amplitude", amplitude) * np.exp(-1j * ANGLE.check("phase", phase))
         if mx >= 0:
             forward[my, mx] += h0
         if mx <= 0:
             backward[-my, -mx] += np.conj(h0)
-    return Amplitudes(grid, depth, surface_tension, loop, forward, backward, 2.0 * np.abs(forward) ** 2, 2.0 * np.abs(backward) ** 2)
+    energy, energy_opposite = 2.0 * np.abs(forward) ** 2, 2.0 * np.abs(backward) ** 2
+    return Amplitudes(grid, depth, surface_tension, loop, forward, backward, energy, energy_opposite, "given")
 
 
 def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:

@@ -21,7 +21,7 @@ Integer = npt.NDArray[np.int64]
 RealLike = npt.ArrayLike
 """What `np.asarray(..., float)` takes: a number, a list, an array."""
 
-COMPLEX_OF = {"float32": np.dtype(np.complex64), "float64": np.dtype(np.complex128)}
+COMPLEX_OF: dict[str, np.dtype[Any]] = {"float32": np.dtype(np.complex64), "float64": np.dtype(np.complex128)}
 """The complex type whose parts have the named real type."""
 
 
@@ -53,4 +53,5 @@ def require_memory(what: str, needed: float) -> None:
     """
     available = available_memory()
     if needed > available:
-        raise ParameterError(f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {max(available, 0.0) / 2**30:.1f} GiB are free")
+        free = max(available, 0.0) / 2**30
+        raise ParameterError(f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free")

@@ -37,7 +37,7 @@ class Quantity:
             ParameterError: `value` is not a real number (bool and str are not), is NaN, or is out of range.
         """
         if isinstance(value, bool) or not isinstance(value, numbers.Real) or type(value).__name__ == "bool":
-            raise ParameterError(f"{name} must be a number {self.rule}, got {value!r} ({type(value).__name__})")
+            raise ParameterError(f"{name} must be a number {self.rule}, got {value!r:.60} ({type(value).__name__})")
         try:
             number = float(value)
         except OverflowError:
@@ -59,7 +59,7 @@ class Count(Quantity):
             ParameterError: `value` is not a whole number in range.
         """
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-            raise ParameterError(f"{name} must be a whole number {self.rule}, got {value!r} ({type(value).__name__})")
+            raise ParameterError(f"{name} must be a whole number {self.rule}, got {value!r:.60} ({type(value).__name__})")
         if not self.low <= int(value) <= self.high:
             raise ParameterError(f"{name} must be a whole number {self.rule}, got {int(value)}")
         return int(value)
@@ -71,6 +71,8 @@ DEPTH = Quantity("m", 1e-6, math.inf)
 SIGNIFICANT_WAVE_HEIGHT = Quantity("m", 0.0, 100.0)
 PERIOD = Quantity("s", 1e-2, 1e3)
 PEAK = Quantity("rad/s", 1e-6, 1e6)
+FREQUENCY = Quantity("Hz", 1e-6, 1e5)
+DENSITY = Quantity("m^2/Hz", 0.0, 1e12)
 PHILLIPS_CONSTANT = Quantity("", 0.0, 1.0)
 PEAK_ENHANCEMENT = Quantity("", 1.0, 20.0)
 SPREADING_EXPONENT = Quantity("", 0.0, 1e6)

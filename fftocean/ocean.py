@@ -170,7 +170,7 @@ class Ocean:
         grid, dtype, loop = _checked(n, size, dtype, loop)
         if loop is not None and loop < 4.0 * (tp := sea.tp):
             warnings.warn(
-                f"a loop of {loop:g} s is less than four peak periods ({4.0 * tp:.1f} s): the long waves are visibly sped up or slowed down",
+                f"a loop of {loop:g} s is less than four peak periods ({4.0 * tp:.1f} s): its long waves run visibly too fast or too slow",
                 SeaWarning,
                 stacklevel=2,
             )
@@ -300,9 +300,11 @@ class Ocean:
             linear = {name: arrays[name] if name in arrays else self._transform.empty() for name in needed}
             self._linear(linear)
         if "normal" in arrays:
-            surface.normals(*(linear[f] for f in POINTWISE["normal"]), self.choppiness, arrays["normal"])
+            sx, sy, xx, xy, yy = (linear[f] for f in POINTWISE["normal"])
+            surface.normals(sx, sy, xx, xy, yy, self.choppiness, arrays["normal"])
         if "jacobian" in arrays:
-            surface.jacobian(*(linear[f] for f in POINTWISE["jacobian"]), self.choppiness, arrays["jacobian"])
+            xx, xy, yy = (linear[f] for f in POINTWISE["jacobian"])
+            surface.jacobian(xx, xy, yy, self.choppiness, arrays["jacobian"])
         return Frame(t, self.grid, self.choppiness, arrays)
 
     def _linear(self, outputs: Mapping[str, Real]) -> None:
@@ -338,7 +340,9 @@ class Ocean:
         for name, shape in shapes.items():
             array = out[name]
             if array.shape != shape or array.dtype != self.dtype or not array.flags.c_contiguous or not array.flags.writeable:
-                raise ParameterError(f"out.{name} must be a writeable, C-contiguous {self.dtype} array of shape {shape}, got {array.dtype} {array.shape}")
+                raise ParameterError(
+                    f"out.{name} must be a writeable, C-contiguous {self.dtype} array of shape {shape}, got {array.dtype} {array.shape}"
+                )
             arrays[name] = array
         return arrays
 
@@ -359,7 +363,7 @@ def memory_needed(grid: Grid, dtype: str) -> float:
     full = grid.nx * grid.ny
     seeding = 30.0 * 8 * half
     working = (2 * 16 + 8 * 8) * half + 3.5 * COMPLEX_OF[dtype].itemsize * half
-    return max(seeding, working + 8.0 * full * np.dtype(dtype).itemsize)
+    return float(max(seeding, working + 8.0 * full * np.dtype(dtype).itemsize))
 
 
 def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float | None]:

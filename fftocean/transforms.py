@@ -52,9 +52,9 @@ def inverse_transform(shape: tuple[int, int], dtype: str, *, backend: str = "aut
     if backend == "auto":
         backend = "pyfftw" if _pyfftw() else "scipy"
     if backend == "pyfftw":
-        if _pyfftw() is None:
+        if (pyfftw := _pyfftw()) is None:
             raise ParameterError("backend 'pyfftw' must be installed (pip install pyfftw), and is not; 'scipy' always is")
-        return _FFTW(shape, dtype, planning)
+        return _FFTW(pyfftw, shape, dtype, planning)
     if backend == "scipy":
         return _SciPy(shape, dtype)
     raise ParameterError(f"backend must be 'auto', 'pyfftw' or 'scipy', got {backend!r}")
@@ -81,14 +81,19 @@ class _FFTW:
 
     backend = "pyfftw"
 
-    def __init__(self, shape: tuple[int, int], dtype: str, planning: str) -> None:
-        self._pyfftw: Any = _pyfftw()
+    def __init__(self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str) -> None:
+        self._pyfftw: Any = pyfftw
         self._shape, self._dtype = shape, dtype
         self.spectrum: Complex = self._pyfftw.zeros_aligned((shape[0], shape[1] // 2 + 1), dtype=COMPLEX_OF[dtype])
         self._home = self.empty()
         with _planner:
             self._plan: Any = self._pyfftw.FFTW(
-                self.spectrum, self._home, axes=(0, 1), direction="FFTW_BACKWARD", flags=(PLANNING[planning], "FFTW_DESTROY_INPUT"), threads=1
+                self.spectrum,
+                self._home,
+                axes=(0, 1),
+                direction="FFTW_BACKWARD",
+                flags=(PLANNING[planning], "FFTW_DESTROY_INPUT"),
+                threads=1,
             )
         self.spectrum[:] = 0.0  # measuring scribbles over it
 

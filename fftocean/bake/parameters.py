@@ -1,0 +1,98 @@
+"""
+Every key of a job, once: its name, what it may be, its default and its help.
+
+The same rows feed the TOML reader, the command line's flags, the manifest's units and the documentation.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from fftocean import limits
+from fftocean.errors import JobError, ParameterError
+from fftocean.limits import Count, Quantity
+
+MAPS = ("height", "displacement", "normal", "jacobian")
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One key of a job file."""
+
+    key: str
+    default: Any
+    help: str
+    quantity: Quantity | None = None  # for numbers
+    choices: tuple[str, ...] = ()  # for words
+    many: bool = False  # a list of choices
+    pair: bool = False  # one number or two, (x, y)
+    flag: str | None = None  # the command line's short way to it
+
+    @property
+    def unit(self) -> str:
+        """The SI unit, "" for pure numbers and words."""
+        return self.quantity.unit if self.quantity else ""
+
+    @property
+    def rule(self) -> str:
+        """What the value may be, in words."""
+        if self.quantity is None:
+            return f"{'some' if self.many else 'one'} of {', '.join(self.choices)}"
+        whole = "a whole number " if isinstance(self.quantity, Count) else ""
+        return whole + self.quantity.rule + (", or two such, [x, y]" if self.pair else "")
+
+    def check(self, value: Any) -> Any:
+        """
+        Return the value in the type it will be used in.
+
+        Raises:
+            JobError: it breaks the rule; the message names key, rule and value.
+        """
+        try:
+            if self.pair and isinstance(value, (list, tuple)):
+                if len(value) != 2:
+                    raise ParameterError(f"{self.key} must be one value or two, [x, y], got {value!r:.80}")
+                return tuple(self._check_one(v) for v in value)
+            if self.many:
+                if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
+                    raise ParameterError(f"{self.key} must be a list of {self.rule}, got {value!r:.80}")
+                return tuple(dict.fromkeys(self._check_one(v) for v in value))
+            return self._check_one(value)
+        except ParameterError as error:
+            raise JobError(str(error)) from None
+
+    def _check_one(self, value: Any) -> Any:
+        if isinstance(self.quantity, Count):
+            return self.quantity.check_whole(self.key, value)
+        if self.quantity is not None:
+            return self.quantity.check(self.key, value)
+        if value not in self.choices:
+            raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
+        return value
+
+
+WIND = (
+    Parameter("sea.wind.speed", 7.0, "wind 10 m above the water; 0 is a flat sea", limits.WIND_SPEED),
+    Parameter("sea.wind.fetch", 35e3, "distance over which it blows", limits.FETCH),
+    Parameter("sea.wind.direction", 0.0, "toward which it blows, counter-clockwise from +x (east)", limits.DIRECTION),
+    Parameter("sea.wind.gamma", 3.3, "JONSWAP peak enhancement while the sea grows", limits.PEAK_ENHANCEMENT),
+    Parameter("sea.wind.blend", 0.5, "spreading: 0 is Donelan-Banner, 1 is cos^2", limits.FRACTION),
+)
+WATER = (
+    Parameter("sea.depth", math.inf, "still-water depth; inf is deep water", limits.DEPTH),
+    Parameter("sea.surface_tension", 0.0, "of the water; 0.074 brings capillary ripples", limits.SURFACE_TENSION),
+)
+TILE = (
+    Parameter("ocean.n", 256, "samples a side", limits.SAMPLES, pair=True, flag="n"),
+    Parameter("ocean.size", 100.0, "width of the tile", limits.SIZE, pair=True, flag="size"),
+    Parameter("ocean.seed", 1, "which of all the seas that it could be", limits.SEED, flag="seed"),
+    Parameter("ocean.loop", 16.0, "period after which the water repeats", limits.LOOP, flag="loop"),
+    Parameter("ocean.choppiness", 1.0, "factor on horizontal displacement; 1 is wave theory", limits.CHOPPINESS, flag="choppiness"),
+    Parameter("ocean.amplitudes", "gaussian", "as in nature, or fixed for random phases alone", choices=("gaussian", "fixed")),
+)
+OUTPUT = (
+    Parameter("bake.frames", 240, "frames in the loop", limits.FRAMES, flag="frames"),
+    Parameter("bake.maps", MAPS[:3], "what to write", choices=MAPS, many=True, flag="maps"),
+)
+PARAMETERS = (*WIND, *WATER, *TILE, *OUTPUT)
+BY_KEY = {p.key: p for p in PARAMETERS}

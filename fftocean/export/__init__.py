@@ -1,0 +1,1 @@
+"""Arrays to files. Scaling and conversion happen here and nowhere else."""

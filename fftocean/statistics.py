@@ -1,0 +1,230 @@
+"""What was ordered, and what was delivered: measured on the water that comes out, not on the recipe."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fftocean.amplitudes import Amplitudes
+from fftocean.arrays import Real
+from fftocean.grid import Grid
+from fftocean.ocean import Ocean
+from fftocean.physics import dispersion, moments
+from fftocean.physics.sea import Sea, WaveSystem
+
+
+@dataclass(frozen=True, slots=True)
+class SeaState:
+    """A sea in five numbers."""
+
+    m0: float  # variance of the height [m^2]
+    hs: float  # significant wave height, 4 sqrt(m0) [m]
+    tp: float  # peak period [s]; 0 for a flat sea
+    mean_direction: float  # toward which the energy goes, counter-clockwise from +x, in (-180, 180] [degrees]
+    spread: float  # circular standard deviation of the directions [degrees]
+
+
+@dataclass(frozen=True, slots=True)
+class LoopError:
+    """How far a loop bends the frequencies of the waves: relative errors, weighted with energy."""
+
+    period: float  # [s]
+    rms: float  # [-]
+    bias: float  # [-]; positive: the waves run too fast
+    better_period: float  # within a tenth of `period`, the one with the least rms [s]
+    better_rms: float  # [-]
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """
+    What a tile delivers, beside what was ordered.
+
+    m0, hs, mean_direction and spread are those of the waves in this one draw. One snapshot of the same waves scatters further,
+    as waves that cross beat: see `snapshot_error`.
+    """
+
+    m0: float  # variance, averaged over time [m^2]
+    hs: float  # [m]
+    tp: float  # [s]
+    mean_direction: float  # [degrees]
+    spread: float  # [degrees]
+    ordered: SeaState | None  # of the sea itself; None for an ocean of given waves
+    resolved: float  # m0 of the part that the tile can hold, averaged over seeds [m^2]
+    energy_below: float  # m0 of waves longer than the tile, which it cannot hold [m^2]
+    energy_above: float  # m0 of waves shorter than two samples [m^2]
+    sampling_error: float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
+    snapshot_error: float  # relative standard deviation of the variance of one frame [-]
+    loop: LoopError | None
+
+
+def measure(ocean: Ocean) -> Statistics:
+    """
+    Measure what an ocean delivers.
+
+    Height and vertical velocity of the frame at t = 0 go through a forward FFT, which tells the waves along +k from those along
+    -k (f, b = (H +- i H'/omega)/2); their energies give m0, the mean direction and spread, and the spectrum whose peak is Tp.
+
+    Args:
+        ocean: any ocean.
+
+    Returns:
+        `Statistics`.
+
+    Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as Young 1995.
+    """
+    ahead, astern, omega, theta = _measured_waves(ocean)
+    energy = np.concatenate([ahead, astern])
+    m0 = float(np.sum(energy))
+    direction, spread = moments.mean_direction_and_spread(energy, np.concatenate([theta, theta + np.pi]))
+    amplitudes, sea = ocean.amplitudes, ocean.sea
+    below, above = (0.0, 0.0) if sea is None else outside_band(sea, ocean.grid)
+    sampling, snapshot = _scatter(amplitudes)
+    return Statistics(
+        m0=m0,
+        hs=4.0 * math.sqrt(m0),
+        tp=_peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega])),
+        mean_direction=direction,
+        spread=spread,
+        ordered=None if sea is None else ordered(sea),
+        resolved=amplitudes.variance,
+        energy_below=below,
+        energy_above=above,
+        sampling_error=sampling,
+        snapshot_error=snapshot,
+        loop=None if ocean.loop is None else loop_error(amplitudes, ocean.loop),
+    )
+
+
+def ordered(sea: Sea) -> SeaState:
+    """Return what a sea is by its own integrals over frequency and direction."""
+    variance, _, theta = _polar(sea)
+    direction, spread = moments.mean_direction_and_spread(variance, theta)
+    m0 = sea.variance
+    return SeaState(m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread)
+
+
+def outside_band(sea: Sea, grid: Grid) -> tuple[float, float]:
+    """
+    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest.
+
+    The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every direction the sea's energy is
+    summed along omega up to the edges of the two rectangles: another way round than the sum over cells, which it checks.
+    """
+    reach_x, reach_y = grid.reach
+    below = inside = 0.0
+    for system in sea.systems:
+        theta = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)
+        nearest = dispersion.angular_frequency(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), sea.depth, sea.surface_tension)
+        farthest = dispersion.angular_frequency(
+            _edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), sea.depth, sea.surface_tension
+        )
+        omega = _frequencies(system, float(np.max(farthest)))
+        density = system.density(omega[:, None], theta[None, :])
+        steps = 0.5 * (density[1:] + density[:-1]) * np.diff(omega)[:, None]
+        running = np.concatenate([np.zeros((1, theta.size)), np.cumsum(steps, axis=0)])
+        weight = 2.0 * np.pi / _DIRECTIONS
+        below += weight * sum(float(np.interp(nearest[i], omega, running[:, i])) for i in range(theta.size))
+        inside += weight * sum(float(np.interp(farthest[i], omega, running[:, i])) for i in range(theta.size))
+    return below, max(sea.variance - inside, 0.0)
+
+
+_DIRECTIONS = 720
+
+
+def _edge(theta: Real, half_x: float, half_y: float) -> Real:
+    """Distance from the centre of a rectangle to its edge in direction theta."""
+    with np.errstate(divide="ignore"):
+        return np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
+
+
+def _frequencies(system: WaveSystem, highest: float) -> Real:
+    """Frequencies on which to integrate a system [rad/s], up to `highest` at least."""
+    breaks = getattr(system.spectrum, "breaks", ())
+    omega = moments.spectral_grid([system.spectrum.peak], breaks, 1000)
+    if highest > omega[-1]:
+        omega = np.concatenate([omega, np.geomspace(omega[-1], highest, 400)[1:]])
+    return omega
+
+
+def _polar(sea: Sea) -> tuple[Real, Real, Real]:
+    """The sea's variance in cells of frequency and direction, with their omega and theta; three arrays of one shape."""
+    theta = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)
+    parts = []
+    for system in sea.systems:
+        omega = _frequencies(system, 0.0)
+        parts.append((system.density(omega[:, None], theta[None, :]) * np.gradient(omega)[:, None], omega))
+    if not parts:
+        return np.zeros(0), np.zeros(0), np.zeros(0)
+    variance = np.concatenate([p for p, _ in parts])
+    omega = np.concatenate([o for _, o in parts])
+    return variance, np.broadcast_to(omega[:, None], variance.shape), np.broadcast_to(theta[None, :], variance.shape)
+
+
+def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
+    """Energies a^2/2 of the waves along +k and along -k, their omega and the direction of +k, each wave once."""
+    grid = ocean.grid
+    frame = ocean.frame(0.0, fields=("height", "velocity_z"))
+    height, rate = (np.fft.rfft2(f.astype(np.float64)) / f.size for f in (frame.height, frame.velocity_z))
+    once = grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0))
+    omega = ocean.amplitudes.running_omega[once]
+    ahead = 2.0 * np.abs(0.5 * (height[once] + 1j * rate[once] / omega)) ** 2
+    astern = 2.0 * np.abs(0.5 * (height[once] - 1j * rate[once] / omega)) ** 2
+    kx, ky = np.broadcast_arrays(grid.kx[None, :], grid.ky[:, None])
+    return ahead, astern, omega, np.arctan2(ky[once], kx[once])
+
+
+def _peak_period(energy: Real, omega: Real) -> float:
+    """Tp = 2 pi int S^4 d omega / int omega S^4 d omega, S from bins 6 % wide  (Young 1995)."""
+    if not np.any(energy > 0.0):
+        return 0.0
+    some = energy > 0.0
+    edges = np.exp(np.arange(math.log(np.min(omega[some])) - 0.03, math.log(np.max(omega[some])) + 0.09, 0.06))
+    total, _ = np.histogram(omega, bins=edges, weights=energy)
+    first, _ = np.histogram(omega, bins=edges, weights=energy * omega)
+    width = np.diff(edges)
+    full = total > 0.0
+    weight = (total[full] / np.max(total / width) / width[full]) ** 4 * width[full]
+    return 2.0 * math.pi * float(np.sum(weight) / np.sum(weight * first[full] / total[full]))
+
+
+def _scatter(amplitudes: Amplitudes) -> tuple[float, float]:
+    """
+    Relative standard deviations of m0 from draw to draw, and of one frame's variance.
+
+    Gaussian amplitudes make a^2 exponential: var(sum a^2/2) = sum E^2. In one frame the waves at +k and -k share one Fourier
+    coefficient, whose energy is exponential with mean E_k + E_-k; waves of fixed modulus beat there with variance 2 E_k E_-k.
+    """
+    grid = amplitudes.grid
+    once = grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0))
+    ahead, astern = amplitudes.variance_forward[once], amplitudes.variance_backward[once]
+    total = float(np.sum(ahead) + np.sum(astern))
+    if not total > 0.0:
+        return 0.0, 0.0
+    if amplitudes.draw != "gaussian":
+        return 0.0, math.sqrt(2.0 * float(np.sum(ahead * astern))) / total
+    return math.sqrt(float(np.sum(ahead**2) + np.sum(astern**2))) / total, math.sqrt(float(np.sum((ahead + astern) ** 2))) / total
+
+
+def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
+    """Return what a loop of `period` [s] does to the frequencies, and the best period within a tenth of it."""
+    once = amplitudes.grid.active
+    energy = (amplitudes.variance_forward + amplitudes.variance_backward)[once]
+    omega = amplitudes.omega[once]
+    if not np.any(energy > 0.0):
+        return LoopError(period, 0.0, 0.0, period, 0.0)
+    strongest = np.argsort(energy)[-4096:]
+
+    def errors(candidate: float, omega: Real, energy: Real) -> tuple[float, float]:
+        relative = dispersion.loop_cycles(omega, candidate) * (2.0 * np.pi / candidate) / omega - 1.0
+        weight = energy / np.sum(energy)
+        return math.sqrt(float(np.sum(weight * relative**2))), float(np.sum(weight * relative))
+
+    candidates = [round(period * (0.9 + 0.001 * i), 2) for i in range(201)]
+    tried = {c: errors(c, omega[strongest], energy[strongest])[0] for c in candidates if c > 0.0}
+    better = min(tried, key=lambda c: (tried[c], abs(c - period))) if tried else period
+    rms, bias = errors(period, omega, energy)
+    better_rms = errors(better, omega, energy)[0]
+    if not better_rms < rms:
+        better, better_rms = period, rms
+    return LoopError(period=period, rms=rms, bias=bias, better_period=better, better_rms=better_rms)
