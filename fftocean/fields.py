@@ -72,5 +72,4 @@ def multiplier(field: Field, kx: Real, ky: Real, depth: float) -> Complex:
         depth: still-water depth [m].
     """
     factor = potential_factor(np.hypot(kx, ky), depth) if field.of == "potential" else 1.0
-    result: Complex = (1j * kx) ** field.dx * (1j * ky) ** field.dy * factor
-    return result
+    return np.asarray((1j * kx) ** field.dx * (1j * ky) ** field.dy * factor, dtype=np.complex128)

@@ -82,7 +82,7 @@ class Grid:
     @property
     def my(self) -> Integer:
         """Integer wavenumbers of its rows, (ny,): 0, 1, ..., -2, -1."""
-        return np.rint(np.fft.fftfreq(self.ny) * self.ny).astype(np.int64)
+        return np.fft.ifftshift(np.arange(self.ny, dtype=np.int64) - self.ny // 2)
 
     @property
     def kx(self) -> Real:

@@ -380,7 +380,7 @@ def _turns_per_second(amplitudes: Amplitudes) -> tuple[Real, Real]:
     """
     Split each wave's frequency into 26 leading bits and the rest; on a loop, whole turns and 0.
 
-    The rest is taken in extended precision where the machine has it, so that the phase of a wave is good to 1e-15 turns
+    The rest is taken in extended precision where the machine has it, so that the phase of a wave is good to 1e-11 turns
     even after 1e9 s.
     """
     if amplitudes.cycles is not None:

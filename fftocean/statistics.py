@@ -98,7 +98,7 @@ def measure(ocean: Ocean) -> Statistics:
 
 def ordered(sea: Sea) -> SeaState:
     """Return what a sea is by its own integrals over frequency and direction."""
-    variance, _, theta = _polar(sea)
+    variance, theta = _polar(sea)
     direction, spread = moments.mean_direction_and_spread(variance, theta)
     m0 = sea.variance
     return SeaState(m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread)
@@ -114,13 +114,13 @@ def outside_band(sea: Sea, grid: Grid) -> tuple[float, float]:
     reach_x, reach_y = grid.reach
     below = inside = 0.0
     for system in sea.systems:
-        theta = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)
+        theta = _directions(system)
         nearest = dispersion.angular_frequency(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), sea.depth, sea.surface_tension)
         farthest = dispersion.angular_frequency(
             _edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), sea.depth, sea.surface_tension
         )
         omega = _frequencies(system, float(np.max(farthest)))
-        density = system.density(omega[:, None], theta[None, :])
+        density = _shared_out(system, omega, theta)
         steps = 0.5 * (density[1:] + density[:-1]) * np.diff(omega)[:, None]
         running = np.concatenate([np.zeros((1, theta.size)), np.cumsum(steps, axis=0)])
         weight = 2.0 * np.pi / _DIRECTIONS
@@ -147,18 +147,27 @@ def _frequencies(system: WaveSystem, highest: float) -> Real:
     return omega
 
 
-def _polar(sea: Sea) -> tuple[Real, Real, Real]:
-    """The sea's variance in cells of frequency and direction, with their omega and theta; three arrays of one shape."""
-    theta = (np.arange(_DIRECTIONS) + 0.5) * (2.0 * np.pi / _DIRECTIONS)
-    parts = []
+def _directions(system: WaveSystem) -> Real:
+    """Directions all round [rad], one of them the system's own, so that even the narrowest swell is hit."""
+    return math.radians(system.direction % 360.0) + np.arange(_DIRECTIONS) * (2.0 * np.pi / _DIRECTIONS)
+
+
+def _shared_out(system: WaveSystem, omega: Real, theta: Real) -> Real:
+    """S(omega) D(omega, theta) on a grid, (omega, theta), D summing to 1 on these directions too: narrower ones would alias."""
+    density = system.density(omega[:, None], theta[None, :])
+    along = np.sum(density, axis=1, keepdims=True) * (2.0 * np.pi / _DIRECTIONS)
+    return density * np.divide(system.spectrum(omega)[:, None], along, out=np.zeros_like(along), where=along > 0.0)
+
+
+def _polar(sea: Sea) -> tuple[Real, Real]:
+    """The sea's variance by direction, with the directions; two arrays of one shape."""
+    variance, theta = [np.zeros(0)], [np.zeros(0)]
     for system in sea.systems:
-        omega = _frequencies(system, 0.0)
-        parts.append((system.density(omega[:, None], theta[None, :]) * np.gradient(omega)[:, None], omega))
-    if not parts:
-        return np.zeros(0), np.zeros(0), np.zeros(0)
-    variance = np.concatenate([p for p, _ in parts])
-    omega = np.concatenate([o for _, o in parts])
-    return variance, np.broadcast_to(omega[:, None], variance.shape), np.broadcast_to(theta[None, :], variance.shape)
+        omega, around = _frequencies(system, 0.0), _directions(system)
+        cells = _shared_out(system, omega, around) * np.gradient(omega)[:, None]
+        variance.append(np.sum(cells, axis=0))
+        theta.append(around)
+    return np.concatenate(variance), np.concatenate(theta)
 
 
 def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
@@ -208,9 +217,9 @@ def _scatter(amplitudes: Amplitudes) -> tuple[float, float]:
 
 def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
     """Return what a loop of `period` [s] does to the frequencies, and the best period within a tenth of it."""
-    once = amplitudes.grid.active
-    energy = (amplitudes.variance_forward + amplitudes.variance_backward)[once]
-    omega = amplitudes.omega[once]
+    half = amplitudes.variance_forward.copy()
+    half[:, 1:] += amplitudes.variance_backward[:, 1:]  # the column mx = 0 holds both k and -k
+    energy, omega = half[amplitudes.grid.active], amplitudes.omega[amplitudes.grid.active]
     if not np.any(energy > 0.0):
         return LoopError(period, 0.0, 0.0, period, 0.0)
     strongest = np.argsort(energy)[-4096:]

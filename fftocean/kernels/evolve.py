@@ -9,7 +9,7 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def turns_at(coarse: Real, fine: Real, t_coarse: float, t_fine: float, out: Real) -> None:
     """
-    out = frac((coarse + fine) (t_coarse + t_fine)): turns made at time t, in [-1/2, 1/2], to 1e-15 at any t.
+    out = frac((coarse + fine) (t_coarse + t_fine)): turns made at time t, in [-1/2, 1/2], at any t as exact as the frequency.
 
     `coarse` and `t_coarse` hold the leading 26 bits of frequency and time, so the two large products are exact, and whole
     turns can be dropped from them without loss.

@@ -1,0 +1,74 @@
+"""Chance is a function of (seed, mx, my), and it is the right chance."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from fftocean import noise
+
+pytestmark = pytest.mark.nojit
+
+
+@pytest.mark.parametrize(
+    ("counter", "key", "answer"),
+    [
+        ((0, 0, 0, 0), (0, 0), (0x6627E8D5, 0xE169C58D, 0xBC57AC4C, 0x9B00DBD8)),
+        ((0xFFFFFFFF,) * 4, (0xFFFFFFFF,) * 2, (0x408F276D, 0x41C83B0E, 0xA20BC7C6, 0x6D5451FD)),
+        (
+            (0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344),
+            (0xA4093822, 0x299F31D0),
+            (0xD16CFE09, 0x94FDCCEB, 0x5001E420, 0x24126EA1),
+        ),
+    ],
+)
+def test_philox_known_answers(counter, key, answer):
+    """The generator's authors publish these three for philox4x32-10 (Random123, kat_vectors)."""
+    words = noise.philox(tuple(np.array([c], dtype=np.uint64) for c in counter), key)
+    assert tuple(int(w[0]) for w in words) == answer
+
+
+@pytest.fixture(scope="module")
+def waves():
+    mx, my = np.meshgrid(np.arange(-200, 200), np.arange(-200, 200))
+    return mx.ravel(), my.ravel()
+
+
+def test_normals_are_normal(waves):
+    """Kolmogorov-Smirnov on 160,000 draws of each part: p below 1e-4 would happen once in ten thousand seeds, and the seed is fixed."""
+    xi = noise.complex_normals(7, *waves)
+    for part in (xi.real, xi.imag):
+        assert stats.kstest(part, "norm").pvalue > 1e-4
+    # |xi|^2/2 is exponential with mean 1: standard error 1/sqrt(160000) = 0.0025, four of them
+    assert np.mean(np.abs(xi) ** 2) / 2 == pytest.approx(1.0, abs=0.01)
+    assert abs(np.mean(xi.real * xi.imag)) < 0.01
+
+
+def test_neighbours_and_opposites_are_independent(waves):
+    """Correlation of xi(k) with xi(-k), xi(k + dk), and the next seed: standard error 0.0025 each, four of them."""
+    mx, my = waves
+    xi = noise.complex_normals(7, mx, my)
+    for other in (noise.complex_normals(7, -mx, -my), noise.complex_normals(7, mx + 1, my), noise.complex_normals(8, mx, my)):
+        off_origin = (mx != 0) | (my != 0)
+        assert abs(np.mean(xi[off_origin] * np.conj(other[off_origin]))) / 2 < 0.01
+        assert abs(np.mean(xi[off_origin] * other[off_origin])) / 2 < 0.01
+
+
+def test_draw_order_does_not_matter(waves):
+    mx, my = waves
+    xi = noise.complex_normals(7, mx, my)
+    order = np.random.default_rng(1).permutation(mx.size)
+    assert np.array_equal(noise.complex_normals(7, mx[order], my[order]), xi[order])
+    assert np.array_equal(noise.complex_normals(7, mx[12345:12346], my[12345:12346]), xi[12345:12346])
+
+
+def test_high_seeds_differ():
+    """All 64 bits of the seed count."""
+    one = np.array([3]), np.array([-5])
+    draws = {complex(noise.complex_normals(seed, *one)[0]) for seed in (0, 1, 2**31, 2**32, 2**63, 2**64 - 1)}
+    assert len(draws) == 6
+
+
+def test_phasors_have_unit_modulus_and_the_normals_phase(waves):
+    xi, unit = noise.complex_normals(7, *waves), noise.unit_phasors(7, *waves)
+    assert np.max(np.abs(np.abs(unit) - 1.0)) < 1e-15
+    assert np.max(np.abs(xi / np.abs(xi) - unit)) < 1e-14  # a few roundings

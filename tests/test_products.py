@@ -1,0 +1,94 @@
+"""Normals, Jacobian and squeeze of the displaced surface, in closed form on one wave and by its own tangents on many."""
+
+import math
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+
+A, M, L, C = 0.7, (2, 1), 60.0, 1.2
+
+
+@pytest.fixture(scope="module")
+def one_wave():
+    """A single wave, its phase angle at every sample, its wavenumber."""
+    ocean = fo.Ocean.from_modes([(*M, A, 0.4)], n=32, size=L, dtype="float64", choppiness=C)
+    x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
+    kx, ky = (2 * np.pi * m / L for m in M)
+    k = math.hypot(kx, ky)
+    t = 1.9
+    return ocean.frame(t), kx * x + ky * y - math.sqrt(9.80665 * k) * t - 0.4, kx, ky, k
+
+
+def test_closed_form_on_one_wave(one_wave):
+    """
+    For height a cos f: D = -a (k/|k|) sin f, so the deformation is 1 - c a |k| cos f along k and 1 across it; its product is the
+    Jacobian, its smaller value the squeeze, and the normal leans along k by -slope/(1 - c a |k| cos f).
+    """
+    frame, f, kx, ky, k = one_wave
+    along = 1.0 - C * A * k * np.cos(f)
+    assert np.max(np.abs(fo.jacobian(frame) - along)) < 1e-13
+    assert np.max(np.abs(fo.minimum_eigenvalue(frame) - np.minimum(along, 1.0))) < 1e-13
+    lean = A * k * np.sin(f)
+    length = np.sqrt(along**2 + lean**2)
+    normal = np.stack([lean * kx / k / length, lean * ky / k / length, along / length], axis=-1)
+    assert np.max(np.abs(fo.normals(frame) - normal)) < 1e-13
+
+
+def test_frame_s_own_normal_and_jacobian_are_these(one_wave):
+    frame = one_wave[0]
+    ocean = fo.Ocean.from_modes([(*M, A, 0.4)], n=32, size=L, dtype="float64", choppiness=C)
+    asked = ocean.frame(frame.t, fields=("normal", "jacobian"))
+    assert asked.fields == ("normal", "jacobian")
+    assert np.array_equal(asked.normal, fo.normals(frame))
+    assert np.array_equal(asked.jacobian, fo.jacobian(frame))
+
+
+def test_normal_is_square_to_the_displaced_surface():
+    """
+    Against differences of positions of the exact surface: neighbours h = 1e-4 m away on either side give the tangents to
+    (k h)^2/6 = 1e-8 relative; nothing here uses slopes or stretches.
+    """
+    sea = fo.Sea.from_wind(speed=9.0, fetch=50e3, depth=20.0, direction=-40.0)
+    ocean = fo.Ocean(sea, n=24, size=60.0, seed=4, dtype="float64", choppiness=0.9)
+    x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
+    h = 1e-4
+
+    def position(x, y):
+        s = fo.gerstner.surface(ocean, x, y, 2.0)
+        return np.stack([s.x, s.y, s.z], axis=-1)
+
+    cross = np.cross(position(x + h, y) - position(x - h, y), position(x, y + h) - position(x, y - h))
+    normal = fo.normals(ocean.frame(2.0))
+    assert np.max(np.abs(normal - cross / np.linalg.norm(cross, axis=-1, keepdims=True))) < 1e-7
+    assert np.max(np.abs(np.linalg.norm(normal, axis=-1) - 1.0)) < 1e-15 * 4
+    assert np.max(np.abs(fo.jacobian(ocean.frame(2.0)) - cross[..., 2] / (4 * h * h))) < 1e-6
+
+
+@pytest.mark.parametrize("choppiness", [0.0, 1.0, 1.6])
+def test_mean_of_the_jacobian_is_one(choppiness):
+    """The displaced tile has the area of the still one: a periodic map's Jacobian averages to 1 (1e-12: roundings of 64^2 samples)."""
+    sea = fo.Sea.from_wind(speed=15.0, fetch=300e3)
+    ocean = fo.Ocean(sea, n=64, size=300.0, dtype="float64", choppiness=choppiness)
+    for t in (0.0, 7.7):
+        assert abs(np.mean(fo.jacobian(ocean.frame(t))) - 1.0) < 1e-12
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+def test_crests_are_squeezed(dtype):
+    """Correlation(height, Jacobian) < 0: the sign of i in the displacement. -i, as often printed, gives it the other sign."""
+    ocean = fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n=64, size=150.0, dtype=dtype)
+    frame = ocean.frame(1.0)
+    assert np.corrcoef(frame.height.ravel(), fo.jacobian(frame).ravel())[0, 1] < -0.5
+    # and crests of the displaced surface are sharper than its troughs: sampled evenly in x0, crests get more than their share of y
+    top, bottom = frame.height > np.quantile(frame.height, 0.95), frame.height < np.quantile(frame.height, 0.05)
+    assert np.mean(fo.jacobian(frame)[top]) < 0.9 < 1.05 < np.mean(fo.jacobian(frame)[bottom])
+
+
+def test_folded_water_has_a_negative_jacobian_and_a_normal_that_points_down():
+    ocean = fo.Ocean.from_modes([(1, 0, 2.0, 0.0)], n=16, size=10.0, dtype="float64")  # a k = 1.26 > 1: folded at the crest
+    frame = ocean.frame(0.0)
+    assert fo.jacobian(frame)[0, 0] == pytest.approx(1.0 - 2.0 * 2 * np.pi / 10.0)
+    assert fo.minimum_eigenvalue(frame)[0, 0] < 0.0
+    assert np.allclose(fo.normals(frame)[0, 0], [0.0, 0.0, -1.0])

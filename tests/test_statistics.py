@@ -1,0 +1,111 @@
+"""Ordered against delivered: the measurement itself is held to what can be known another way."""
+
+import math
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean.grid import Grid
+from fftocean.statistics import loop_error, ordered, outside_band
+
+SEA = fo.Sea.from_wind(speed=12.0, fetch=150e3, depth=30.0, direction=75.0)
+
+
+def ocean(**arguments):
+    return fo.Ocean(SEA, **{"n": 64, "size": 400.0, "seed": 5, "dtype": "float64", **arguments})
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("loop", [None, 40.0])
+def test_the_output_s_energy_is_that_of_its_waves(loop, dtype):
+    """Forward FFT of height and its rate tells +k from -k: m0, direction and spread equal those of modes(), which it does not read."""
+    o = ocean(loop=loop, dtype=dtype)
+    s, m = fo.measure(o), o.modes()
+    energy, theta = m.amplitude**2 / 2, np.arctan2(m.ky, m.kx)
+    rel = 1e-6 if dtype == "float32" else 1e-12
+    assert s.m0 == pytest.approx(np.sum(energy), rel=rel)
+    assert s.hs == pytest.approx(4 * math.sqrt(np.sum(energy)), rel=rel)
+    mean = np.sum(energy * np.exp(1j * theta)) / np.sum(energy)
+    assert s.mean_direction == pytest.approx(math.degrees(np.angle(mean)), abs=1e-4 if dtype == "float32" else 1e-9)
+    assert s.spread == pytest.approx(math.degrees(math.sqrt(2 - 2 * abs(mean))), rel=1e-5)
+
+
+def test_one_wave_is_measured_as_itself():
+    o = fo.Ocean.from_modes([(3, 4, 0.5, 1.0)], n=32, size=100.0, dtype="float64", depth=9.0)
+    s = fo.measure(o)
+    assert s.hs == pytest.approx(4 * math.sqrt(0.125), rel=1e-13)
+    assert s.mean_direction == pytest.approx(math.degrees(math.atan2(4, 3)), abs=1e-10)
+    assert s.spread == pytest.approx(0.0, abs=1e-4)  # sqrt(2 - 2) of roundings
+    assert s.tp == pytest.approx(2 * math.pi / o.modes().omega[0], rel=1e-12)
+    assert s.ordered is None
+    assert (s.sampling_error, s.snapshot_error, s.energy_below, s.energy_above) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_ordered_is_what_was_ordered():
+    """Hs as from_sea_state took it, Tp to the curve's own resolution, direction as given; spread of cos^2 is 1 - 8/(3 pi) exactly."""
+    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=3.0, tp=9.0), spreading=fo.CosineSquared(), direction=-130.0))
+    state = ordered(sea)
+    assert state.hs == pytest.approx(3.0, abs=1e-9)
+    assert state.tp == pytest.approx(9.0, rel=1e-5)
+    assert state.mean_direction == pytest.approx(-130.0, abs=1e-6)
+    assert state.spread == pytest.approx(math.degrees(math.sqrt(2.0 * (1.0 - 8.0 / (3.0 * math.pi)))), rel=1e-5)
+
+
+@pytest.mark.parametrize("size", [30.0, 120.0, 2000.0])
+def test_energy_outside_the_band_in_one_direction(size):
+    """A narrow sea along x makes the band one-dimensional: the energy below dk/2 and above (n - 1)/2 dk is a band moment of S."""
+    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=7.0), spreading=fo.CosinePower(s=1e6)))
+    below, above = outside_band(sea, Grid.of(32, size))
+    low, high = (fo.dispersion.angular_frequency(2 * math.pi / size * m) for m in (0.5, 15.5))
+    spectrum, m0 = sea.systems[0].spectrum, sea.variance
+    assert below == pytest.approx(
+        fo.moments.moment(spectrum, 0, 0.0, float(low)), abs=1e-3 * m0
+    )  # trapezoids, and s = 1e6 is still 0.1 degrees wide
+    assert above == pytest.approx(fo.moments.moment(spectrum, 0, float(high)), abs=1e-3 * m0)
+
+
+@pytest.mark.parametrize("draw", ["gaussian", "fixed"])
+def test_expected_scatter_is_what_seeds_do(draw):
+    """Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good to 1/sqrt(200) = 7 %, four of them."""
+    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=6.0), spreading=fo.CosinePower(s=2.0)))
+    oceans = [fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=draw, dtype="float64") for seed in range(100)]
+    s = fo.measure(oceans[0])
+    m0 = [np.sum(o.modes().amplitude ** 2) / 2 for o in oceans]
+    variance = [np.mean(o.frame(0.0, fields=("height",)).height ** 2) for o in oceans]
+    assert np.std(m0) / s.resolved == pytest.approx(s.sampling_error, rel=0.28, abs=1e-12)
+    assert np.std(variance) / s.resolved == pytest.approx(s.snapshot_error, rel=0.28)
+    assert s.snapshot_error > 1e-3
+
+
+def test_peak_period_of_a_large_tile():
+    """Many waves round the peak: Young's estimator within 5 %, the width of its bins."""
+    s = fo.measure(ocean(n=256, size=1500.0))
+    assert s.ordered is not None
+    assert s.tp == pytest.approx(s.ordered.tp, rel=0.05)
+    assert s.mean_direction == pytest.approx(75.0, abs=3.0)
+    assert s.spread == pytest.approx(s.ordered.spread, rel=0.05)
+
+
+def test_loop_error_by_hand():
+    """Three waves: the energy-weighted rms and mean of (2 pi n / T) / omega - 1."""
+    waves = [(1, 0, 1.0, 0.0), (4, 2, 0.5, 0.0), (0, -3, 0.7, 1.0)]
+    o = fo.Ocean.from_modes(waves, n=16, size=200.0, loop=23.0)
+    free = fo.Ocean.from_modes(waves, n=16, size=200.0).modes()
+    relative = np.maximum(1, np.rint(free.omega * 23.0 / (2 * np.pi))) * 2 * np.pi / 23.0 / free.omega - 1
+    energy = free.amplitude**2
+    e = fo.measure(o).loop
+    assert e is not None
+    assert e.rms == pytest.approx(math.sqrt(np.sum(energy * relative**2) / np.sum(energy)), rel=1e-9)
+    assert e.bias == pytest.approx(np.sum(energy * relative) / np.sum(energy), rel=1e-9)
+    assert e.better_rms <= e.rms
+    assert abs(e.better_period / 23.0 - 1) <= 0.1 + 1e-9
+    better = fo.Ocean.from_modes(waves, n=16, size=200.0, loop=e.better_period)
+    assert loop_error(better.amplitudes, e.better_period).rms == pytest.approx(e.better_rms, rel=1e-6)
+
+
+def test_a_flat_sea_measures_as_nothing():
+    s = fo.measure(fo.Ocean(fo.Sea(), n=8, size=10.0, loop=5.0))
+    assert (s.m0, s.hs, s.tp, s.mean_direction, s.spread) == (0.0,) * 5
+    assert s.loop is not None
+    assert (s.loop.rms, s.sampling_error) == (0.0, 0.0)
