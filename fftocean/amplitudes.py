@@ -113,7 +113,7 @@ def seed_amplitudes(sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None =
 
     ahead, h0 = realise(mx, my)
     astern, h0_opposite = realise(-mx, -my)
-    forward, backward = np.zeros(grid.half_shape, np.complex128), np.zeros(grid.half_shape, np.complex128)
+    forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
     forward[rows, columns], backward[rows, columns] = h0, np.conj(h0_opposite)
     variance_forward[rows, columns], variance_backward[rows, columns] = ahead, astern
@@ -133,7 +133,7 @@ def place_modes(
     """
     DEPTH.check("depth", depth)
     reach_x, reach_y = grid.reach
-    forward, backward = np.zeros(grid.half_shape, np.complex128), np.zeros(grid.half_shape, np.complex128)
+    forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     for wave in waves:
         try:
             mx, my, amplitude, phase = wave

@@ -36,7 +36,7 @@ class Quantity:
         Raises:
             ParameterError: `value` is not a real number (bool and str are not), is NaN, or is out of range.
         """
-        if isinstance(value, bool) or not isinstance(value, numbers.Real) or type(value).__name__ == "bool":
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):  # numpy's bool is no Real
             raise ParameterError(f"{name} must be a number {self.rule}, got {value!r:.60} ({type(value).__name__})")
         try:
             number = float(value)
@@ -87,4 +87,5 @@ LENGTH = Quantity("m", -1e4, 1e4)
 ANGLE = Quantity("rad", -1e6, 1e6)
 SAMPLES = Count("", 1, 65536)
 SEED = Count("", 0, 2**64 - 1)
+THREADS = Count("", 1, 1024)
 FRAMES = Count("", 1, 10**6)

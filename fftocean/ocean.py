@@ -10,18 +10,14 @@ from typing import Any
 import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
-from fftocean.arrays import COMPLEX_OF, Complex, Real, require_memory
+from fftocean.arrays import COMPLEX_OF, Real, require_memory
 from fftocean.errors import FieldError, ParameterError, SeaWarning
-from fftocean.fields import EIGHT, FIELDS, Field, potential_factor
+from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.grid import Grid
-from fftocean.kernels import evolve, surface
-from fftocean.limits import CHOPPINESS, FRAMES, LOOP, TIME
+from fftocean.kernels import passes
+from fftocean.limits import CHOPPINESS, FRAMES, LOOP, THREADS, TIME
 from fftocean.physics.sea import Sea
-from fftocean.transforms import inverse_transform
-
-_GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
-POINTWISE = {"normal": _GEOMETRY, "jacobian": _GEOMETRY[2:]}
-"""The fields that are not linear, and the linear ones that they are made of."""
+from fftocean.synthesis import BLOCK, POINTWISE, Synthesis, Turn
 
 
 class Frame:
@@ -143,6 +139,7 @@ class Ocean:
         amplitudes: "gaussian" as in nature, or "fixed" for random phases alone (see `seed_amplitudes`).
         backend: "auto", "pyfftw" or "scipy".
         planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
+        threads: how many threads share the work on one frame; the bytes are the same for any number.
 
     An ocean owns plans and buffers, and locks them while it computes: threads may share one, but only one of them works at a
     time; give each its own to work in parallel.
@@ -164,6 +161,7 @@ class Ocean:
         amplitudes: Draw = "gaussian",
         backend: str = "auto",
         planning: str = "estimate",
+        threads: int = 1,
     ) -> None:
         if not isinstance(sea, Sea):
             raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
@@ -174,7 +172,7 @@ class Ocean:
                 SeaWarning,
                 stacklevel=2,
             )
-        self._set_up(sea, seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes), choppiness, dtype, backend, planning)
+        self._set_up(sea, seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes), choppiness, dtype, backend, planning, threads)
 
     @classmethod
     def from_modes(
@@ -190,6 +188,7 @@ class Ocean:
         dtype: str = "float32",
         backend: str = "auto",
         planning: str = "estimate",
+        threads: int = 1,
     ) -> "Ocean":
         """
         Make an ocean of given waves: height = sum of a cos(k.x - omega t - phase), k = 2 pi (mx/lx, my/ly).
@@ -198,7 +197,7 @@ class Ocean:
             modes: (mx, my, amplitude [m], phase [rad]) of each wave; waves on the same (mx, my) add up.
             depth: still-water depth [m].
             surface_tension: [N/m].
-            n, size, loop, choppiness, dtype, backend, planning: as in `Ocean`.
+            n, size, loop, choppiness, dtype, backend, planning, threads: as in `Ocean`.
 
         Raises:
             ParameterError: a wave that the grid cannot hold, or a value out of range.
@@ -206,21 +205,21 @@ class Ocean:
         grid, dtype, loop = _checked(n, size, dtype, loop)
         amplitudes = place_modes(modes, grid, depth=depth, surface_tension=surface_tension, loop=loop)
         ocean = cls.__new__(cls)
-        ocean._set_up(None, amplitudes, choppiness, dtype, backend, planning)
+        ocean._set_up(None, amplitudes, choppiness, dtype, backend, planning, threads)
         return ocean
 
-    def _set_up(self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, dtype: str, backend: str, planning: str) -> None:
+    def _set_up(
+        self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, dtype: str, backend: str, planning: str, threads: int
+    ) -> None:
         self.sea = sea
         self.amplitudes = amplitudes
-        self.grid = grid = amplitudes.grid
+        self.grid = amplitudes.grid
         self.choppiness = CHOPPINESS.check("choppiness", choppiness)
         self.dtype = dtype
-        self._potential = potential_factor(grid.k, amplitudes.depth)
         self._require_range()
         self._coarse, self._fine = _turns_per_second(amplitudes)
-        self._turns = np.empty(grid.half_shape)
-        self._height, self._source = (np.empty(grid.half_shape, dtype=COMPLEX_OF[dtype]) for _ in range(2))
-        self._transform = inverse_transform(grid.shape, dtype, backend=backend, planning=planning)
+        workers = THREADS.check_whole("threads", threads)
+        self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
         self._lock, self._pid = threading.Lock(), os.getpid()
 
     def _require_range(self) -> None:
@@ -228,7 +227,7 @@ class Ocean:
         a = self.amplitudes
         reach = np.abs(a.forward) + np.abs(a.backward)
         k = self.grid.k
-        most = float(np.max([np.sum(reach * (1.0 + self._potential * k) * (1.0 + k) * (1.0 + a.running_omega))], initial=0.0))
+        most = float(np.max([np.sum(reach * (1.0 + potential_factor(k, a.depth) * k) * (1.0 + k) * (1.0 + a.running_omega))], initial=0.0))
         limit = float(np.sqrt(np.finfo(self.dtype).max)) / max(self.choppiness, 1.0)  # the Jacobian multiplies two of them
         if not 2.0 * most < limit:
             raise ParameterError(f"waves must keep every field below {limit:.0e} to be computed in {self.dtype}, got {2.0 * most:.0e}")
@@ -246,7 +245,7 @@ class Ocean:
     @property
     def backend(self) -> str:
         """The FFT library in use."""
-        return self._transform.backend
+        return self._synthesis.backend
 
     def modes(self) -> Modes:
         """Return every wave: kx, ky, amplitude, phase and omega, each (m,), float64; the same sea as the frames show."""
@@ -268,10 +267,14 @@ class Ocean:
         if self.loop is None:
             scale = t * 134217729.0  # 2^27 + 1 splits a double in two halves of 26 bits  (Veltkamp 1968)
             t_coarse = scale - (scale - t)
-            turn = (self._coarse, self._fine, t_coarse, t - t_coarse)
+            t_fine = t - t_coarse
         else:
-            turn = (self._coarse, self._fine, math.fmod(t, self.loop) / self.loop, 0.0)
-        return self._render(t, fields, out, evolve.turns_at, turn)
+            t_coarse, t_fine = math.fmod(t, self.loop) / self.loop, 0.0
+
+        def turn(columns: slice, out: Real) -> None:
+            passes.turns_at(self._coarse[columns], self._fine[columns] if self.loop is None else self._fine, t_coarse, t_fine, out)
+
+        return self._render(t, fields, out, turn)
 
     def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
         """
@@ -286,56 +289,27 @@ class Ocean:
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
-        return self._render(self.loop * step / count, fields, out, evolve.turns_in_loop, (self.amplitudes.cycles, step, count))
 
-    def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Any, arguments: tuple[Any, ...]) -> Frame:
+        def turn(columns: slice, out: Real) -> None:
+            passes.turns_in_loop(self._coarse[columns], float(step), float(count), out)
+
+        return self._render(self.loop * step / count, fields, out, turn)
+
+    def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
         fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
         for name in fields:
             if name not in FIELDS and name not in POINTWISE:
                 raise ParameterError(f"a field must be one of {', '.join([*FIELDS, *POINTWISE])}, got {name!r}")
         arrays = self._outputs(fields, out)
         with self._locked():
-            turn(*arguments, self._turns)
-            needed = dict.fromkeys([*(f for f in fields if f in FIELDS), *(f for name in fields for f in POINTWISE.get(name, ()))])
-            linear = {name: arrays[name] if name in arrays else self._transform.empty() for name in needed}
-            self._linear(linear)
-        if "normal" in arrays:
-            sx, sy, xx, xy, yy = (linear[f] for f in POINTWISE["normal"])
-            surface.normals(sx, sy, xx, xy, yy, self.choppiness, arrays["normal"])
-        if "jacobian" in arrays:
-            xx, xy, yy = (linear[f] for f in POINTWISE["jacobian"])
-            surface.jacobian(xx, xy, yy, self.choppiness, arrays["jacobian"])
+            self._synthesis.run(turn, arrays, self.choppiness)
         return Frame(t, self.grid, self.choppiness, arrays)
-
-    def _linear(self, outputs: Mapping[str, Real]) -> None:
-        """Compute linear fields into their arrays, sharing what they have in common: first by d/dt, then by what they derive from."""
-        a = self.amplitudes
-        for rate in (0, 1):
-            of_rate = {name: FIELDS[name] for name in outputs if FIELDS[name].dt == rate}
-            if not of_rate:
-                continue
-            if rate == 0:
-                evolve.evolve(a.forward, a.backward, self._turns, self._height)
-            else:
-                evolve.evolve_rate(a.forward, a.backward, self._turns, a.running_omega, self._height)
-            for source in ("height", "potential"):
-                names = [name for name, field in of_rate.items() if field.of == source]
-                if source == "potential" and names:
-                    evolve.multiply(self._height, self._potential, self._source)
-                for name in names:
-                    self._transform_derivative(self._height if source == "height" else self._source, FIELDS[name], outputs[name])
-
-    def _transform_derivative(self, spectrum: Complex, field: Field, out: Real) -> None:
-        """Transform one derivative of a spectrum."""
-        along_x, along_y = self.grid.kx**field.dx, self.grid.ky**field.dy
-        evolve.differentiate(spectrum, along_x, along_y, 1j**field.quarter_turns, self._transform.spectrum)
-        self._transform(out)
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
         """The arrays to write to: new ones, or those of an earlier frame."""
         shapes = {name: (*self.grid.shape, 3) if name == "normal" else self.grid.shape for name in fields}
         if out is None:
-            return {name: np.empty(shape, self.dtype) if name == "normal" else self._transform.empty() for name, shape in shapes.items()}
+            return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
         arrays = {}
         for name, shape in shapes.items():
             array = out[name]
@@ -381,11 +355,11 @@ def _turns_per_second(amplitudes: Amplitudes) -> tuple[Real, Real]:
     Split each wave's frequency into 26 leading bits and the rest; on a loop, whole turns and 0.
 
     The rest is taken in extended precision where the machine has it, so that the phase of a wave is good to 1e-11 turns
-    even after 1e9 s.
+    even after 1e9 s. Both are transposed, (nx // 2 + 1, ny), as the first pass wants them.
     """
     if amplitudes.cycles is not None:
-        return amplitudes.cycles.astype(np.float64), np.zeros(amplitudes.omega.shape)
-    frequency = amplitudes.omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
+        return np.ascontiguousarray(amplitudes.cycles.T, dtype=np.float64), np.zeros((BLOCK, amplitudes.grid.ny))
+    frequency = np.ascontiguousarray(amplitudes.omega.T).astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
     rough = frequency.astype(np.float64)
     scale = rough * 134217729.0
     coarse = scale - (scale - rough)

@@ -1,7 +1,7 @@
 """
 The only inverse FFT: plans, buffers and backends.
 
-All compute  out[y, x] = sum over k of spectrum[ky, kx] e^{+i (kx x + ky y)}  from the half plane kx >= 0, without 1/N.
+All compute, in place and for each row of a buffer,  out[j] = sum over m of rows[m] e^{+2 pi i m j / n},  without 1/n.
 """
 
 import importlib
@@ -12,33 +12,30 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from fftocean.arrays import COMPLEX_OF, Complex, Real
+from fftocean.arrays import COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
 PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
 _planner = threading.Lock()  # FFTW's planner is shared by all plans and is not safe to enter twice
 
 
-class InverseTransform(Protocol):
-    """A plan for one shape and precision: fill `spectrum`, call, read the result. The call spoils `spectrum`."""
+class InverseRows(Protocol):
+    """A plan for one shape and precision: fill `rows`, call, read `rows`."""
 
-    spectrum: Complex  # (ny, nx // 2 + 1)
+    rows: Complex  # (count, n), C-contiguous
     backend: str
 
-    def empty(self) -> Real:
-        """A new output array in the alignment the plan likes."""
-
-    def __call__(self, out: Real) -> None:
-        """Transform `spectrum` into `out`, (ny, nx), C-contiguous."""
+    def __call__(self) -> None:
+        """Transform each row, in place."""
 
 
-def inverse_transform(shape: tuple[int, int], dtype: str, *, backend: str = "auto", planning: str = "estimate") -> InverseTransform:
+def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", planning: str = "estimate") -> InverseRows:
     """
-    Plan an inverse transform.
+    Plan inverse transforms of the rows of a buffer.
 
     Args:
-        shape: (ny, nx) of the output.
-        dtype: "float32" or "float64".
+        shape: (count, n) of the buffer.
+        dtype: "float32" or "float64", of its real and imaginary parts.
         backend: "pyfftw", "scipy", or "auto" for the first of them that is installed.
         planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and "patient" are faster and do not.
 
@@ -77,37 +74,20 @@ def _pyfftw() -> ModuleType | None:
 
 
 class _FFTW:
-    """A single-threaded FFTW plan and its buffers."""
+    """A single-threaded FFTW plan and its buffer."""
 
     backend = "pyfftw"
 
     def __init__(self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str) -> None:
-        self._pyfftw: Any = pyfftw
-        self._shape, self._dtype = shape, dtype
-        self.spectrum: Complex = self._pyfftw.zeros_aligned((shape[0], shape[1] // 2 + 1), dtype=COMPLEX_OF[dtype])
-        self._home = self.empty()
+        self.rows: Complex = pyfftw.zeros_aligned(shape, dtype=COMPLEX_OF[dtype])
         with _planner:
-            self._plan: Any = self._pyfftw.FFTW(
-                self.spectrum,
-                self._home,
-                axes=(0, 1),
-                direction="FFTW_BACKWARD",
-                flags=(PLANNING[planning], "FFTW_DESTROY_INPUT"),
-                threads=1,
+            self._plan: Any = pyfftw.FFTW(
+                self.rows, self.rows, axes=(1,), direction="FFTW_BACKWARD", flags=(PLANNING[planning],), threads=1
             )
-        self.spectrum[:] = 0.0  # measuring scribbles over it
+        self.rows[:] = 0.0  # measuring scribbles over it
 
-    def empty(self) -> Real:
-        return self._pyfftw.empty_aligned(self._shape, dtype=self._dtype)  # type: ignore[no-any-return]
-
-    def __call__(self, out: Real) -> None:
-        if self._pyfftw.is_byte_aligned(out, self._plan.output_alignment):
-            self._plan.update_arrays(self.spectrum, out)
-            self._plan.execute()
-            self._plan.update_arrays(self.spectrum, self._home)  # do not hold on to the caller's array
-        else:
-            self._plan.execute()
-            out[:] = self._home
+    def __call__(self) -> None:
+        self._plan.execute()
 
 
 class _SciPy:
@@ -116,13 +96,9 @@ class _SciPy:
     backend = "scipy"
 
     def __init__(self, shape: tuple[int, int], dtype: str) -> None:
-        self._shape, self._dtype = shape, dtype
-        self.spectrum: Complex = np.zeros((shape[0], shape[1] // 2 + 1), dtype=COMPLEX_OF[dtype])
+        self.rows: Complex = np.zeros(shape, dtype=COMPLEX_OF[dtype])
 
-    def empty(self) -> Real:
-        return np.empty(self._shape, dtype=self._dtype)
-
-    def __call__(self, out: Real) -> None:
+    def __call__(self) -> None:
         from scipy import fft
 
-        out[:] = fft.irfft2(self.spectrum, s=self._shape, norm="forward", overwrite_x=True)
+        self.rows[:] = fft.ifft(self.rows, axis=1, norm="forward", overwrite_x=True)
