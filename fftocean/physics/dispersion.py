@@ -7,24 +7,28 @@ import numpy as np
 from fftocean.arrays import Integer, Real, RealLike
 from fftocean.constants import GRAVITY, WATER_DENSITY
 from fftocean.errors import ParameterError
+from fftocean.limits import DEPTH, LOOP, SURFACE_TENSION
+
+LARGEST = 1e48
+"""No wavenumber [rad/m] or frequency [rad/s] beyond this: the sixth power of a frequency must stay within double precision."""
 
 
 def _argument(name: str, values: RealLike, unit: str) -> Real:
-    """Return `values` as a float64 array of finite numbers >= 0."""
-    array = np.asarray(values, dtype=np.float64)
-    good = (array >= 0.0) & (array < np.inf)
+    """Return `values` as a float64 array of numbers from 0 to `LARGEST`."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "iuf":  # a string of digits would convert, and so would a truth value
+        raise ParameterError(f"{name} must be numbers between 0 and {LARGEST:g} {unit}, got {values!r:.60} ({array.dtype})")
+    array = array.astype(np.float64, copy=False)
+    good = (array >= 0.0) & (array <= LARGEST)
     if not np.all(good):
-        raise ParameterError(f"{name} must be finite and at least 0 {unit}, got {array[~good].flat[0]}")
+        raise ParameterError(f"{name} must be between 0 and {LARGEST:g} {unit}, got {array[~good].flat[0]}")
     return array
 
 
 def _water(depth: float, surface_tension: float) -> float:
     """Check the water itself; return its kinematic surface tension sigma/rho [m^3/s^2]."""
-    if not depth > 0.0:
-        raise ParameterError(f"depth must be more than 0 m (inf is deep water), got {depth}")
-    if not 0.0 <= surface_tension < math.inf:
-        raise ParameterError(f"surface_tension must be finite and at least 0 N/m, got {surface_tension}")
-    return surface_tension / WATER_DENSITY
+    DEPTH.check("depth", depth)
+    return SURFACE_TENSION.check("surface_tension", surface_tension) / WATER_DENSITY
 
 
 def _times_depth(k: Real, depth: float) -> Real:
@@ -33,6 +37,20 @@ def _times_depth(k: Real, depth: float) -> Real:
         return np.where(k > 0.0, np.inf, 0.0)
     with np.errstate(over="ignore"):  # inf is as deep as it gets
         return k * depth
+
+
+def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
+    """omega(k), unchecked."""
+    omega: Real = np.sqrt((GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth)))
+    return omega
+
+
+def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
+    """(d omega/dk) / (omega/k), unchecked."""
+    s = kinematic_tension * k**2
+    x2 = 2.0 * np.minimum(_times_depth(k, depth), 350.0)  # sinh overflows past 710; x/sinh x is 0 long before
+    ratio: Real = 0.5 * ((GRAVITY + 3.0 * s) / (GRAVITY + s) + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0))
+    return ratio
 
 
 def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
@@ -48,27 +66,23 @@ def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: flo
         Same shape as `k`, [rad/s].
 
     Raises:
-        ParameterError: a negative or non-finite wavenumber or tension, a depth that is not positive.
+        ParameterError: a wavenumber, depth or tension out of its range (`LARGEST`, `limits.DEPTH`, `limits.SURFACE_TENSION`).
 
     Source: Lamb, Hydrodynamics (1932), art. 228 and 267.
     Pinned by tests/physics/test_dispersion.py: deep and shallow limits, and the round trip through `wavenumber`.
     """
     kinematic_tension = _water(depth, surface_tension)
-    k = _argument("k", k, "rad/m")
-    return np.sqrt((GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth)))
+    return _frequency(_argument("k", k, "rad/m"), depth, kinematic_tension)
 
 
 def group_to_phase_speed(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
     """
-    Return (d omega/dk) / (omega/k) [-]: 1/2 for deep gravity waves, 1 for shallow ones, 3/2 for capillaries.
+    Return (d omega/dk) / (omega/k) [-]: 1/2 for deep gravity waves, 1 for shallow ones, 3/2 for capillaries (2 in shallow water).
 
     With x = k h and s = (sigma/rho) k^2:  1/2 ((g + 3 s)/(g + s) + 2x / sinh 2x).
     """
     kinematic_tension = _water(depth, surface_tension)
-    k = _argument("k", k, "rad/m")
-    s = kinematic_tension * k**2
-    x2 = np.minimum(2.0 * _times_depth(k, depth), 700.0)  # sinh overflows past 710; x/sinh x is 0 long before
-    return 0.5 * ((GRAVITY + 3.0 * s) / (GRAVITY + s) + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0))
+    return _speed_ratio(_argument("k", k, "rad/m"), depth, kinematic_tension)
 
 
 def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
@@ -99,8 +113,8 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     """
     Return k(omega), the inverse of `angular_frequency`, to a few units in the last place.
 
-    Newton's method on ln omega(ln k): its slope is the ratio of group to phase speed, always between 1/2 and 3/2, so
-    the step never overshoots far, from the shallowest water to the shortest capillary.
+    Newton's method on ln omega(ln k): its slope is the ratio of group to phase speed, always between 1/2 (deep) and 2
+    (shallow capillaries), so the step never overshoots far, from the longest wave to the shortest.
 
     Args:
         omega: angular frequency, any shape, [rad/s], >= 0.
@@ -125,10 +139,10 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     w, k = omega[moving], deep[moving]
     k = k / np.sqrt(np.tanh(_times_depth(k, depth)))
     if kinematic_tension > 0.0:
-        k = np.minimum(k, np.cbrt(w**2 / kinematic_tension))
+        k = np.minimum(k, np.cbrt(w) ** 2 / np.cbrt(kinematic_tension))  # w^2 over the faintest of tensions would overflow
     for _ in range(_NEWTON_STEPS):
-        misfit = angular_frequency(k, depth, surface_tension) / w - 1.0
-        k = k * np.exp(-np.log1p(misfit) / group_to_phase_speed(k, depth, surface_tension))
+        misfit = _frequency(k, depth, kinematic_tension) / w - 1.0
+        k = k * np.exp(-np.log1p(misfit) / _speed_ratio(k, depth, kinematic_tension))
     result = np.zeros_like(omega)
     result[moving] = k
     return result
@@ -141,10 +155,17 @@ def loop_cycles(omega: RealLike, period: float) -> Integer:
     """
     Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2 pi)).
 
-    A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T; the slowest waves
-    are sped up to one turn a loop rather than frozen.
+    A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T, except for the
+    slowest waves, which are sped up to one turn a loop rather than frozen.
+
+    Raises:
+        ParameterError: a frequency or period out of its range, or more turns than a 64 bit integer counts.
 
     Source: Tessendorf 2001, section 4.4 (who truncates; rounding halves the error).
     """
-    turns = np.rint(np.asarray(omega, dtype=np.float64) * (period / (2.0 * np.pi)))
-    return np.maximum(turns, 1.0).astype(np.int64)
+    period = LOOP.check("period", period)
+    turns = np.rint(_argument("omega", omega, "rad/s") * (period / (2.0 * np.pi)))
+    if np.any(turns >= 2.0**63):
+        raise ParameterError(f"omega must make fewer than 2^63 turns in a loop, got {np.max(turns):g} in {period:g} s")
+    cycles: Integer = np.maximum(turns, 1.0).astype(np.int64)
+    return cycles

@@ -1,8 +1,8 @@
 """What the integrals of a spectrum say: m_n, Hs, Tp, Tz, mean direction and spread."""
 
 import math
-import warnings
 from collections.abc import Callable, Iterable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -39,24 +39,36 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
     peak = float(spectrum.peak)
 
     def integrand(x: float) -> float:
-        return float(x**n * spectrum(peak * x)) if x > 0.0 else 0.0
+        s = float(spectrum(peak * x)) if x > 0.0 else 0.0
+        return x**n * s if s > 0.0 else s  # where there is nothing, the power may well overflow
 
     corners = [c / peak for c in (peak, *getattr(spectrum, "breaks", ()))]
     if not getattr(spectrum, "breaks", ()):
         corners += [0.5, 2.0]  # keep the peak's own scale in sight of the quadrature, whatever the band
-    edges = [low / peak, *sorted(c for c in set(corners) if low / peak < c < high / peak), high / peak]
-    if math.isinf(high) and _diverges(integrand):
+    edges = _refined([low / peak, *sorted(c for c in set(corners) if low / peak < c < high / peak), high / peak])
+    if math.isinf(high) and _diverges(spectrum, n):
         return math.inf
+
+    def tail(u: float) -> float:
+        return integrand(1.0 / u) / u**2 if u > 0.0 else 0.0  # a power law in 1/x is one in u, and its end is in sight
+
+    pieces = [(integrand, a, b) if b < math.inf else (tail, 0.0, 1.0 / a) for a, b in pairwise(edges) if _any_energy(integrand, a, b)]
+    results = [integrate.quad(*piece, epsabs=0.0, epsrel=1e-11, limit=200, full_output=1) for piece in pieces]
+    whole = sum(part for part, *_ in results)
     total = 0.0
-    for a, b in zip(edges, edges[1:], strict=False):
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", integrate.IntegrationWarning)
-            try:
-                total += integrate.quad(integrand, a, b, epsabs=0.0, epsrel=1e-11, limit=200)[0] if _any_energy(integrand, a, b) else 0.0
-            except integrate.IntegrationWarning:
-                # Sharp features: split the piece evenly and add the parts, which resolves all but fractals.
-                total += _split(integrand, a, b)
-    return total * peak ** (n + 1)
+    for (f, a, b), (part, error, _, *complaint) in zip(pieces, results, strict=True):
+        # Sharp features: split the piece evenly and add the parts, which resolves all but fractals.
+        total += _split(f, a, b, 1e-6 * whole) if complaint and error > 1e-12 * whole else part
+    return float(total * peak ** (n + 1))
+
+
+def _refined(edges: list[float]) -> list[float]:
+    """Put edges in between so that no finite piece spans more than a factor of 16: a quadrature may overlook a peak at one end of it."""
+    refined = edges[:1]
+    for a, b in pairwise(edges):
+        pieces = math.ceil(math.log(b / a) / math.log(16.0)) if 0.0 < a < b < math.inf else 1
+        refined += [a * (b / a) ** (i / pieces) for i in range(1, pieces)] + [b]
+    return refined
 
 
 def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool:
@@ -65,24 +77,23 @@ def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool
     return any(integrand(float(x)) > 0.0 for x in probes)
 
 
-def _split(integrand: Callable[[float], float], a: float, b: float) -> float:
-    """Integrate in 64 panels, in 1/x where the piece reaches to infinity, to an absolute 1e-12 of the whole."""
+def _split(integrand: Callable[[float], float], a: float, b: float, tolerance: float) -> float:
+    """Integrate in 64 panels; give up as soon as the errors exceed the tolerance."""
     from scipy import integrate
 
-    if math.isinf(b):
-        return _split(lambda u: integrand(1.0 / u) / u**2 if u > 0.0 else 0.0, 0.0, 1.0 / a)
-    edges = np.linspace(a, b, 65)
-    panels = [integrate.quad(integrand, p, q, epsabs=1e-300, epsrel=1e-11, limit=200, full_output=1)[:2] for p, q in zip(edges, edges[1:], strict=False)]
-    total, error = (float(sum(column)) for column in zip(*panels, strict=True))
-    if error > 1e-6 * abs(total):
-        raise ParameterError(f"the spectrum is too rough to integrate between {a:g} and {b:g} times its peak: {total:g} +- {error:g}")
+    total = doubt = 0.0
+    for p, q in pairwise(np.linspace(a, b, 65)):
+        part, error = integrate.quad(integrand, p, q, epsabs=1e-6 * tolerance, epsrel=1e-11, limit=200, full_output=1)[:2]
+        total, doubt = total + part, doubt + error
+        if doubt > tolerance:
+            raise ParameterError(f"the spectrum is too rough to integrate: a part of the moment came out as {part:g} +- {error:g}")
     return total
 
 
-def _diverges(integrand: Callable[[float], float]) -> bool:
-    """Whether x times the integrand no longer falls far out on the tail."""
-    near, far = (x * integrand(x) for x in (1e4, 1e5))
-    return near > 0.0 and far > 0.9 * near
+def _diverges(spectrum: Spectrum, n: int) -> bool:
+    """Whether omega^(n+1) S no longer falls far out on the tail: 1e10 peaks out, past where even the shallowest water turns deep."""
+    near, far = (float(spectrum(x * float(spectrum.peak))) for x in (1e10, 1e11))
+    return near > 0.0 and far > 0.0 and math.log10(far / near) + n + 1 > math.log10(0.9)
 
 
 def significant_wave_height(spectrum: Spectrum) -> float:
@@ -115,6 +126,7 @@ def peak_period(spectrum: Spectrum) -> float:
     if not s[top] > 0.0:
         return 0.0
     fine = np.linspace(omega[max(top - 1, 0)], omega[min(top + 1, omega.size - 1)], 2001)
+    fine = np.append(fine, omega[top])  # where the curve has a corner, the peak is the corner
     return 2.0 * math.pi / float(fine[np.argmax(spectrum(fine))])
 
 
@@ -137,11 +149,12 @@ def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float
     if not total > 0.0:
         return 0.0, 0.0
     mean = np.sum(variance * np.exp(1j * theta)) / total
-    return math.degrees(math.atan2(mean.imag, mean.real)), math.degrees(math.sqrt(max(2.0 * (1.0 - abs(mean)), 0.0)))
+    direction = math.degrees(math.atan2(mean.imag, mean.real))
+    return direction if direction > -180.0 else 180.0, math.degrees(math.sqrt(max(2.0 * (1.0 - abs(mean)), 0.0)))
 
 
 def spectral_grid(peaks: Iterable[float], breaks: Iterable[float] = (), points: int = 400) -> Real:
-    """Frequencies [rad/s] on which to look at a sea: from a tenth of its lowest peak to 30 times its highest, dense round each, every corner."""
+    """Frequencies [rad/s] on which to look at a sea: a tenth of its lowest peak to 30 times its highest, dense round each, every corner."""
     peaks = list(peaks)
     if not peaks:
         return np.geomspace(0.1, 10.0, 16)

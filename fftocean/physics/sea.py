@@ -1,6 +1,7 @@
 """The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,8 +10,8 @@ from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
 from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION
 from fftocean.physics import moments
-from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum
-from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner, Spreading
+from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
+from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
 
 
 def from_compass(bearing: float) -> float:
@@ -35,13 +36,9 @@ class WaveSystem:
     direction: float = 0.0  # toward which the waves go, counter-clockwise from +x [degrees]
 
     def __post_init__(self) -> None:
-        if not isinstance(self.spectrum, FrequencySpectrum):
-            raise ParameterError(
-                f"spectrum must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {self.spectrum!r}"
-            )
-        if not callable(self.spreading):
-            raise ParameterError(f"spreading must be callable as D(omega, theta, peak), got {self.spreading!r}")
-        DIRECTION.check("direction", self.direction)
+        require_spectrum("spectrum", self.spectrum)
+        require_spreading("spreading", self.spreading)
+        object.__setattr__(self, "direction", DIRECTION.check("direction", self.direction))
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x."""
@@ -63,10 +60,10 @@ class Sea:
     def __init__(
         self, *waves: WaveSystem, systems: tuple[WaveSystem, ...] = (), depth: float = math.inf, surface_tension: float = 0.0
     ) -> None:
-        systems = (*waves, *systems)
+        systems = (*waves, *systems) if isinstance(systems, Iterable) else (*waves, systems)
         for system in systems:
             if not isinstance(system, WaveSystem):
-                raise ParameterError(f"a sea is made of WaveSystem values, got {system!r}")
+                raise ParameterError(f"a sea must be made of WaveSystem values, got {system!r:.60}")
         object.__setattr__(self, "systems", systems)
         object.__setattr__(self, "depth", DEPTH.check("depth", depth))
         object.__setattr__(self, "surface_tension", SURFACE_TENSION.check("surface_tension", surface_tension))
@@ -98,7 +95,7 @@ class Sea:
         """
         deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
         spectrum = TMA(deep, DEPTH.check("depth", depth))
-        return cls(WaveSystem(spectrum=spectrum, spreading=spreading or Blend(), direction=direction), depth=depth)
+        return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
 
     @property
     def peak(self) -> float:

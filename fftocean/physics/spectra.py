@@ -13,14 +13,17 @@ from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.limits import (
+    DENSITY,
     DEPTH,
     FETCH,
+    FREQUENCY,
     PEAK,
     PEAK_ENHANCEMENT,
     PERIOD,
     PHILLIPS_CONSTANT,
     SIGNIFICANT_WAVE_HEIGHT,
     WIND_SPEED,
+    Quantity,
 )
 from fftocean.physics.dispersion import group_to_phase_speed, wavenumber
 from fftocean.physics.moments import moment
@@ -38,6 +41,20 @@ class FrequencySpectrum(Protocol):
         """S at `omega`."""
 
 
+def require_spectrum(name: str, value: object) -> None:
+    """
+    Refuse what is not a spectrum.
+
+    Raises:
+        ParameterError: not callable, without a peak, or a spectrum's class where a spectrum is wanted.
+    """
+    if isinstance(value, type) or not isinstance(value, FrequencySpectrum):
+        raise ParameterError(
+            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {value!r:.60}"
+        )
+    PEAK.check(f"{name}.peak", value.peak)
+
+
 FULLY_DEVELOPED_PEAK = 0.877 / 1.026
 """omega_p U10 / g of a sea that has stopped growing: 0.877 against U19.5 = 1.026 U10  (Pierson & Moskowitz 1964)."""
 
@@ -46,8 +63,8 @@ STILL_AIR = 1e-3
 
 
 def _relative(omega: RealLike, peak: float) -> Real:
-    """omega/omega_p, held at 0.05 from below: there exp(-5/4 x^-4) is 0 in double precision, and x^-5 does not overflow."""
-    return np.maximum(np.asarray(omega, dtype=np.float64) / peak, 0.05)
+    """omega/omega_p, held at 0.05 from below: there exp(-5/4 x^-4) is 0 in double precision, and x^-5 does not overflow; nor does x."""
+    return np.minimum(np.maximum(np.asarray(omega, dtype=np.float64), 0.05 * peak), 1e100) / peak
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +75,8 @@ class PiersonMoskowitz:
     alpha: float = 8.1e-3  # Phillips constant [-]
 
     def __post_init__(self) -> None:
-        PEAK.check("peak", self.peak)
-        PHILLIPS_CONSTANT.check("alpha", self.alpha)
+        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
+        object.__setattr__(self, "alpha", PHILLIPS_CONSTANT.check("alpha", self.alpha))
 
     @classmethod
     def from_wind(cls, *, speed: float) -> "PiersonMoskowitz":
@@ -70,13 +87,14 @@ class PiersonMoskowitz:
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float) -> "PiersonMoskowitz":
         """Sea of significant wave height `hs` [m] and peak period `tp` [s]: alpha follows from m0 = alpha g^2 / (5 omega_p^4)."""
-        peak = 2.0 * np.pi / PERIOD.check("tp", tp)
-        return cls(peak=peak, alpha=_alpha(hs, tp, 0.2))
+        tp = PERIOD.check("tp", tp)
+        return cls(peak=2.0 * np.pi / tp, alpha=_alpha(hs, tp, 0.2))
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]."""
         x = _relative(omega, self.peak)
-        return self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4)
+        s: Real = self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4)
+        return s
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,9 +110,9 @@ class JONSWAP:
     gamma: float = 3.3  # peak enhancement [-]
 
     def __post_init__(self) -> None:
-        PEAK.check("peak", self.peak)
-        PHILLIPS_CONSTANT.check("alpha", self.alpha)
-        PEAK_ENHANCEMENT.check("gamma", self.gamma)
+        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
+        object.__setattr__(self, "alpha", PHILLIPS_CONSTANT.check("alpha", self.alpha))
+        object.__setattr__(self, "gamma", PEAK_ENHANCEMENT.check("gamma", self.gamma))
 
     @classmethod
     def from_wind(cls, *, speed: float, fetch: float, gamma: float = 3.3) -> "JONSWAP":
@@ -142,16 +160,17 @@ class JONSWAP:
         Raises:
             ParameterError: a value out of its range, or waves too steep to be (alpha > 1).
         """
-        peak = 2.0 * np.pi / PERIOD.check("tp", tp)
+        tp = PERIOD.check("tp", tp)
         gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
-        return cls(peak=peak, alpha=_alpha(hs, tp, _shape_integral(gamma)), gamma=gamma)
+        return cls(peak=2.0 * np.pi / tp, alpha=_alpha(hs, tp, _shape_integral(gamma)), gamma=gamma)
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]."""
         x = _relative(omega, self.peak)
         sigma = np.where(x <= 1.0, 0.07, 0.09)
         r = np.exp(-((x - 1.0) ** 2) / (2.0 * sigma**2))
-        return self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4) * self.gamma**r
+        s: Real = self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4) * self.gamma**r
+        return s
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +187,8 @@ class TMA:
     depth: float  # [m]
 
     def __post_init__(self) -> None:
-        DEPTH.check("depth", self.depth)
+        require_spectrum("spectrum", self.spectrum)
+        object.__setattr__(self, "depth", DEPTH.check("depth", self.depth))
 
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, depth: float, gamma: float = 3.3) -> "TMA":
@@ -203,11 +223,12 @@ class TMA:
 
 def kitaigorodskii(omega: RealLike, depth: float) -> Real:
     """Return Phi(omega, h) [-], from omega^2 h / (2g) in shallow water to 1 in deep  (Kitaigorodskii et al. 1975)."""
-    omega = np.maximum(np.asarray(omega, dtype=np.float64), 0.0)
+    omega = np.clip(np.asarray(omega, dtype=np.float64), 0.0, 1e20)  # deep in a micrometre; and inf is not a frequency
     k = wavenumber(omega, depth)
     if math.isinf(depth):
         return np.ones_like(k)
-    return np.tanh(k * depth) ** 2 / (2.0 * group_to_phase_speed(k, depth))
+    phi: Real = np.tanh(np.minimum(k, 20.0 / depth) * depth) ** 2 / (2.0 * group_to_phase_speed(k, depth))
+    return phi
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,13 +240,15 @@ class CustomSpectrum:
 
     def __post_init__(self) -> None:
         if not callable(self.function):
-            raise ParameterError(f"function must be callable as function(omega), got {self.function!r}")
-        PEAK.check("peak", self.peak)
+            raise ParameterError(f"function must be callable as function(omega), got {self.function!r:.60}")
+        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not asked."""
         omega = np.asarray(omega, dtype=np.float64)
-        values = np.asarray(self.function(np.where(omega > 0.0, omega, self.peak)), dtype=np.float64)
+        values = np.asarray(self.function(np.where(omega > 0.0, omega, self.peak)))
+        if values.dtype.kind not in "iuf":
+            raise ParameterError(f"the custom spectrum must return real numbers, got {values!r:.60}")
         if values.shape not in (omega.shape, ()):
             raise ParameterError(f"the custom spectrum must return the shape it is given, {omega.shape}, got {values.shape}")
         bad = ~((values >= 0.0) & (values < np.inf))
@@ -248,19 +271,17 @@ class TabulatedSpectrum:
     _s: Real = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        f = _column("frequency", self.frequency)
-        s = _column("density", self.density)
+        f = _column("frequency", self.frequency, FREQUENCY)
+        s = _column("density", self.density, DENSITY)
         if f.size < 2 or f.size != s.size:
             raise ParameterError(f"frequency and density must have the same length, at least 2, got {f.size} and {s.size}")
-        if not (f[0] > 0.0 and np.all(np.diff(f) > 0.0)):
-            raise ParameterError(f"frequency must be positive and strictly ascending [Hz], got {_first_fall(f)}")
-        if np.any(s < 0.0):
-            raise ParameterError(f"density must be at least 0 m^2/Hz, got {s[s < 0.0][0]}")
+        if not np.all(np.diff(f) > 0.0):
+            fall = int(np.argmax(np.diff(f) <= 0.0))
+            raise ParameterError(f"frequency must be strictly ascending, got {f[fall]} Hz before {f[fall + 1]} Hz")
         object.__setattr__(self, "frequency", tuple(f.tolist()))
         object.__setattr__(self, "density", tuple(s.tolist()))
         object.__setattr__(self, "_omega", 2.0 * np.pi * f)
         object.__setattr__(self, "_s", s / (2.0 * np.pi))
-        PEAK.check("2 pi times the frequency of the highest density", self.peak)
 
     @property
     def peak(self) -> float:
@@ -277,23 +298,13 @@ class TabulatedSpectrum:
         return np.interp(np.asarray(omega, dtype=np.float64), self._omega, self._s, left=0.0, right=0.0)
 
 
-def _column(name: str, values: Sequence[float]) -> Real:
-    """A one-dimensional float64 column of finite numbers."""
+def _column(name: str, values: Sequence[float], quantity: Quantity) -> Real:
+    """A one-dimensional float64 column, each of its numbers checked."""
     try:
-        column = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ParameterError(f"{name} must be a list of numbers, got {values!r:.60}") from error
-    if column.ndim != 1 or not np.all(np.isfinite(column)):
-        raise ParameterError(f"{name} must be a list of finite numbers, got {values!r:.60}")
-    return column
-
-
-def _first_fall(f: Real) -> str:
-    """Name the first place where an ascending list does not ascend."""
-    if f[0] <= 0.0:
-        return f"{f[0]} first"
-    i = int(np.argmax(np.diff(f) <= 0.0))
-    return f"{f[i]} before {f[i + 1]}"
+        items = list(np.asarray(values).tolist() if hasattr(values, "__array__") else values)
+    except TypeError as error:
+        raise ParameterError(f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}") from error
+    return np.array([quantity.check(f"{name}[{i}]", item) for i, item in enumerate(items)], dtype=np.float64)
 
 
 def _wind(speed: float) -> float:
@@ -321,4 +332,4 @@ def _alpha(hs: float, tp: float, shape_integral: float) -> float:
 
 
 def _too_steep(hs: float, tp: float, alpha: float) -> str:
-    return f"hs and tp must make waves that can be (Phillips constant at most 1), got hs = {hs:g} m with tp = {tp:g} s (alpha = {alpha:.3g})"
+    return f"hs and tp must make waves that can be (Phillips constant at most 1), got {hs:g} m with {tp:g} s (alpha = {alpha:.3g})"

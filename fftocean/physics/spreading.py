@@ -6,6 +6,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
+from fftocean.errors import ParameterError
 from fftocean.limits import FRACTION, SPREADING_EXPONENT
 
 
@@ -17,6 +18,17 @@ class Spreading(Protocol):
         """D at `omega` and `theta`, which broadcast."""
 
 
+def require_spreading(name: str, value: object) -> None:
+    """
+    Refuse what cannot spread waves.
+
+    Raises:
+        ParameterError: not callable, or a model's class where a model is wanted.
+    """
+    if not callable(value) or isinstance(value, type):
+        raise ParameterError(f"{name} must be callable as D(omega, theta, peak), got {value!r:.60}")
+
+
 def wrapped(theta: RealLike) -> Real:
     """The same angles in [-pi, pi]."""
     theta = np.asarray(theta, dtype=np.float64)
@@ -25,9 +37,9 @@ def wrapped(theta: RealLike) -> Real:
 
 @dataclass(frozen=True, slots=True)
 class CosineSquared:
-    """D = (2/pi) cos^2(theta) in the front half, 0 behind; the same at every frequency  (Horvath 2015, eq. 29)."""
+    """D = (2/pi) cos^2(theta) in the front half, 0 behind; the same at every frequency  (Horvath 2015)."""
 
-    def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
+    def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
         omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.cos(theta) ** 2, 0.0)
@@ -40,22 +52,30 @@ class CosinePower:
     s: float  # exponent [-]: 0 is all round, 25 a narrow swell
 
     def __post_init__(self) -> None:
-        SPREADING_EXPONENT.check("s", self.s)
+        object.__setattr__(self, "s", SPREADING_EXPONENT.check("s", self.s))
 
-    def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
+    def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
         omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         return cosine_2s(np.float64(self.s), theta)
 
 
 def cosine_2s(s: RealLike, theta: RealLike) -> Real:
-    """Normalised cos^2s(theta/2) for exponents `s` [-] that may vary from point to point: in logarithms, so that s = 1e4 does not overflow."""
-    from scipy.special import gammaln
+    """
+    Normalised cos^2s(theta/2) for exponents `s` [-] that may vary from point to point.
+
+    The ratio of Gamma functions is Pochhammer's symbol (s + 1/2)_(1/2): the difference of two log-gammas, each of size
+    s ln s, would lose as many digits (nine at s = 1e6). The power is taken in logarithms; in front as ln(1 - sin^2)/2, as a cosine
+    near 1 has lost the angle.
+    """
+    from scipy.special import poch
 
     s, theta = np.asarray(s, dtype=np.float64), np.asarray(theta, dtype=np.float64)
-    log_norm = gammaln(s + 1.0) - gammaln(s + 0.5) - np.log(2.0 * np.sqrt(np.pi))
-    cosine = np.maximum(np.abs(np.cos(0.5 * theta)), 1e-300)
-    return np.exp(log_norm + 2.0 * s * np.log(cosine))
+    sine2 = np.sin(0.5 * theta) ** 2
+    in_front = 0.5 * np.log1p(-np.minimum(sine2, 0.5))
+    log_cosine = np.where(sine2 < 0.5, in_front, np.log(np.maximum(np.abs(np.cos(0.5 * theta)), 1e-300)))
+    density: Real = poch(s + 0.5, 0.5) / (2.0 * np.sqrt(np.pi)) * np.exp(2.0 * s * log_cosine)
+    return density
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +93,8 @@ class DonelanBanner:
         beta = donelan_banner_beta(np.asarray(omega, dtype=np.float64) / peak)
         # sech^2(y) = 4 e^{-2|y|} / (1 + e^{-2|y|})^2, which cannot overflow
         decay = np.exp(-2.0 * np.abs(beta * wrapped(theta)))
-        return beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / (1.0 + decay) ** 2
+        density: Real = beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / (1.0 + decay) ** 2
+        return density
 
 
 def donelan_banner_beta(x: Real) -> Real:
@@ -93,7 +114,9 @@ class Blend:
     weight: float = field(default=0.5, kw_only=True)  # share of `second` [-]
 
     def __post_init__(self) -> None:
-        FRACTION.check("weight", self.weight)
+        require_spreading("first", self.first)
+        require_spreading("second", self.second)
+        object.__setattr__(self, "weight", FRACTION.check("weight", self.weight))
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""
