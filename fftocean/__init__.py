@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from fftocean.ocean import Ocean as Ocean
     from fftocean.physics import dispersion as dispersion
     from fftocean.physics import moments as moments
+    from fftocean.physics import presets as presets
+    from fftocean.physics import units as units
+    from fftocean.physics.double_peaked import Bretschneider as Bretschneider
+    from fftocean.physics.double_peaked import OchiHubble as OchiHubble
+    from fftocean.physics.double_peaked import Torsethaugen as Torsethaugen
     from fftocean.physics.sea import Sea as Sea
     from fftocean.physics.sea import WaveSystem as WaveSystem
     from fftocean.physics.sea import from_compass as from_compass
@@ -33,6 +38,15 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import CosinePower as CosinePower
     from fftocean.physics.spreading import CosineSquared as CosineSquared
     from fftocean.physics.spreading import DonelanBanner as DonelanBanner
+    from fftocean.physics.spreading_laws import CosineN as CosineN
+    from fftocean.physics.spreading_laws import CustomSpreading as CustomSpreading
+    from fftocean.physics.spreading_laws import GodaSuzuki as GodaSuzuki
+    from fftocean.physics.spreading_laws import Hasselmann as Hasselmann
+    from fftocean.physics.spreading_laws import Mitsuyasu as Mitsuyasu
+    from fftocean.physics.spreading_laws import SwellElongation as SwellElongation
+    from fftocean.physics.spreading_laws import WrappedNormal as WrappedNormal
+    from fftocean.physics.wind_wavenumber import Elfouhaily as Elfouhaily
+    from fftocean.physics.wind_wavenumber import Phillips as Phillips
     from fftocean.products import jacobian as jacobian
     from fftocean.products import minimum_eigenvalue as minimum_eigenvalue
     from fftocean.products import normals as normals
@@ -47,9 +61,20 @@ _ROOMS = {
     "fftocean.bake.job": ("Job",),
     "fftocean.errors": ("FFTOceanError", "IntegrityError", "JobError", "OutputError", "ParameterError", "SeaWarning"),
     "fftocean.ocean": ("Frame", "Ocean"),
+    "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
     "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
     "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner"),
+    "fftocean.physics.spreading_laws": (
+        "CosineN",
+        "CustomSpreading",
+        "GodaSuzuki",
+        "Hasselmann",
+        "Mitsuyasu",
+        "SwellElongation",
+        "WrappedNormal",
+    ),
+    "fftocean.physics.wind_wavenumber": ("Elfouhaily", "Phillips"),
     "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.statistics": ("Statistics", "measure"),
@@ -57,8 +82,11 @@ _ROOMS = {
 _MODULES = {
     "bake": "fftocean.bake",
     "dispersion": "fftocean.physics.dispersion",
-    "moments": "fftocean.physics.moments",
     "gerstner": "fftocean.gerstner",
+    "moments": "fftocean.physics.moments",
+    "presets": "fftocean.physics.presets",
+    "readers": "fftocean.readers",
+    "units": "fftocean.physics.units",
 }
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 

@@ -65,6 +65,17 @@ class Count(Quantity):
         return int(value)
 
 
+def keep_checked(model: object, **quantities: Quantity) -> None:
+    """
+    Check the named fields of a frozen value, and keep them as plain floats.
+
+    Raises:
+        ParameterError: one of them breaks its rule.
+    """
+    for name, quantity in quantities.items():
+        object.__setattr__(model, name, quantity.check(name, getattr(model, name)))
+
+
 WIND_SPEED = Quantity("m/s", 0.0, 150.0)  # the fastest gust on record is 113 m/s (Barrow Island 1996)
 FETCH = Quantity("m", 1.0, 5e7)  # the Earth's girth is 4e7 m
 DEPTH = Quantity("m", 1e-6, math.inf)

@@ -156,12 +156,14 @@ def _shared_out(system: WaveSystem, omega: Real, theta: Real) -> Real:
     """S(omega) D(omega, theta) on a grid, (omega, theta), D summing to 1 on these directions too: narrower ones would alias."""
     density = system.density(omega[:, None], theta[None, :])
     along = np.sum(density, axis=1, keepdims=True) * (2.0 * np.pi / _DIRECTIONS)
-    return density * np.divide(system.spectrum(omega)[:, None], along, out=np.zeros_like(along), where=along > 0.0)
+    shared: Real = density * np.divide(system.spectrum(omega)[:, None], along, out=np.zeros_like(along), where=along > 0.0)
+    return shared
 
 
 def _polar(sea: Sea) -> tuple[Real, Real]:
     """The sea's variance by direction, with the directions; two arrays of one shape."""
-    variance, theta = [np.zeros(0)], [np.zeros(0)]
+    variance: list[Real] = [np.zeros(0)]
+    theta: list[Real] = [np.zeros(0)]
     for system in sea.systems:
         omega, around = _frequencies(system, 0.0), _directions(system)
         cells = _shared_out(system, omega, around) * np.gradient(omega)[:, None]

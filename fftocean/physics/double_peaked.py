@@ -9,7 +9,7 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
-from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, Quantity
+from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, Quantity, keep_checked
 from fftocean.physics.moments import moment
 
 TAIL = Quantity("", 1.4, 1000.0)  # N: m0 exists above 1; below 1.4 half of it would lie beyond ten times the peak
@@ -45,7 +45,7 @@ class GammaSpectrum:
     exact: bool = field(default=True, repr=False)  # Hs to the last digit, not as the published regression has it
 
     def __post_init__(self) -> None:
-        _keep(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD, tail=TAIL, front=FRONT, gamma=ENHANCEMENT)
+        keep_checked(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD, tail=TAIL, front=FRONT, gamma=ENHANCEMENT)
         _require_possible(self.hs, self.tp)
         _require_bool("exact", self.exact)
 
@@ -122,7 +122,7 @@ class Bretschneider:
     tp: float  # peak period [s]
 
     def __post_init__(self) -> None:
-        _keep(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD)
+        keep_checked(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD)
         _require_possible(self.hs, self.tp)
 
     @classmethod
@@ -166,8 +166,8 @@ class OchiHubble:
     _halves: tuple[GammaSpectrum, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        _keep(self, hs_low=SIGNIFICANT_WAVE_HEIGHT, tp_low=PERIOD, lambda_low=SHAPE)
-        _keep(self, hs_high=SIGNIFICANT_WAVE_HEIGHT, tp_high=PERIOD, lambda_high=SHAPE)
+        keep_checked(self, hs_low=SIGNIFICANT_WAVE_HEIGHT, tp_low=PERIOD, lambda_low=SHAPE)
+        keep_checked(self, hs_high=SIGNIFICANT_WAVE_HEIGHT, tp_high=PERIOD, lambda_high=SHAPE)
         if self.tp_low < self.tp_high:
             raise ParameterError(f"tp_low must be at least tp_high, {self.tp_high:g} s, got {self.tp_low:g} s")
         low = GammaSpectrum(hs=self.hs_low, tp=self.tp_low, tail=4.0 * self.lambda_low + 1.0)
@@ -264,7 +264,7 @@ class Torsethaugen:
     _systems: tuple[GammaSpectrum, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        _keep(self, hs=TORSETHAUGEN_WAVE_HEIGHT, tp=PERIOD)
+        keep_checked(self, hs=TORSETHAUGEN_WAVE_HEIGHT, tp=PERIOD)
         _require_possible(self.hs, self.tp)
         _require_bool("exact", self.exact)
         if self.form not in ("simplified", "full"):
@@ -339,12 +339,6 @@ def _total(parts: tuple[GammaSpectrum, ...], omega: RealLike) -> Real:
 
 def _breaks(parts: tuple[GammaSpectrum, ...]) -> tuple[float, ...]:
     return tuple(sorted({b for part in parts for b in part.breaks}))
-
-
-def _keep(model: object, **quantities: Quantity) -> None:
-    """Check the named fields and keep them as floats."""
-    for name, quantity in quantities.items():
-        object.__setattr__(model, name, quantity.check(name, getattr(model, name)))
 
 
 def _require_possible(hs: float, tp: float) -> None:

@@ -1,4 +1,4 @@
-"""Seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly the height it promises."""
+"""Wind seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly the height it promises."""
 
 import math
 from dataclasses import dataclass
@@ -7,9 +7,7 @@ from functools import lru_cache
 from fftocean.constants import GRAVITY
 from fftocean.limits import FETCH, Count
 from fftocean.physics.moments import significant_wave_height
-from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import FULLY_DEVELOPED_PEAK, JONSWAP, TMA, PiersonMoskowitz
-from fftocean.physics.spreading import Blend, Spreading
 from fftocean.physics.units import KNOT
 
 BEAUFORT = Count("", 0, 12)
@@ -48,23 +46,38 @@ _SEA_STATES: tuple[tuple[str, float, float], ...] = (
 
 
 @dataclass(frozen=True, slots=True)
-class PresetRow:
-    """What a number promises and what its sea delivers, for a table."""
+class Preset:
+    """What a number promises: a wind, and the sea of exactly `hs` that it raises. A calm has no spectrum."""
 
     number: int
     name: str
     wind: float  # U10 [m/s]
-    hs: float  # promised significant wave height [m]
-    tp: float  # peak period [s]; 0 of a flat sea
-    measured_hs: float  # of the sea that is built, by quadrature [m]
+    hs: float  # significant wave height [m]
+    tp: float  # peak period [s]; 0 of a calm
+    gamma: float  # peak enhancement [-]: 1 is fully developed
 
     @property
     def wind_knots(self) -> float:
         """U10 [knots]."""
         return self.wind / KNOT
 
+    def spectrum(self, depth: float = math.inf) -> TMA | None:
+        """
+        The sea's spectrum, whose Hs *in water of `depth`* [m] is the promised one; None of a calm.
 
-def beaufort(number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> Sea:
+        Raises:
+            ParameterError: waves that would be too steep in so little water.
+        """
+        return TMA.from_sea_state(hs=self.hs, tp=self.tp, depth=depth, gamma=self.gamma) if self.hs else None
+
+    @property
+    def measured_hs(self) -> float:
+        """Hs of the spectrum in deep water, by quadrature [m]."""
+        spectrum = self.spectrum()
+        return significant_wave_height(spectrum) if spectrum else 0.0
+
+
+def beaufort(number: int) -> Preset:
     """
     Return the open sea of a Beaufort number: the probable wave height of the scale, under the middle of its range of winds.
 
@@ -75,21 +88,20 @@ def beaufort(number: int, *, direction: float = 0.0, depth: float = math.inf, sp
 
     Args:
         number: 0 (a flat sea) to 12 (a hurricane's beginning: 32.7 m/s, 14 m).
-        direction: toward which wind and waves go, counter-clockwise from +x [degrees].
-        depth: still-water depth [m]; the promised height is then that in this depth.
-        spreading: another model than the even blend of Donelan-Banner and cos^2.
 
     Raises:
-        ParameterError: a number that is not on the scale, or waves that would be too steep in so little water.
+        ParameterError: a number that is not on the scale.
 
     Source: winds: WMO-No. 8, Guide to Meteorological Instruments, part I chapter 5, and WMO-No. 306, code table 1100; probable wave
     heights: WMO-No. 306, Manual on Codes, as guidance to the scale in the open sea.
     """
-    _, low, high, hs = _BEAUFORT[BEAUFORT.check_whole("number", number)]
-    return _sea(0.5 * (low + high), hs, direction, depth, spreading)
+    number = BEAUFORT.check_whole("number", number)
+    name, low, high, hs = _BEAUFORT[number]
+    wind = 0.5 * (low + high)
+    return Preset(number, name, wind, hs, *_young_or_developed(wind, hs))
 
 
-def sea_state(number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> Sea:
+def sea_state(number: int) -> Preset:
     """
     Return the sea of a state of WMO code table 3700: the middle of its range of heights, fully developed.
 
@@ -98,40 +110,27 @@ def sea_state(number: int, *, direction: float = 0.0, depth: float = math.inf, s
 
     Args:
         number: 0 (glassy: a flat sea) to 9 (phenomenal: over 14 m; 14 m is taken).
-        direction, depth, spreading: as of `beaufort`.
 
     Raises:
-        ParameterError: a number that is not in the table, or waves that would be too steep in so little water.
+        ParameterError: a number that is not in the table.
 
     Source: WMO-No. 306, Manual on Codes, volume I.1, code table 3700.
     """
-    _, low, high = _SEA_STATES[SEA_STATE.check_whole("number", number)]
+    number = SEA_STATE.check_whole("number", number)
+    name, low, high = _SEA_STATES[number]
     hs = 0.5 * (low + high)
-    return _sea(_developing_wind(hs), hs, direction, depth, spreading)
+    wind = _developing_wind(hs)
+    return Preset(number, name, wind, hs, *_young_or_developed(wind, hs))
 
 
-def beaufort_table() -> tuple[PresetRow, ...]:
-    """The scale from 0 to 12, with the measured height of each sea in deep water."""
-    return tuple(_row(n, name, 0.5 * (low + high), hs, beaufort(n)) for n, (name, low, high, hs) in enumerate(_BEAUFORT))
+def beaufort_table() -> tuple[Preset, ...]:
+    """The scale from 0 to 12."""
+    return tuple(beaufort(number) for number in range(len(_BEAUFORT)))
 
 
-def sea_state_table() -> tuple[PresetRow, ...]:
-    """Code table 3700 from 0 to 9, with the wind that raises each sea and its measured height in deep water."""
-    heights = [(name, 0.5 * (low + high)) for name, low, high in _SEA_STATES]
-    return tuple(_row(n, name, _developing_wind(hs), hs, sea_state(n)) for n, (name, hs) in enumerate(heights))
-
-
-def _row(number: int, name: str, wind: float, hs: float, sea: Sea) -> PresetRow:
-    return PresetRow(number, name, wind, hs, sea.tp, sea.hs)
-
-
-def _sea(wind: float, hs: float, direction: float, depth: float, spreading: Spreading | None) -> Sea:
-    """One wind sea of exactly `hs`, or none."""
-    if not hs:
-        return Sea(depth=depth)
-    tp, gamma = _young_or_developed(wind, hs)
-    spectrum = TMA.from_sea_state(hs=hs, tp=tp, depth=depth, gamma=gamma)
-    return Sea(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
+def sea_state_table() -> tuple[Preset, ...]:
+    """Code table 3700 from 0 to 9, with the wind that raises each sea."""
+    return tuple(sea_state(number) for number in range(len(_SEA_STATES)))
 
 
 _DEVELOPED_HEIGHT = 4.0 * math.sqrt(8.1e-3 / 5.0) / FULLY_DEVELOPED_PEAK**2
@@ -146,6 +145,8 @@ def _developing_wind(hs: float) -> float:
 @lru_cache(maxsize=64)
 def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
     """Peak period [s] and gamma of the sea of `hs` [m] under `wind` [m/s], or of the developed sea where the wind is too little."""
+    if not hs:
+        return 0.0, 1.0
     from scipy.optimize import brentq
 
     def excess(log_fetch: float) -> float:

@@ -8,8 +8,8 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION
-from fftocean.physics import moments
+from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
+from fftocean.physics import moments, presets
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
 from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
 
@@ -38,7 +38,7 @@ class WaveSystem:
     def __post_init__(self) -> None:
         require_spectrum("spectrum", self.spectrum)
         require_spreading("spreading", self.spreading)
-        object.__setattr__(self, "direction", DIRECTION.check("direction", self.direction))
+        keep_checked(self, direction=DIRECTION)
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x."""
@@ -95,6 +95,34 @@ class Sea:
         """
         deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
         spectrum = TMA(deep, DEPTH.check("depth", depth))
+        return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
+
+    @classmethod
+    def beaufort(cls, number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> "Sea":
+        """
+        The open sea of a Beaufort number, 0 (flat) to 12, with exactly the scale's probable wave height; see `presets.beaufort`.
+
+        Args:
+            number: on the Beaufort scale.
+            direction: toward which wind and waves go, counter-clockwise from +x [degrees].
+            depth: still-water depth [m]; the promised height is then that in this depth.
+            spreading: another model than the even blend of Donelan-Banner and cos^2.
+
+        Raises:
+            ParameterError: a number that is not on the scale, or waves that would be too steep in so little water.
+        """
+        return cls._preset(presets.beaufort(number), direction, depth, spreading)
+
+    @classmethod
+    def sea_state(cls, number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> "Sea":
+        """The sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`, see `presets.sea_state`."""
+        return cls._preset(presets.sea_state(number), direction, depth, spreading)
+
+    @classmethod
+    def _preset(cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None) -> "Sea":
+        spectrum = preset.spectrum(DEPTH.check("depth", depth))
+        if spectrum is None:
+            return cls(depth=depth)
         return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
 
     @property

@@ -24,6 +24,7 @@ from fftocean.limits import (
     SIGNIFICANT_WAVE_HEIGHT,
     WIND_SPEED,
     Quantity,
+    keep_checked,
 )
 from fftocean.physics.dispersion import group_to_phase_speed, wavenumber
 from fftocean.physics.moments import moment
@@ -75,13 +76,12 @@ class PiersonMoskowitz:
     alpha: float = 8.1e-3  # Phillips constant [-]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
-        object.__setattr__(self, "alpha", PHILLIPS_CONSTANT.check("alpha", self.alpha))
+        keep_checked(self, peak=PEAK, alpha=PHILLIPS_CONSTANT)
 
     @classmethod
     def from_wind(cls, *, speed: float) -> "PiersonMoskowitz":
         """Fully developed sea under a wind of `speed` (U10) [m/s]: omega_p = 0.877 g / (1.026 U10)."""
-        speed = _wind(speed)
+        speed = checked_wind(speed)
         return cls(peak=FULLY_DEVELOPED_PEAK * GRAVITY / max(speed, STILL_AIR), alpha=8.1e-3 if speed else 0.0)
 
     @classmethod
@@ -110,9 +110,7 @@ class JONSWAP:
     gamma: float = 3.3  # peak enhancement [-]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
-        object.__setattr__(self, "alpha", PHILLIPS_CONSTANT.check("alpha", self.alpha))
-        object.__setattr__(self, "gamma", PEAK_ENHANCEMENT.check("gamma", self.gamma))
+        keep_checked(self, peak=PEAK, alpha=PHILLIPS_CONSTANT, gamma=PEAK_ENHANCEMENT)
 
     @classmethod
     def from_wind(cls, *, speed: float, fetch: float, gamma: float = 3.3) -> "JONSWAP":
@@ -134,7 +132,7 @@ class JONSWAP:
 
         Source: Hasselmann et al. 1973; the limit from Pierson & Moskowitz 1964.
         """
-        speed = _wind(speed)
+        speed = checked_wind(speed)
         fetch = FETCH.check("fetch", fetch)
         gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
         wind = max(speed, STILL_AIR)
@@ -188,7 +186,7 @@ class TMA:
 
     def __post_init__(self) -> None:
         require_spectrum("spectrum", self.spectrum)
-        object.__setattr__(self, "depth", DEPTH.check("depth", self.depth))
+        keep_checked(self, depth=DEPTH)
 
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, depth: float, gamma: float = 3.3) -> "TMA":
@@ -241,7 +239,7 @@ class CustomSpectrum:
     def __post_init__(self) -> None:
         if not callable(self.function):
             raise ParameterError(f"function must be callable as function(omega), got {self.function!r:.60}")
-        object.__setattr__(self, "peak", PEAK.check("peak", self.peak))
+        keep_checked(self, peak=PEAK)
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not asked."""
@@ -307,7 +305,7 @@ def _column(name: str, values: Sequence[float], quantity: Quantity) -> Real:
     return np.array([quantity.check(f"{name}[{i}]", item) for i, item in enumerate(items)], dtype=np.float64)
 
 
-def _wind(speed: float) -> float:
+def checked_wind(speed: float) -> float:
     """Check a wind speed; still air is 0, and says what it means."""
     speed = WIND_SPEED.check("speed", speed)
     if speed >= STILL_AIR:

@@ -7,7 +7,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import FRACTION, SPREADING_EXPONENT
+from fftocean.limits import FRACTION, SPREADING_EXPONENT, keep_checked
 
 
 @runtime_checkable
@@ -52,7 +52,7 @@ class CosinePower:
     s: float  # exponent [-]: 0 is all round, 25 a narrow swell
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "s", SPREADING_EXPONENT.check("s", self.s))
+        keep_checked(self, s=SPREADING_EXPONENT)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
@@ -116,7 +116,7 @@ class Blend:
     def __post_init__(self) -> None:
         require_spreading("first", self.first)
         require_spreading("second", self.second)
-        object.__setattr__(self, "weight", FRACTION.check("weight", self.weight))
+        keep_checked(self, weight=FRACTION)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""

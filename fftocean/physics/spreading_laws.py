@@ -16,7 +16,7 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
-from fftocean.limits import ANGLE, FRACTION, SPREADING_EXPONENT, WIND_SPEED, Quantity
+from fftocean.limits import ANGLE, FRACTION, SPREADING_EXPONENT, WIND_SPEED, Quantity, keep_checked
 from fftocean.physics.spreading import CosinePower, DonelanBanner, Spreading, cosine_2s, require_spreading, wrapped
 
 SPREAD = Quantity("degrees", 0.1, 180.0)
@@ -49,7 +49,7 @@ class Mitsuyasu:
     speed: float  # U10 [m/s]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", WIND_SPEED.check("speed", self.speed))
+        keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
         """The exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
@@ -72,7 +72,7 @@ class GodaSuzuki:
     s_max: float  # s at the peak [-]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "s_max", SPREADING_EXPONENT.check("s_max", self.s_max))
+        keep_checked(self, s_max=SPREADING_EXPONENT)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
         """The exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
@@ -103,7 +103,7 @@ class Hasselmann:
     speed: float  # U10 [m/s]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", WIND_SPEED.check("speed", self.speed))
+        keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
         """The exponent s [-] at `omega` [rad/s]."""
@@ -127,7 +127,7 @@ class CosineN:
     n: float  # exponent [-]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "n", SPREADING_EXPONENT.check("n", self.n))
+        keep_checked(self, n=SPREADING_EXPONENT)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
@@ -149,7 +149,7 @@ class WrappedNormal:
     spread: float  # sigma, the standard deviation before winding [degrees]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "spread", SPREAD.check("spread", self.spread))
+        keep_checked(self, spread=SPREAD)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
@@ -219,7 +219,7 @@ class SwellElongation:
 
     def __post_init__(self) -> None:
         require_spreading("base", self.base)
-        object.__setattr__(self, "xi", FRACTION.check("xi", self.xi))
+        keep_checked(self, xi=FRACTION)
 
     def exponent_added(self, omega: RealLike, peak: float) -> Real:
         """16 tanh(omega_p/omega) xi^2 [-] at `omega`."""

@@ -16,11 +16,10 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY, SURFACE_TENSION
 from fftocean.errors import ParameterError
-from fftocean.limits import DEPTH, PHILLIPS_CONSTANT, SIGNIFICANT_WAVE_HEIGHT, Quantity
+from fftocean.limits import DEPTH, PHILLIPS_CONSTANT, SIGNIFICANT_WAVE_HEIGHT, Quantity, keep_checked
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
 from fftocean.physics.dispersion import angular_frequency, group_velocity, wavenumber
-from fftocean.physics.double_peaked import _keep
-from fftocean.physics.spectra import STILL_AIR, _wind
+from fftocean.physics.spectra import STILL_AIR, checked_wind
 from fftocean.physics.spreading import wrapped
 
 ANY_FETCH = Quantity("m", 1.0, math.inf)
@@ -63,8 +62,8 @@ class Phillips:
     surface_tension: float = 0.0  # of the Sea [N/m]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", _wind(self.speed))
-        _keep(self, amplitude=PHILLIPS_CONSTANT, cutoff=CUTOFF, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
+        object.__setattr__(self, "speed", checked_wind(self.speed))
+        keep_checked(self, amplitude=PHILLIPS_CONSTANT, cutoff=CUTOFF, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
         if self.cutoff > self._longest:
             raise ParameterError(f"cutoff must be at most the scale of the longest waves, {self._longest:g} m, got {self.cutoff:g} m")
 
@@ -160,8 +159,8 @@ class Elfouhaily:
     surface_tension: float = SURFACE_TENSION  # of the Sea [N/m]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "speed", _wind(self.speed))
-        _keep(self, fetch=ANY_FETCH, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
+        object.__setattr__(self, "speed", checked_wind(self.speed))
+        keep_checked(self, fetch=ANY_FETCH, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
         if self.inverse_wave_age > YOUNGEST:
             shortest = 2.2e4 * math.atanh((0.84 / YOUNGEST) ** (4.0 / 3.0)) ** 2.5 * _scale(self.speed) ** 2 / GRAVITY
             raise ParameterError(
@@ -257,7 +256,7 @@ class ElfouhailySpreading:
     surface_tension: float = SURFACE_TENSION  # of the Sea [N/m]
 
     def __post_init__(self) -> None:
-        _keep(self, friction_velocity=FRICTION_VELOCITY, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
+        keep_checked(self, friction_velocity=FRICTION_VELOCITY, depth=DEPTH, surface_tension=SURFACE_TENSION_RANGE)
         if not isinstance(self.both_ways, bool):
             raise ParameterError(f"both_ways must be True or False, got {self.both_ways!r:.60}")
 
