@@ -5,12 +5,12 @@ import os
 import threading
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
-from fftocean.arrays import COMPLEX_OF, Real, require_memory
+from fftocean.arrays import COMPLEX_OF, Real, RealLike, require_memory
 from fftocean.errors import FieldError, ParameterError, SeaWarning
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.grid import Grid
@@ -18,6 +18,9 @@ from fftocean.kernels import passes
 from fftocean.limits import CHOPPINESS, FRAMES, LOOP, THREADS, TIME
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import BLOCK, POINTWISE, Synthesis, Turn
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 
 class Frame:
@@ -250,6 +253,17 @@ class Ocean:
     def modes(self) -> Modes:
         """Return every wave: kx, ky, amplitude, phase and omega, each (m,), float64; the same sea as the frames show."""
         return self.amplitudes.modes()
+
+    def to_spectrum(self, *, freq: RealLike | None = None, dir: RealLike | None = None) -> "Dataset":
+        """
+        Return the 2-D spectrum that this ocean's waves realise, an xarray.Dataset in the layout of the wavespectra package.
+
+        `efth` (freq, dir) [m2/Hz/degree], directions where waves come FROM, clockwise from north. `science.realised_spectrum` has
+        the arguments and the details.
+        """
+        from fftocean.science import realised_spectrum
+
+        return realised_spectrum(self, freq=freq, dir=dir)
 
     def frame(self, t: float, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
         """

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
 from fftocean.physics import moments, presets
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
 from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 
 def from_compass(bearing: float) -> float:
@@ -117,6 +121,31 @@ class Sea:
     def sea_state(cls, number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> "Sea":
         """The sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`, see `presets.sea_state`."""
         return cls._preset(presets.sea_state(number), direction, depth, spreading)
+
+    @classmethod
+    def from_spectrum(
+        cls,
+        dataset: "Dataset",
+        *,
+        time: int = 0,
+        site: int = 0,
+        depth: float | None = None,
+        direction: float | None = None,
+        spreading: Spreading | None = None,
+    ) -> "Sea":
+        """
+        The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the wavespectra package.
+
+        Linear between its frequencies and directions, with exactly the source's own variance. `readers.Realised.from_spectrum` has
+        the same arguments, their meaning, and reports the factor that this took.
+
+        Raises:
+            ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
+            ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
+        """
+        from fftocean.readers.realise import sea_from_spectrum
+
+        return sea_from_spectrum(dataset, time=time, site=site, depth=depth, direction=direction, spreading=spreading)
 
     @classmethod
     def _preset(cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None) -> "Sea":
