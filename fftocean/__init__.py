@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fftocean import gerstner as gerstner
+    from fftocean import plots as plots
+    from fftocean import readers as readers
+    from fftocean import science as science
     from fftocean.bake.baker import bake as bake
     from fftocean.bake.job import Job as Job
     from fftocean.errors import FFTOceanError as FFTOceanError
@@ -52,6 +55,7 @@ if TYPE_CHECKING:
     from fftocean.products import normals as normals
     from fftocean.proof import Check as Check
     from fftocean.proof import verify as verify
+    from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
 
@@ -77,6 +81,7 @@ _ROOMS = {
     "fftocean.physics.wind_wavenumber": ("Elfouhaily", "Phillips"),
     "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
+    "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
 }
 _MODULES = {
@@ -84,8 +89,10 @@ _MODULES = {
     "dispersion": "fftocean.physics.dispersion",
     "gerstner": "fftocean.gerstner",
     "moments": "fftocean.physics.moments",
+    "plots": "fftocean.plots",
     "presets": "fftocean.physics.presets",
     "readers": "fftocean.readers",
+    "science": "fftocean.science",
     "units": "fftocean.physics.units",
 }
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}

@@ -1,17 +1,20 @@
-"""The command line: `fftocean bake | info | verify`. The only room that prints."""
+"""The command line: `fftocean bake | info | verify | plot | presets`. The only room that prints."""
 
 import argparse
+import contextlib
 import math
+import os
 import signal
 import sys
+import threading
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import fftocean
-from fftocean.errors import FFTOceanError, SeaWarning
+from fftocean.errors import FFTOceanError, OutputError, SeaWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,28 +28,47 @@ EXAMPLES = {
     "bake": "fftocean bake -o sea\nfftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22",
     "info": "fftocean info\nfftocean info gale.toml --size 800",
     "verify": "fftocean verify\nfftocean verify gale.toml --n 128",
+    "plot": "fftocean plot\nfftocean plot gale.toml -o gale.png",
+    "presets": "fftocean presets",
 }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; return its exit code."""
-    options = _parser().parse_args(arguments)
-    signal.signal(signal.SIGTERM, _terminated)
     try:
-        with warnings.catch_warnings():
+        with _sigterm_leaves(), warnings.catch_warnings():
             warnings.simplefilter("always", SeaWarning)
             warnings.showwarning = _show_warning
+            options = _parser().parse_args(arguments)
             code: int = options.run(options)
+            if sys.stdout:
+                sys.stdout.flush()  # what cannot be printed shows here, not after the last line
             return code
     except FFTOceanError as error:
         return _fail(str(error), error.exit_code)
     except KeyboardInterrupt:
-        return _fail("interrupted; what is written is whole, and there is no manifest", 130)
+        return _fail("interrupted; a folder without manifest.json is not a finished bake", 130)
     except MemoryError:
         return _fail("not enough memory; a smaller --n needs less", 2)
     except BrokenPipeError:  # the reader of a pipe went away: nothing to say, and nowhere to say it
-        sys.stdout = None
+        _drop_stdout()
         return 0
+    except OSError as error:
+        _drop_stdout()
+        return _fail(f"{error.filename or 'output'}: {error.strerror or error}", OutputError.exit_code)
+
+
+@contextlib.contextmanager
+def _sigterm_leaves() -> Iterator[None]:
+    """Let SIGTERM leave as Ctrl-C does, past all that cleans up; only a main thread can, and it gives the signal back."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, _terminated)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL if before is None else before)
 
 
 def _terminated(*_: object) -> NoReturn:
@@ -54,13 +76,26 @@ def _terminated(*_: object) -> NoReturn:
     raise SystemExit(128 + signal.SIGTERM)
 
 
+def _drop_stdout() -> None:
+    """Let what is still to be printed go nowhere, so that leaving does not fail for it a second time."""
+    with contextlib.suppress(OSError, ValueError, AttributeError):  # a stdout without a file, or none
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
 def _fail(message: str, code: int) -> int:
-    print(f"fftocean: {message}", file=sys.stderr)
+    print(f"fftocean: {_plain(message)}", file=sys.stderr)
     return code
 
 
 def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
-    print(f"note: {message}", file=sys.stderr)
+    print(f"note: {_plain(message)}", file=sys.stderr)
+
+
+def _plain(text: object) -> str:
+    """Text on one line, with nothing in it that a terminal would obey or could not show: names of files may hold anything."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -77,18 +112,25 @@ def _parser() -> argparse.ArgumentParser:
         ("bake", _bake, "write a looping sequence of maps, a manifest and a contact sheet"),
         ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes"),
         ("verify", _verify, "prove the tile: FFT against the direct sum, seam, loop, Parseval, energy"),
+        ("plot", _plot, "draw the sea that is ordered, and what the tile delivers of it"),
+        ("presets", _presets, "list the Beaufort scale and the sea states, with the height each promises and delivers"),
     ):
         examples = "\n".join("  " + line for line in EXAMPLES[name].splitlines())
         command = commands.add_parser(
             name, help=summary, description=summary, epilog=f"example:\n{examples}\n\n{EPILOG}", formatter_class=raw
         )
         command.set_defaults(run=run)
+        if name == "presets":
+            continue
         command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
         _add_job_flags(command)
         if name == "bake":
             command.add_argument("-o", "--output", type=Path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
             command.add_argument("--overwrite", action="store_true", help="bake over another job's folder")
             command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
+        if name == "plot":
+            help_ = "picture to write, .png, .svg or .pdf (default: sea.png)"
+            command.add_argument("-o", "--output", type=Path, default=Path("sea.png"), metavar="FILE", help=help_)
         if name == "verify":
             command.add_argument("--t", type=float, default=3.7, metavar="T", help="time to look at [s] (default: 3.7)")
             command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
@@ -131,7 +173,7 @@ def _bake(options: argparse.Namespace) -> int:
 
     job = _job(options)
     console = _console(stderr=True)
-    shown = console.is_terminal and not options.quiet
+    shown = console.is_terminal and sys.stderr.isatty() and not options.quiet  # colours may be forced on a file, a bar may not
     start = time.perf_counter()
     columns = (TextColumn("baking"), BarColumn(), MofNCompleteColumn(), TextColumn("frames"), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not shown, transient=True) as bar:
@@ -142,10 +184,9 @@ def _bake(options: argparse.Namespace) -> int:
         statistics = manifest["statistics"]
         _advise(manifest["statistics"])
         print(f"Hs {statistics['ordered']['hs']:.3g} m ordered, {statistics['hs']:.3g} m delivered; Tp {statistics['ordered']['tp']:.3g} s")
-        print(
-            f"{files} maps of {manifest['ocean']['n'][0]} x {manifest['ocean']['n'][1]} in {time.perf_counter() - start:.1f} s: {options.output}"
-        )
-        print(f"look at {options.output / PREVIEW_FILE}")
+        nx, ny = manifest["ocean"]["n"]
+        print(f"{files} maps of {nx} x {ny} in {time.perf_counter() - start:.1f} s: {_plain(options.output)}")
+        print(f"look at {_plain(options.output / PREVIEW_FILE)}")
     return 0
 
 
@@ -168,6 +209,7 @@ def _info(options: argparse.Namespace) -> int:
 
     import numpy as np
     from rich.table import Table
+    from rich.text import Text
 
     from fftocean import dispersion
     from fftocean.bake.maps import MAPS
@@ -180,12 +222,12 @@ def _info(options: argparse.Namespace) -> int:
     ocean = job.ocean()
     statistics, grid = measure(ocean), ocean.grid
     console = _console()
-    table = Table(title=f"Job: {job.source}", title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = Table(title=Text(f"Job: {_plain(job.source)}"), title_justify="left", show_header=False, box=None, pad_edge=False)
     units = {p.key: p.unit for p in PARAMETERS}
     for key, value in job.describe().items():
         if key == "sea.systems":
             for i, system in enumerate(value):
-                table.add_row(f"sea.systems[{i}]", _short(system))
+                table.add_row(f"sea.systems[{i}]", Text(_short(system)))
         else:
             table.add_row(key, f"{_words(value)} {units[key]}".rstrip())
     console.print(table)
@@ -229,6 +271,7 @@ def _info(options: argparse.Namespace) -> int:
 
 def _verify(options: argparse.Namespace) -> int:
     from rich.table import Table
+    from rich.text import Text
 
     from fftocean.limits import TIME
     from fftocean.ocean import Ocean
@@ -248,7 +291,8 @@ def _verify(options: argparse.Namespace) -> int:
         dtype=options.dtype,
     )
     checks = verify(ocean, t)
-    table = Table(title=f"{job.source}: {ocean.grid.nx} x {ocean.grid.ny}, {ocean.dtype}, t = {t:g} s", title_justify="left")
+    title = f"{_plain(job.source)}: {ocean.grid.nx} x {ocean.grid.ny}, {ocean.dtype}, t = {t:g} s"
+    table = Table(title=Text(title), title_justify="left")
     for heading in ("what", "against", "apart", "allowed", "because", ""):
         table.add_column(heading, justify="right" if heading in ("apart", "allowed") else "left")
     for c in checks:
@@ -258,6 +302,35 @@ def _verify(options: argparse.Namespace) -> int:
     failed = [c.name for c in checks if not c.passed]
     print(f"{len(checks) - len(failed)} of {len(checks)} checks passed" + (f"; failed: {', '.join(failed)}" if failed else ""))
     return 5 if failed else 0
+
+
+def _plot(options: argparse.Namespace) -> int:
+    from fftocean import plots
+
+    path = plots.save(plots.plot_job(_job(options).ocean()), options.output)
+    print(f"look at {_plain(path)}")
+    return 0
+
+
+def _presets(_: argparse.Namespace) -> int:
+    from rich.table import Table
+
+    from fftocean.physics import presets
+
+    console = _console()
+    for title, call, rows in (
+        ("Beaufort scale: U10, and the probable wave height of the open sea", "Sea.beaufort", presets.beaufort_table()),
+        ("Sea states, WMO code table 3700: middle of the range, fully developed", "Sea.sea_state", presets.sea_state_table()),
+    ):
+        table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+        for heading in ("call", "name", "wind m/s", "knots", "Hs promised m", "Hs by quadrature m", "Tp s"):
+            table.add_column(heading, justify="left" if heading in ("call", "name") else "right")
+        for row in rows:
+            numbers = (f"{row.wind:.1f}", f"{row.wind_knots:.0f}", f"{row.hs:.3f}", f"{row.measured_hs:.9f}", f"{row.tp:.1f}")
+            table.add_row(f"{call}({row.number})", row.name, *numbers)
+        console.print(table)
+        console.print()
+    return 0
 
 
 def _console(*, stderr: bool = False) -> "Console":

@@ -1,5 +1,6 @@
 """Turning a job into a folder: frame by frame, the manifest last."""
 
+import os
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -9,7 +10,7 @@ import numpy as np
 
 import fftocean
 from fftocean.bake import preview
-from fftocean.bake.files import as_json, make_folder, read_json, write_whole
+from fftocean.bake.files import as_json, make_folder, read_json, remove, write_whole
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.maps import MAPS
 from fftocean.bake.parameters import PARAMETERS
@@ -60,10 +61,14 @@ def bake(job: Job, folder: str | Path = "out", *, overwrite: bool = False, progr
         for name in job.maps:
             channels = MAPS[name].channels(frame)
             file = f"{name}/{j:04d}.exr"
-            row["files"][name] = {"path": file, "sha256": write_whole(folder / file, exr.encode_half(*channels))}
-            ranges[name] = [
-                min(ranges[name][0], *(float(c.min()) for c in channels)),
-                max(ranges[name][1], *(float(c.max()) for c in channels)),
+            try:
+                data = exr.encode_half(*channels)
+            except OutputError as error:
+                raise OutputError(f"{folder / file} could not be encoded: {error}") from None
+            row["files"][name] = {"path": file, "sha256": write_whole(folder / file, data)}
+            ranges[name] = [  # of what is stored: a half may lie beyond the value that it was rounded from
+                min(ranges[name][0], *(float(np.float16(c.min())) for c in channels)),
+                max(ranges[name][1], *(float(np.float16(c.max())) for c in channels)),
             ]
         rows.append(row)
         horizontal = frame.choppiness * float(np.max(np.hypot(frame.displace_x, frame.displace_y)))
@@ -102,20 +107,44 @@ def _header(job: Job) -> dict[str, Any]:
 
 
 def _claim(folder: Path, job: Job, overwrite: bool) -> None:
-    """Mark the folder as this job's, before the first frame; refuse another job's, naming the keys that differ."""
+    """
+    Mark the folder as this job's, before the first frame; refuse another job's, naming the keys that differ.
+
+    The manifest goes first of all: from then on the folder is no finished bake, whatever happens.
+    """
     header, path = _header(job), folder / JOB_FILE
-    if path.exists() and not overwrite:
-        before = read_json(path)
-        old, new = before.get("job", {}) if isinstance(before, dict) else {}, header["job"]
-        differing = sorted(key for key in {*old, *new} if old.get(key) != new.get(key))
-        if differing:
-            changes = "; ".join(f"{key}: {old.get(key, 'not set')} there, {new.get(key, 'not set')} here" for key in differing[:6])
-            raise OutputError(f"{folder} holds the bake of another job ({changes:.400}); choose another folder, or --overwrite")
-    for name in MAPS if overwrite else ():
-        for stale in (folder / name).glob("[0-9]*.exr"):
-            stale.unlink()
-    (folder / MANIFEST_FILE).unlink(missing_ok=True)
+    if not overwrite:
+        _require_same_job(folder, header["job"])
+    remove(folder / MANIFEST_FILE)
+    rooms = [folder / name for name in MAPS if not (folder / name).is_symlink()]  # nothing is removed through a link
+    for room in (folder, *rooms):
+        for torn in room.glob(".*.[0-9]*.tmp"):  # of a process that was killed while it wrote
+            remove(torn)
+    for room in rooms if overwrite else ():
+        for stale in room.glob("[0-9]*.exr"):
+            remove(stale)
     write_whole(path, as_json(header))
+
+
+def _require_same_job(folder: Path, new: dict[str, Any]) -> None:
+    """
+    Refuse a folder that holds anything but a bake of this job.
+
+    Raises:
+        OutputError: another job is marked there, or none and yet files that this one would replace.
+    """
+    if not os.path.lexists(folder / JOB_FILE):
+        for name in (MANIFEST_FILE, PREVIEW_FILE):
+            if os.path.lexists(folder / name):
+                raise OutputError(f"{folder} holds a {name} and is no bake, for want of {JOB_FILE}; choose another folder, or --overwrite")
+        return
+    before = read_json(folder / JOB_FILE)
+    old = before.get("job") if isinstance(before, dict) else None
+    old = old if isinstance(old, dict) else {}
+    differing = sorted(key for key in {*old, *new} if old.get(key) != new.get(key))
+    if differing:
+        changes = "; ".join(f"{key}: {old.get(key, 'not set')} there, {new.get(key, 'not set')} here" for key in differing[:6])
+        raise OutputError(f"{folder} holds the bake of another job ({changes:.400}); choose another folder, or --overwrite")
 
 
 def _tile(ocean: Ocean) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from typing import Any
 
 from fftocean.errors import OutputError
 
+MAX_JSON = 4 * 2**20  # what a job of the largest file can come to, several times over
+
 
 def write_whole(path: Path, data: bytes) -> str:
     """
@@ -19,8 +21,8 @@ def write_whole(path: Path, data: bytes) -> str:
     """
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:
-        descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o666)
-        try:
+        try:  # from before it is there: a signal may come between any two lines
+            descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o666)
             with open(descriptor, "wb", buffering=0) as file:  # noqa: PTH123 - a descriptor, not a path
                 view = memoryview(data)
                 while view:
@@ -51,6 +53,19 @@ def make_folder(path: Path) -> None:
         raise OutputError(f"{path} must be a folder of its own, and is a link to {path.resolve()}")
 
 
+def remove(path: Path) -> None:
+    """
+    Remove a file, or a link and not what it leads to, where there is one.
+
+    Raises:
+        OutputError: it is there and cannot be removed.
+    """
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        raise OutputError(f"{path} could not be removed: {error.strerror or error}") from error
+
+
 def as_json(tree: Any) -> bytes:
     """Readable JSON, the same bytes for the same tree; no NaN and no Infinity, which are not JSON."""
     return (json.dumps(tree, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
@@ -61,9 +76,15 @@ def read_json(path: Path) -> Any:
     Read a JSON file.
 
     Raises:
-        OutputError: it is there and cannot be read as JSON.
+        OutputError: it is there and cannot be read as JSON, or is larger than any of ours.
     """
+    if not path.is_file():
+        raise OutputError(f"{path} must be a file, and is not")
     try:
-        return json.loads(path.read_bytes())
-    except (OSError, ValueError) as error:
+        with path.open("rb") as file:
+            data = file.read(MAX_JSON + 1)
+        if len(data) > MAX_JSON:
+            raise ValueError(f"more than {MAX_JSON} bytes")
+        return json.loads(data)
+    except (OSError, ValueError, RecursionError) as error:
         raise OutputError(f"{path} cannot be read: {error!s:.120}") from None

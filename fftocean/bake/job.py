@@ -4,33 +4,24 @@ import json
 import math
 import tomllib
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from fftocean.bake.parameters import BY_KEY, PARAMETERS, WIND, Parameter
-from fftocean.errors import JobError, ParameterError
-from fftocean.limits import (
-    DEPTH,
-    DIRECTION,
-    FETCH,
-    FRACTION,
-    PEAK_ENHANCEMENT,
-    PERIOD,
-    SIGNIFICANT_WAVE_HEIGHT,
-    SPREADING_EXPONENT,
-    WIND_SPEED,
-)
+from fftocean.bake.systems import systems_of, unknown_key
+from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea, WaveSystem
-from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, PiersonMoskowitz, TabulatedSpectrum
-from fftocean.physics.spreading import Blend, CosinePower, CosineSquared, DonelanBanner, Spreading
+from fftocean.physics.spectra import JONSWAP, TMA
+from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner
 
-Made = TypeVar("Made")
+_KNOWN = (*BY_KEY, "sea.systems")
 MAX_BYTES = 64 * 1024
 MAX_LINE = 2048  # the standard parser takes time quadratic in the length of a dotted key
+MAX_SYSTEMS = 64  # the finest partitions of measured seas have 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +53,9 @@ class Job:
             JobError: it cannot be read, is too large, is not UTF-8 or not TOML, or holds a key or value that it may not.
         """
         path = Path(path)
-        if not path.is_file():
-            raise JobError(f"{path} must be a TOML file, and is {'a folder or device' if path.exists() else 'not there'}")
         try:
+            if not path.is_file():
+                raise JobError(f"{path} must be a TOML file, and is {'a folder or device' if path.exists() else 'not there'}")
             with path.open("rb") as file:
                 data = file.read(MAX_BYTES + 1)
         except OSError as error:
@@ -81,7 +72,7 @@ class Job:
         """Parse a job; see `read` for what is refused."""
         if len(text) > MAX_BYTES:
             raise JobError(f"{source} must have at most {MAX_BYTES} bytes, got {len(text)}")
-        for number, line in enumerate(text.splitlines(), 1):
+        for number, line in enumerate(text.split("\n"), 1):  # as TOML has them: `splitlines` would break a key at U+2028
             if len(line) > MAX_LINE:
                 raise JobError(f"{source}, line {number}: a line must have at most {MAX_LINE} characters, got {len(line)}")
         try:
@@ -101,14 +92,14 @@ class Job:
             if key == "sea.systems":
                 if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
                     raise JobError(f"{source}: sea.systems must be tables, written [[sea.systems]], got {value!r:.60}")
+                if len(value) > MAX_SYSTEMS:
+                    raise JobError(f"{source}: sea.systems must be at most {MAX_SYSTEMS} tables, got {len(value)}")
                 systems = tuple(value)
             elif key in BY_KEY:
                 given[key] = BY_KEY[key].check(value)
             else:
-                raise JobError(f"{source}: {_unknown(key, [*BY_KEY, 'sea.systems'])}")
-        wind = not systems or any(p.key in given for p in WIND)
-        if systems and wind and "sea.wind.speed" not in given:
-            raise JobError(f"{source}: sea.wind.speed must be given where other keys of sea.wind are and sea.systems too")
+                raise JobError(f"{source}: {unknown_key(key, _KNOWN)}")
+        wind = not systems or _brings_wind(given, source)
         job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # said once, when it is used
@@ -117,29 +108,33 @@ class Job:
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":
         """
-        Return the job with some keys changed; a key of sea.wind brings in a wind sea where there is none.
+        Return the job with some keys changed; sea.wind.speed brings in a wind sea where there is none.
 
         Raises:
-            JobError: an unknown key, or a value that it may not have.
+            JobError: an unknown key, a value that it may not have, or another key of sea.wind where there is no wind sea.
         """
         for key in changes:
+            if key == "sea.systems":
+                raise JobError("sea.systems must be given in a job file, as [[sea.systems]]")
             if key not in BY_KEY:
-                raise JobError(_unknown(key, BY_KEY))
+                raise JobError(unknown_key(key, BY_KEY))
         settings = {**self.settings, **{key: BY_KEY[key].check(value) for key, value in changes.items()}}
-        return Job(settings, self.wind or any(p.key in changes for p in WIND), self.systems, self.source)
+        return Job(settings, self.wind or _brings_wind(changes, self.source), self.systems, self.source)
 
     def sea(self) -> Sea:
         """The sea that is ordered."""
         s, depth = self.settings, self.settings["sea.depth"]
-        waves = []
+        waves: list[WaveSystem] = []
         try:
             if self.wind:
                 deep = JONSWAP.from_wind(speed=s["sea.wind.speed"], fetch=s["sea.wind.fetch"], gamma=s["sea.wind.gamma"])
                 spreading = Blend(DonelanBanner(), CosineSquared(), weight=s["sea.wind.blend"])
                 waves.append(WaveSystem(spectrum=TMA(deep, depth), spreading=spreading, direction=s["sea.wind.direction"]))
-            waves += [_system(f"sea.systems[{i}]", table, depth) for i, table in enumerate(self.systems)]
+            folder = Path(self.source).parent  # of the job file, where measured files are looked for; here, for a job without one
+            for i, table in enumerate(self.systems):
+                waves += systems_of(f"sea.systems[{i}]", table, depth=depth, tension=s["sea.surface_tension"], folder=folder)
             return Sea(*waves, depth=depth, surface_tension=s["sea.surface_tension"])
-        except JobError:
+        except (JobError, ReaderError):
             raise
         except ParameterError as error:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
@@ -157,7 +152,7 @@ class Job:
                 choppiness=s["ocean.choppiness"],
                 amplitudes=s["ocean.amplitudes"],
             )
-        except JobError:
+        except (JobError, ReaderError):
             raise
         except ParameterError as error:
             raise JobError(f"{self.source}: ocean: {error}") from None
@@ -181,98 +176,24 @@ class Job:
         return tree
 
 
-_SPREADINGS: dict[str, tuple[dict[str, Any], Callable[..., Spreading]]] = {
-    "cosine-squared": ({}, CosineSquared),
-    "cosine-power": ({"s": SPREADING_EXPONENT}, CosinePower),
-    "donelan-banner": ({}, DonelanBanner),
-    "blend": ({"weight": FRACTION}, lambda weight=0.5: Blend(DonelanBanner(), CosineSquared(), weight=weight)),
-}
-_STATE, _WIND = {"hs": SIGNIFICANT_WAVE_HEIGHT, "tp": PERIOD}, {"speed": WIND_SPEED, "fetch": FETCH}
-_GAMMA = {"gamma": PEAK_ENHANCEMENT}
-
-
-def _system(key: str, table: Mapping[str, Any], depth: float) -> WaveSystem:
-    """Make one wave system of a [[sea.systems]] table."""
-    for name in table:
-        if name not in ("spectrum", "spreading", "direction"):
-            raise JobError(_unknown(f"{key}.{name}", [f"{key}.{n}" for n in ("spectrum", "spreading", "direction")]))
-    if "spectrum" not in table:
-        raise JobError(f"{key}.spectrum must be given, such as {{ kind = 'jonswap', hs = 1.5, tp = 14.0 }}")
-    try:
-        direction = DIRECTION.check(f"{key}.direction", table.get("direction", 0.0))
-        spreading = _spreading(f"{key}.spreading", table.get("spreading", {"kind": "blend"}))
-        return WaveSystem(spectrum=_spectrum(f"{key}.spectrum", table["spectrum"], depth), spreading=spreading, direction=direction)
-    except JobError:
-        raise
-    except ParameterError as error:
-        raise JobError(str(error)) from None
-
-
-def _spectrum(key: str, table: Any, depth: float) -> FrequencySpectrum:
-    """Make a spectrum of an inline table: its `kind`, and either hs and tp, or a wind, or a list of measured densities."""
-    kind, values = _kind(key, table, ("jonswap", "tma", "pierson-moskowitz", "tabulated"))
-    ways: dict[str, list[tuple[dict[str, Any], Callable[..., FrequencySpectrum]]]] = {
-        "jonswap": [({**_STATE, **_GAMMA}, JONSWAP.from_sea_state), ({**_WIND, **_GAMMA}, JONSWAP.from_wind)],
-        "tma": [
-            ({**_STATE, **_GAMMA}, lambda **v: TMA.from_sea_state(depth=DEPTH.check("sea.depth", depth), **v)),
-            ({**_WIND, **_GAMMA}, lambda **v: TMA(JONSWAP.from_wind(**v), depth)),
-        ],
-        "pierson-moskowitz": [(_STATE, PiersonMoskowitz.from_sea_state), ({"speed": WIND_SPEED}, PiersonMoskowitz.from_wind)],
-        "tabulated": [({"frequency": None, "density": None}, TabulatedSpectrum)],
-    }
-    for rules, make in ways[kind]:
-        required = [name for name in rules if name != "gamma"]
-        if set(required) <= set(values) <= set(rules):
-            return _make(key, make, rules, values)
-    accepted = " or ".join("{" + ", ".join(rules) + "}" for rules, _ in ways[kind])
-    raise JobError(f"{key} of kind {kind!r} must have the keys {accepted}, got {{{', '.join(map(str, values))}}}")
-
-
-def _spreading(key: str, table: Any) -> Spreading:
-    """Make a spreading of an inline table."""
-    kind, values = _kind(key, table, tuple(_SPREADINGS))
-    rules, make = _SPREADINGS[kind]
-    if not set(values) <= set(rules) or (kind == "cosine-power" and not values):
-        raise JobError(f"{key} of kind {kind!r} must have the keys {{{', '.join(rules)}}}, got {{{', '.join(map(str, values))}}}")
-    return _make(key, make, rules, values)
-
-
-def _kind(key: str, table: Any, kinds: tuple[str, ...]) -> tuple[str, dict[str, Any]]:
-    """Split an inline table in its kind and the rest."""
-    if not isinstance(table, dict) or table.get("kind") not in kinds:
-        got = table.get("kind") if isinstance(table, dict) else table
-        raise JobError(f"{key} must be a table whose kind is one of {', '.join(kinds)}, got {got!r:.60}")
-    return str(table["kind"]), {k: v for k, v in table.items() if k != "kind"}
-
-
-def _make(key: str, make: Callable[..., Made], rules: Mapping[str, Any], values: Mapping[str, Any]) -> Made:
-    """Check each value under its full name, then build."""
-    checked = {name: value if rules[name] is None else rules[name].check(f"{key}.{name}", value) for name, value in values.items()}
-    try:
-        return make(**checked)
-    except ParameterError as error:
-        raise JobError(f"{key}: {error}") from None
+def _brings_wind(given: Mapping[str, Any], source: str) -> bool:
+    """Whether keys of sea.wind ask for a wind sea beside sea.systems; the wind's speed has no default there."""
+    keys = [p.key for p in WIND if p.key in given]
+    if keys and "sea.wind.speed" not in given:
+        raise JobError(f"{source}: sea.wind.speed must be given where {keys[0]} is, as sea.systems alone have no wind")
+    return bool(keys)
 
 
 def _flatten(tree: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
     """Walk a parsed TOML tree as dotted keys."""
     for name, value in tree.items():
         key = f"{prefix}{name}"
-        if isinstance(value, dict) and key not in BY_KEY:
-            if not any(known.startswith(key + ".") for known in [*BY_KEY, "sea.systems"]):
-                raise JobError(_unknown(key, BY_KEY))
+        if isinstance(value, dict) and key not in _KNOWN:
+            if not any(known.startswith(key + ".") for known in _KNOWN):
+                raise JobError(unknown_key(key, _KNOWN))
             yield from _flatten(value, key + ".")
         else:
             yield key, value
-
-
-def _unknown(key: str, known: Iterable[str]) -> str:
-    """Say that a key is unknown, and which one may have been meant."""
-    import difflib
-
-    close = difflib.get_close_matches(key, list(known), n=1, cutoff=0.5)
-    hint = f"; did you mean {close[0]}?" if close else f"; known are {', '.join(known)}"
-    return f"unknown key {key!r:.80}{hint}"
 
 
 def parse_setting(text: str) -> tuple[str, Any]:
@@ -293,9 +214,11 @@ def parse_value(text: str) -> Any:
     if len(text) <= MAX_LINE:
         for attempt in (text, f"[{text}]"):
             try:
-                return tomllib.loads(f"v = {attempt}")["v"]
-            except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+                tree = tomllib.loads(f"v = {attempt}")
+            except (RecursionError, ValueError):
                 continue
+            if len(tree) == 1:  # and not a value and further lines
+                return tree["v"]
     return [part.strip() for part in text.split(",")] if "," in text else text
 
 

@@ -21,7 +21,7 @@ SUN = np.array([-0.24, 0.90, 0.36]) / math.sqrt(0.24**2 + 0.90**2 + 0.36**2)
 
 def contact_sheet(ocean: Ocean, frames: int, caption: str) -> bytes:
     """
-    Draw a PNG: frame 0 in perspective, tiled to the horizon, above twelve frames of the loop from above, north up.
+    Draw a PNG: frame 0 in perspective, tiled to the horizon, above up to twelve frames of the loop from above, north up.
 
     Args:
         ocean: what was baked.
@@ -31,7 +31,8 @@ def contact_sheet(ocean: Ocean, frames: int, caption: str) -> bytes:
     from PIL import Image, ImageDraw, ImageFont
 
     fields = ("height", "displace_x", "displace_y", "normal")
-    shown = [round(i * frames / (2 * COLUMNS)) % frames for i in range(min(2 * COLUMNS, frames))]
+    pictures = min(2 * COLUMNS, frames)
+    shown = [i * frames // pictures for i in range(pictures)]
     gap = (WIDTH - COLUMNS * THUMBNAIL) // (COLUMNS + 1)
     rows = math.ceil(len(shown) / COLUMNS)
     sheet = Image.new("RGB", (WIDTH, VIEW_HEIGHT + 40 + rows * (THUMBNAIL + 26) + 8), (16, 20, 24))
@@ -108,7 +109,8 @@ def _water(normal: Real, view: Real, height: Real, scale: float) -> Picture:
     glint = (2.2 * sparkle**220 + 0.10 * sparkle**18)[..., None] * np.array([1.0, 0.93, 0.78])
     lift = np.clip(0.45 + 0.42 * height / scale, 0.0, 1.0)[..., None]
     body = (DEEP * (1.0 - lift) + SHALLOW * lift) * (0.55 + 0.75 * np.clip(np.sum(normal * SUN, axis=-1), 0.0, 1.0))[..., None]
-    return (1.0 - fresnel) * body + fresnel * _sky(np.maximum(mirror[..., 2], 0.0)) + glint * (0.25 + fresnel)
+    light: Picture = (1.0 - fresnel) * body + fresnel * _sky(np.maximum(mirror[..., 2], 0.0)) + glint * (0.25 + fresnel)
+    return light
 
 
 def _sky(elevation: Real) -> Picture:

@@ -29,7 +29,7 @@ def encode_half(red: Real, green: Real, blue: Real) -> bytes:
     for name, values in (("R", red), ("G", green), ("B", blue)):
         extreme = float(np.max(np.abs(values), initial=0.0))
         if not extreme <= HALF_MAX:
-            raise OutputError(f"a half-float channel must stay within +-{HALF_MAX:g}, got {extreme:g}")
+            raise OutputError(f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, got {extreme:g}")
         # OpenEXR writes wrong pixels from any array that is not C-contiguous, and does not say so
         channels[name] = np.ascontiguousarray(values[::-1], dtype=np.float16)
     header = {

@@ -1,0 +1,86 @@
+"""D(omega, theta) from a table: how measured directions spread."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fftocean.arrays import Real, RealLike
+from fftocean.errors import ParameterError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TabulatedSpreading:
+    """
+    Measured spreading: straight lines between the points of a table, in frequency and round the circle.
+
+    Each row is normalised to integrate to 1 along its straight lines; then so does every frequency between two rows. A row without
+    any energy says nothing about directions and takes the nearest row's that has some; so do frequencies outside the table.
+    """
+
+    frequency: Sequence[float]  # f [Hz], strictly ascending, > 0
+    direction: Sequence[float]  # from the system's direction, counter-clockwise [degrees], in any order, no angle twice
+    density: Sequence[Sequence[float]] = field(repr=False)  # (frequency, direction), any unit, >= 0
+    _f: Real = field(init=False, repr=False, compare=False)
+    _theta: Real = field(init=False, repr=False, compare=False)  # ascending [rad], the first again a turn later
+    _d: Real = field(init=False, repr=False, compare=False)  # (f, theta) [1/rad]
+
+    def __post_init__(self) -> None:
+        f, angle, table = (_numbers(name, getattr(self, name)) for name in ("frequency", "direction", "density"))
+        if f.ndim != 1 or f.size < 2 or not (f[0] > 0.0 and np.all(np.diff(f) > 0.0)):
+            raise ParameterError(f"frequency must be at least 2 positive numbers, strictly ascending [Hz], got {self.frequency!r:.60}")
+        if angle.ndim != 1 or angle.size < 3:
+            raise ParameterError(f"direction must be at least 3 angles [degrees], got {self.direction!r:.60}")
+        if table.shape != (f.size, angle.size):
+            raise ParameterError(f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}")
+        if np.any(table < 0.0):
+            raise ParameterError(f"density must be at least 0, got {table[table < 0.0][0]}")
+        order = np.argsort(np.mod(angle, 360.0))
+        turned = np.mod(angle, 360.0)[order]
+        if np.any(np.diff(turned, append=turned[0] + 360.0) <= 0.0):
+            raise ParameterError(f"direction must hold each angle once (0 and 360 degrees are one), got {self.direction!r:.60}")
+        filled = np.flatnonzero(np.any(table > 0.0, axis=1))
+        if not filled.size:
+            raise ParameterError("density must be more than 0 somewhere, got 0 everywhere")
+        nearest = filled[np.argmin(np.abs(f[:, None] - f[filled]), axis=1)]
+        d = table[nearest][:, order]
+        d = d / d.max(axis=1, keepdims=True)  # no table is too large or small to be summed
+        d /= np.radians(d @ bin_widths(turned))[:, None]
+        object.__setattr__(self, "frequency", tuple(f.tolist()))
+        object.__setattr__(self, "direction", tuple(angle.tolist()))
+        object.__setattr__(self, "density", tuple(map(tuple, table.tolist())))
+        object.__setattr__(self, "_f", f)
+        object.__setattr__(self, "_theta", np.radians(np.append(turned, turned[0] + 360.0)))
+        object.__setattr__(self, "_d", np.concatenate([d, d[:, :1]], axis=1))
+
+    def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
+        """D at `omega` and `theta`, which broadcast, [1/rad]."""
+        f, angle = np.broadcast_arrays(np.asarray(omega, dtype=np.float64) / (2.0 * np.pi), np.asarray(theta, dtype=np.float64))
+        i, u = _between(self._f, f)
+        j, v = _between(self._theta, self._theta[0] + np.mod(angle - self._theta[0], 2.0 * np.pi))
+        low = (1.0 - v) * self._d[i, j] + v * self._d[i, j + 1]
+        high = (1.0 - v) * self._d[i + 1, j] + v * self._d[i + 1, j + 1]
+        return (1.0 - u) * low + u * high
+
+
+def bin_widths(directions: Real) -> Real:
+    """Width of each direction's bin [degrees], half way to its neighbours round the circle; `directions` ascend in [0, 360)."""
+    gaps = np.diff(directions, append=directions[0] + 360.0)
+    return 0.5 * (gaps + np.roll(gaps, 1))
+
+
+def _between(nodes: Real, x: Real) -> tuple[np.typing.NDArray[np.intp], Real]:
+    """The interval of `nodes` that holds x, and how far into it, from 0 to 1; the first and last hold what is outside."""
+    i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
+    return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)
+
+
+def _numbers(name: str, values: object) -> Real:
+    """Finite float64 numbers."""
+    try:
+        array = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"{name} must be numbers, got {values!r:.60}") from error
+    if not np.all(np.isfinite(array)):
+        raise ParameterError(f"{name} must be finite, got {array[~np.isfinite(array)].flat[0]}")
+    return array

@@ -1,0 +1,137 @@
+"""Bytes and lines out of a file that may be broken, huge or hostile: every read is bounded, every failure is a `ReaderError`."""
+
+import gzip
+import io
+import re
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Final, cast
+
+from fftocean.errors import ReaderError
+
+MAX_BYTES: Final = 256 * 2**20
+"""The most that is read of a text file or unpacked from a .gz: forty years of one buoy, a nested SWAN boundary."""
+
+MAX_LINE: Final = 2**20
+"""The longest line: 65 000 directions of a SWAN row."""
+
+_GZIP = b"\x1f\x8b"
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
+
+
+@contextmanager
+def refusing(name: str) -> Iterator[None]:
+    """Turn what the operating system and the unpacker say about a file into a `ReaderError` that names it."""
+    try:
+        yield
+    except (OSError, EOFError, zlib.error) as error:
+        raise ReaderError(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from error
+
+
+def require_file(path: Path) -> None:
+    """
+    Let a regular file through.
+
+    Raises:
+        ReaderError: nothing is there, or a directory, a device, a pipe, an empty file.
+    """
+    with refusing(path.name or str(path)):
+        if "\0" in str(path) or not path.exists():
+            raise ReaderError(f"the spectrum must be a file that exists, got {str(path)!r}")
+        if not path.is_file():
+            raise ReaderError(f"the spectrum must be a regular file, got {str(path)!r} ({'a directory' if path.is_dir() else 'a device'})")
+        if path.stat().st_size == 0:
+            raise ReaderError(f"{path.name} is empty")
+
+
+@contextmanager
+def unpacked(path: Path) -> Iterator[IO[bytes]]:
+    """The file's bytes as a stream, through gzip where they begin as gzip does (the name is not asked)."""
+    with refusing(path.name), path.open("rb") as raw:
+        if raw.read(2) == _GZIP:
+            raw.seek(0)
+            with gzip.GzipFile(fileobj=raw) as stream:
+                yield cast(IO[bytes], stream)
+        else:
+            raw.seek(0)
+            yield raw
+
+
+def is_packed(path: Path) -> bool:
+    """Whether a file is gzip."""
+    with refusing(path.name), path.open("rb") as raw:
+        return raw.read(2) == _GZIP
+
+
+def head(path: Path, count: int = 4096) -> bytes:
+    """The first `count` bytes, unpacked."""
+    with unpacked(path) as stream:
+        return stream.read(count)
+
+
+def contents(path: Path) -> io.BytesIO:
+    """
+    All bytes, unpacked into memory.
+
+    Raises:
+        ReaderError: more than `MAX_BYTES`; no more than that is ever unpacked.
+    """
+    with unpacked(path) as stream:
+        data = stream.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise ReaderError(f"{path.name} must unpack to at most {MAX_BYTES >> 20} MiB, got more")
+    return io.BytesIO(data)
+
+
+def lines(path: Path) -> Iterator[tuple[str, str]]:
+    """
+    The lines of a text file, each with its place in words (`buoy.txt: line 3`) for the error that may name it.
+
+    Raises:
+        ReaderError: a line longer than `MAX_LINE`, more than `MAX_BYTES` in all, text that is not UTF-8, an empty line
+            before the last, or a last line without its end: the mark of a file that was cut.
+    """
+    read, number, empty = 0, 0, ""
+    with unpacked(path) as stream:
+        while raw := stream.readline(MAX_LINE + 1):
+            number += 1
+            read += len(raw)
+            where = f"{path.name}: line {number}"
+            if len(raw) > MAX_LINE:
+                raise ReaderError(f"{where} must be at most {MAX_LINE} bytes long, got more")
+            if read > MAX_BYTES:
+                raise ReaderError(f"{where}: a text file must be at most {MAX_BYTES >> 20} MiB, got more")
+            if not raw.endswith(b"\n"):
+                raise ReaderError(f"{where} has no end: the file is cut short (if it is whole, end it with a newline)")
+            try:
+                text = raw.decode("utf-8").strip()
+            except UnicodeDecodeError as error:
+                raise ReaderError(f"{where} must be UTF-8 text, got the byte {raw[error.start]:#04x} at {error.start}") from error
+            if empty:
+                raise ReaderError(f"{empty} is empty")
+            if text:
+                yield where, text
+            else:
+                empty = where
+
+
+def number(where: str, token: str) -> float:
+    """
+    A plain decimal number. (`float` itself would also take `nan`, `1_0` and digits of every script.)
+
+    Raises:
+        ReaderError: anything else, naming the place.
+    """
+    if not _NUMBER.fullmatch(token):
+        raise ReaderError(f"{where} must hold a number here, got {token!r:.40}")
+    return float(token)
+
+
+def count(where: str, line: str, most: int) -> int:
+    """The whole number at the head of a line, from 1 to `most`."""
+    token = line.split()[0]
+    if not re.fullmatch(r"[0-9]{1,9}", token) or not 1 <= int(token) <= most:
+        raise ReaderError(f"{where} must begin with a whole number between 1 and {most}, got {token!r:.40}")
+    return int(token)

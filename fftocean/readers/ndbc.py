@@ -1,0 +1,240 @@
+"""
+The text files of the US National Data Buoy Center: the last 45 days ("realtime") and the yearly archive ("historical").
+
+Realtime: a set of five, `.data_spec` with S(f) and `.swdir .swdir2 .swr1 .swr2` with the mean directions a1, a2 and the
+coherences r1, r2 of D = (1/pi)(1/2 + r1 cos(theta - a1) + r2 cos 2(theta - a2)), directions FROM, clockwise from north. That
+series, cut after two terms, goes negative; here its two moments are unfolded by maximum entropy instead (`entropy.py`).
+Historical: S(f) alone.
+
+Source: NDBC, Measurement Descriptions and Units; Earle, NDBC Technical Document 96-01 (1996).
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from fftocean.arrays import Complex, Integer, Real
+from fftocean.errors import ReaderError
+from fftocean.readers import files, layout
+from fftocean.readers.entropy import maximum_entropy
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+
+@dataclass(frozen=True, slots=True)
+class _Column:
+    """What one file of a set holds: how its header calls it, what may stand in it, and which numbers mean "missing"."""
+
+    word: str
+    unit: str
+    high: float
+    fills: tuple[float, ...]
+
+
+# 99 is a direction like any other, but no coherence, and as a density to the last decimal it is a fill value, not a storm.
+_KINDS: Final = {
+    ".data_spec": _Column("spec_1", "m2/Hz", 360.0 * layout.LARGEST, (99.0, 999.0, 9999.0)),
+    ".swdir": _Column("alpha1_1", "degrees", 360.0, (999.0, 9999.0)),
+    ".swdir2": _Column("alpha2_1", "degrees", 360.0, (999.0, 9999.0)),
+    ".swr1": _Column("r1_1", "", 1.1, (99.0, 999.0, 9999.0)),  # beyond 1 by noise; `entropy` draws it in
+    ".swr2": _Column("r2_1", "", 1.1, (99.0, 999.0, 9999.0)),
+}
+_DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re.DOTALL)
+_CHUNK: Final = 64  # records unfolded at a time: what they take stays in the cache
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """The records of one file, by time."""
+
+    name: str
+    frequency: Real  # (f,) as in the file [Hz]
+    time: Integer  # (t,) ascending, seconds since 1970
+    values: Real  # (t, f), NaN where missing
+    repeated: int  # records of a time that had been seen, left out
+
+
+def recognises(first_line: str) -> bool:
+    """Whether a text file that begins with this line is NDBC's."""
+    return _DATE.match(first_line) is not None
+
+
+def read(path: Path, *, bins: int) -> "Dataset":
+    """
+    Read a realtime set, given by its `.data_spec`, or a historical S(f) file.
+
+    Args:
+        path: the file; a set's other four are looked for beside it, plain or as .gz.
+        bins: directions round the compass into which the moments are unfolded.
+
+    Raises:
+        ReaderError: a file of another kind, a set with a file missing, or broken lines.
+    """
+    _, header = next(files.lines(path))
+    realtime = any(column.word in header for column in _KINDS.values())
+    if not realtime:
+        return _read_historical(path)
+    stem = path.name.removesuffix(".gz").rpartition(".")[0] or path.name
+    spectrum = _table(path, _KINDS[".data_spec"], hint=f"; open {stem}.data_spec, the others are found beside it")
+    beside = {suffix: _sibling(path, stem + suffix) for suffix in list(_KINDS)[1:]}
+    there = [suffix for suffix, other in beside.items() if other]
+    if not there:
+        return _undirected(spectrum, "NDBC realtime text, without directions")
+    if len(there) < len(beside):
+        absent = ", ".join(stem + suffix for suffix in beside if suffix not in there)
+        raise ReaderError(f"{path.name} must have all four files of directions beside it, or none; missing: {absent}")
+    moments = [_table(other, _KINDS[suffix]) for suffix, other in beside.items() if other]
+    return _directed(spectrum, moments, bins)
+
+
+def _sibling(path: Path, name: str) -> Path | None:
+    return next((p for p in (path.with_name(name), path.with_name(name + ".gz")) if p.is_file()), None)
+
+
+def _read_historical(path: Path) -> "Dataset":
+    if re.match(r"[0-9a-z]{5}[dijk][0-9]", path.name.lower()):
+        raise ReaderError(f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds directions or coherences")
+    return _undirected(_table(path, _KINDS[".data_spec"]), "NDBC historical text")
+
+
+def _undirected(table: _Table, source_format: str) -> "Dataset":
+    where = f"{table.name}: the header"
+    frequency, order = layout.frequencies(where, table.frequency)
+    density, counts = layout.densities(table.name, table.values[:, order], "m2/Hz")
+    return layout.dataset(
+        source=table.name,
+        source_format=source_format,
+        frequency=frequency,
+        density=density,
+        time=_datetimes(table.time),
+        notes={**counts, "repeated_times": table.repeated, "sites": 1},
+    )
+
+
+def _directed(spectrum: _Table, moments: list[_Table], bins: int) -> "Dataset":
+    frequency, order = layout.frequencies(f"{spectrum.name}: the frequencies", spectrum.frequency)
+    for table in moments:
+        if not np.array_equal(table.frequency, spectrum.frequency):
+            raise ReaderError(f"{table.name} must have the frequencies of {spectrum.name}, got others")
+    time = spectrum.time
+    for table in moments:
+        time = np.intersect1d(time, table.time)
+    if not time.size:
+        raise ReaderError(f"{spectrum.name} and the files beside it must have records of the same times, got none")
+    s, a1, a2, r1, r2 = (table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments))
+    s, counts = layout.densities(spectrum.name, s, "m2/Hz")
+    c1, c2 = _moment(r1, a1, 1), _moment(r2, a2, 2)
+    density = np.empty((*s.shape, bins))
+    limited = 0
+    for i in range(0, time.size, _CHUNK):
+        piece = slice(i, i + _CHUNK)
+        unfolded = maximum_entropy(c1[piece], c2[piece], bins)
+        density[piece] = s[piece, :, None] * unfolded.share * (bins / 360.0)
+        limited += int(np.count_nonzero(unfolded.limited & (s[piece] > 0.0)))
+    return layout.dataset(
+        source=spectrum.name,
+        source_format="NDBC realtime text",
+        frequency=frequency,
+        density=density,
+        direction=360.0 / bins * np.arange(bins),
+        time=_datetimes(time),
+        notes={
+            **counts,
+            "masked_moments": sum(int(np.count_nonzero(np.isnan(values))) for values in (a1, a2, r1, r2)),
+            "undirected_densities": int(np.count_nonzero(np.isnan(c1) & (s > 0.0))),  # energy shared out evenly, for want of a1 or r1
+            "limited_moments": limited,
+            "repeated_times": spectrum.repeated,
+            "unpaired_times": spectrum.time.size - time.size,
+            "directional_method": "maximum entropy (Kobune & Hashimoto 1986)",
+            "sites": 1,
+        },
+    )
+
+
+def _moment(r: Real, a: Real, n: int) -> Complex:
+    """c_n = r_n e^{i n a_n}, of a_n in degrees."""
+    return np.asarray(r * np.exp(1j * n * np.radians(a)), dtype=np.complex128)
+
+
+def _datetimes(seconds: Integer) -> Any:
+    return seconds.astype("datetime64[s]")
+
+
+def _table(path: Path, column: _Column, hint: str = "") -> _Table:
+    """Read one file whole."""
+    rows = files.lines(path)
+    where, header = next(rows)
+    match = _DATE.match(header)
+    if not match:
+        raise ReaderError(f"{where} must be a header (#YY  MM DD hh mm ...), got {header!r:.40}")
+    date_fields = 5 if match[2] else 4
+    realtime = any(c.word in match[3] for c in _KINDS.values())
+    if realtime and column.word not in match[3]:
+        held = next(c.word for c in _KINDS.values() if c.word in match[3])
+        raise ReaderError(f"{where} must announce {column.word}, got {held}{hint}")
+    skip = date_fields + ("Sep_Freq" in match[3])
+    head = None if realtime else [files.number(where, token) for token in match[3].split()]
+    records: dict[int, Real] = {}
+    announced: list[float] = []
+    repeated = 0
+    for where, line in rows:
+        if line.startswith("#"):
+            continue
+        tokens = line.split()
+        seconds = _seconds(where, tokens[:date_fields], date_fields)
+        values, f = (tokens[skip:], head) if head is not None else _pairs(where, tokens[skip:])
+        if records and f != announced:
+            raise ReaderError(f"{where} must have the frequencies of the first record, got others")
+        announced = f
+        if not f or len(values) != len(f):
+            raise ReaderError(f"{where} must hold {len(f)} values after the date, got {len(values)}")
+        numbers = np.fromiter(_values(where, values, column), dtype=np.float64, count=len(values))
+        repeated += seconds in records
+        records.setdefault(seconds, numbers)
+        if len(records) * len(f) > layout.MAX_VALUES:
+            raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
+    if not records:
+        raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
+    times = sorted(records)
+    return _Table(
+        path.name, np.array(announced, dtype=np.float64), np.array(times, dtype=np.int64), np.array([records[t] for t in times]), repeated
+    )
+
+
+def _pairs(where: str, tokens: list[str]) -> tuple[list[str], list[float]]:
+    """Values and frequencies of a realtime record: `0.060 (0.063) 0.218 (0.068) ...`."""
+    bracketed = tokens[1::2]
+    if len(tokens) % 2 or not all(t.startswith("(") and t.endswith(")") for t in bracketed):
+        raise ReaderError(f"{where} must hold pairs like 0.060 (0.063) after the date, got {' '.join(tokens[-2:])!r:.40} last: is it cut?")
+    return tokens[0::2], [files.number(where, token[1:-1]) for token in bracketed]
+
+
+def _values(where: str, tokens: list[str], column: _Column) -> Iterator[float]:
+    for token in tokens:
+        value = np.nan if token == "MM" else files.number(where, token)
+        if value in column.fills:
+            value = np.nan
+        if value < -1e-12 or value > column.high:
+            name, unit = column.word.removesuffix("_1"), f" {column.unit}" if column.unit else ""
+            raise ReaderError(f"{where}: {name} must be between 0 and {column.high:g}{unit}, got {token}")
+        yield value
+
+
+def _seconds(where: str, tokens: list[str], fields: int) -> int:
+    """Seconds since 1970 of a date in whole numbers; two-figure years are those of the last century, as in files up to 1998."""
+    if len(tokens) < fields or not all(re.fullmatch(r"[0-9]{1,4}", t) for t in tokens):
+        raise ReaderError(f"{where} must begin with a date in {fields} whole numbers, got {' '.join(tokens)!r:.40}")
+    year, *rest = (int(t) for t in tokens)
+    try:
+        date = datetime(year + 1900 if year < 100 else year, *rest)  # type: ignore[arg-type]
+    except ValueError as error:
+        raise ReaderError(f"{where} must begin with a date, got {' '.join(tokens)!r} ({error})") from error
+    if not 1900 <= date.year < 2200:
+        raise ReaderError(f"{where} must begin with a date between 1900 and 2200, got {' '.join(tokens)!r}")
+    return int((date - datetime(1970, 1, 1)).total_seconds())

@@ -1,0 +1,408 @@
+"""
+Wave spectra in netCDF: WAVEWATCH III point output, ERA5 2-D wave spectra, the wavespectra package's layout, our own.
+
+What a variable is, its unit and the way its directions point are taken from its attributes. Names alone decide only where a
+format's own documents fix them: ERA5's `d2fd` and the `efth(freq, dir)` of wavespectra. Where two attributes disagree, or the
+one that matters is missing or unknown, the file is refused: a sea turned round by 180 degrees looks perfectly well.
+
+Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data documentation, "Wave spectra".
+"""
+
+import re
+import warnings
+from collections.abc import Hashable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from fftocean.arrays import Real
+from fftocean.errors import ParameterError, ReaderError
+from fftocean.limits import Count
+from fftocean.readers import files, hdf5, layout
+
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
+CLASSIC: Final = (b"CDF\x01", b"CDF\x02")
+
+_AXES: Final = {
+    "freq": ("freq", "frequency", "frequencyNumber", "waveFrequency"),
+    "dir": ("dir", "direction", "directionNumber"),
+    "time": ("time", "valid_time", "waveTime"),
+}
+_STANDARD_AXES: Final = {"freq": r".*frequency", "dir": r".*wave.*direction", "time": r"time"}
+_SPECTRA: Final = {
+    "sea_surface_wave_directional_variance_spectral_density": True,
+    "sea_surface_wave_variance_spectral_density": False,
+}
+_DEGREES: Final = ("deg", "degr", "degree", "degrees")
+_RADIANS: Final = ("rad", "radian", "radians")
+_PER_HERTZ: Final = (("s", 1), ("hz", -1), ("hertz", -1), ("sec", 1))
+
+
+@dataclass(frozen=True, slots=True)
+class _Family:
+    """A netCDF format, and what its documents promise where its attributes are silent."""
+
+    name: str
+    documented: bool  # Hz, degrees (or numbers of bins), and the density's unit need not be said
+    goes_to: bool | None = None  # the documented way of the directions; None: must be said
+    per: str = "degree"  # the documented unit of the density
+    log10: bool = False
+
+
+_ERA5: Final = _Family("ERA5 2-D wave spectra netCDF", documented=True, goes_to=True, per="radian", log10=True)
+_WAVESPECTRA: Final = _Family("wavespectra netCDF", documented=True, goes_to=False)
+_DECLARED: Final = _Family("CF netCDF (WAVEWATCH III)", documented=False)
+
+
+def recognises(magic: bytes) -> bool:
+    """Whether a file that begins with these bytes is netCDF, of a kind that can be read or not."""
+    return magic.startswith((hdf5.MAGIC, b"CDF"))
+
+
+def read(path: Path, *, site: int) -> "Dataset":
+    """
+    Read the spectra of one place.
+
+    Raises:
+        ReaderError: a broken file, one without spectra, or one whose attributes are missing, unknown or at odds.
+        ParameterError: `site` is not in the file.
+    """
+    xr = layout.science()
+    magic = files.head(path, 8)
+    if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
+        raise ReaderError(
+            f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, got CDF version {magic[3]} (convert it with nccopy)"
+        )
+    modern = magic.startswith(hdf5.MAGIC)
+    opened = files.contents(path) if files.is_packed(path) else path
+    with _broken(path.name), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of two fill values, odd calendars: what matters is checked below
+        if modern:
+            hdf5.require_sound(path.name, opened)
+        with xr.open_dataset(opened, engine="h5netcdf" if modern else "scipy", decode_timedelta=False) as raw:
+            return tidy(raw, site=site, source=path.name)
+
+
+@contextmanager
+def _broken(name: str) -> Iterator[None]:
+    """The libraries below raise whatever broken bytes lead them to; here it becomes one error that names the file."""
+    try:
+        yield
+    except ParameterError:
+        raise
+    except ImportError as error:
+        raise layout.missing(error) from error
+    except Exception as error:
+        raise ReaderError(f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}") from error
+
+
+def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str = "the dataset") -> "Dataset":
+    """
+    Put an opened dataset of any known kind into our layout; one that is in it already comes out as it went in.
+
+    Args:
+        raw: as xarray decodes it; dimensions in any order.
+        site: which place, where there are several: the position along all dimensions but time, frequency and direction, in the
+            variable's own order (a grid is counted row by row).
+        time: one time only; all of them where None.
+        source: what to call it in errors.
+
+    Raises:
+        ReaderError: see the head of this file.
+        ParameterError: `site` or `time` is not in the dataset.
+    """
+    if not hasattr(raw, "data_vars"):
+        raise ReaderError(f"{source} must be an xarray.Dataset, got {type(raw).__name__}")
+    spectrum, directional = _spectrum(raw, source)
+    where = f"{source}: variable {spectrum.name}"
+    if {"scale_factor", "add_offset", "_FillValue"} & spectrum.attrs.keys():
+        raise ReaderError(f"{where} must be decoded, got it packed (open it with mask_and_scale=True)")
+    axes = _axes(raw, spectrum)
+    if "freq" not in axes:
+        raise ReaderError(f"{where} must have a frequency dimension, got {tuple(spectrum.dims)}")
+    family = _family(spectrum, axes)
+    if "dir" in axes and family is _WAVESPECTRA and spectrum.sizes[axes["dir"]] == 1:
+        spectrum = spectrum.isel({axes.pop("dir"): 0})  # how wavespectra holds a buoy without directions
+        directional = False
+    if directional is None:
+        directional = "dir" in axes
+    if directional and "dir" not in axes:
+        raise ReaderError(f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}")
+
+    picked, notes = _pick(where, spectrum, axes, site=site, time=time)
+    spectrum = spectrum.isel(picked)
+    if spectrum.size > layout.MAX_VALUES:
+        raise ReaderError(
+            f"{where} must have at most {layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
+        )
+    order = [axes[role] for role in ("time", "freq", "dir") if role in axes and axes[role] in spectrum.dims]
+    values = _numbers(where, spectrum.transpose(*order))
+    with np.errstate(invalid="ignore"):
+        values[np.abs(values) > layout.FILL] = np.nan
+    if "time" not in axes or axes["time"] not in spectrum.dims:
+        values = values[np.newaxis]
+
+    frequency, f_order = layout.frequencies(*_frequency(raw, axes, family, source))
+    scale = _per_degree(where, spectrum.attrs, family, directional)
+    values = scale * values[:, f_order]
+    direction = None
+    if directional:
+        there, bearing, goes_to = _direction(raw, axes, family, source)
+        if goes_to and family is _WAVESPECTRA and scale == 1.0:
+            # wavespectra's own readers turn directions and densities but leave WAVEWATCH's attributes on `dir` (xarray keeps them
+            # since 2025.11): in its layout, once densities are per degree, directions are FROM, whatever is left over there.
+            goes_to = False
+            notes["direction_note"] = f"{there} says that waves go to there; in this layout they come from there, and so it is taken"
+        if goes_to:
+            bearing = np.mod(bearing, 360.0) + 180.0
+        direction, d_order = layout.directions(there, bearing)
+        values = values[:, :, d_order]
+    if family.log10:
+        values, empty = _from_log10(where, values)
+        notes["below_threshold_values"] = empty
+    density, counts = layout.densities(where, values, "m2/Hz/degree" if directional else "m2/Hz")
+    return layout.dataset(
+        source=source if source != "the dataset" else str(raw.attrs.get("source", source)),
+        source_format=str(raw.attrs.get("source_format", family.name)),
+        frequency=frequency,
+        density=density,
+        direction=direction,
+        time=_times(raw, axes, picked, source),
+        depth=_depth(raw, axes, picked, len(density)),
+        position=_position(raw, picked),
+        notes={**counts, **notes},
+    )
+
+
+def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
+    """The variable with the spectra, and whether it says itself that it has directions."""
+    for name in ("d2fd", "efth", "ef"):
+        if name in raw.data_vars:
+            return raw[name], _SPECTRA.get(str(raw[name].attrs.get("standard_name")))
+    found = [name for name, v in raw.data_vars.items() if v.attrs.get("standard_name") in _SPECTRA]
+    if len(found) != 1:
+        held = ", ".join(str(name) for name in found or raw.data_vars) or "nothing"
+        raise ReaderError(f"{source} must hold one wave spectrum (efth, d2fd, or a variable with its standard_name), got {held:.200}")
+    return raw[found[0]], _SPECTRA[raw[found[0]].attrs["standard_name"]]
+
+
+def _axes(raw: "Dataset", spectrum: "DataArray") -> dict[str, Hashable]:
+    """Which dimension is frequency, direction, time: by name, else by its coordinate's standard name."""
+    axes: dict[str, Hashable] = {}
+    for role, names in _AXES.items():
+        by_name = [d for d in spectrum.dims if d in names]
+        by_word = [d for d in spectrum.dims if d in raw and re.fullmatch(_STANDARD_AXES[role], str(raw[d].attrs.get("standard_name", "")))]
+        for d in (*by_name, *by_word)[:1]:
+            axes[role] = d
+    return axes
+
+
+def _family(spectrum: "DataArray", axes: Mapping[str, Hashable]) -> _Family:
+    if spectrum.name == "d2fd":
+        return _ERA5
+    if spectrum.name in ("efth", "ef") and axes["freq"] == "freq" and axes.get("dir", "dir") == "dir":
+        return _WAVESPECTRA
+    return _DECLARED
+
+
+def _pick(
+    where: str, spectrum: "DataArray", axes: Mapping[str, Hashable], *, site: int, time: int | None
+) -> tuple[dict[Hashable, int], dict[str, Any]]:
+    """The index along each dimension that is not to stay."""
+    others = [d for d in spectrum.dims if d not in axes.values()]
+    shape = tuple(spectrum.sizes[d] for d in others)
+    sites = int(np.prod(shape, dtype=np.int64))
+    if sites < 1:
+        raise ReaderError(f"{where} must hold at least one place, got dimensions {dict(spectrum.sizes)}")
+    site = Count("", 0, sites - 1).check_whole("site", site)
+    picked = dict(zip(others, (int(i) for i in np.unravel_index(site, shape)) if others else (), strict=True))
+    times = spectrum.sizes[axes["time"]] if "time" in axes else 1
+    if times < 1:
+        raise ReaderError(f"{where} must hold at least one time, got none")
+    if time is not None:
+        time = Count("", -times, times - 1).check_whole("time", time) % times
+        if "time" in axes:
+            picked[axes["time"]] = time
+    return picked, {"site": site, "sites": sites}
+
+
+def _numbers(where: str, variable: "DataArray") -> Real:
+    if variable.dtype.kind not in "fiu":
+        raise ReaderError(f"{where} must hold numbers, got {variable.dtype}")
+    return np.array(variable.values, dtype=np.float64)
+
+
+def _coordinate(raw: "Dataset", axes: Mapping[str, Hashable], role: str, source: str) -> tuple[str, "DataArray"]:
+    name = axes[role]
+    if name not in raw.variables or raw[name].dims != (name,):
+        raise ReaderError(f"{source}: dimension {name} must have a coordinate variable along itself, got none")
+    return f"{source}: variable {name}", raw[name]
+
+
+def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real]:
+    """Where the frequencies stand, and they, in Hz."""
+    where, f = _coordinate(raw, axes, "freq", source)
+    values = _numbers(where, f)
+    if family is _ERA5 and (numbers := _bin_numbers(where, values, 30)) is not None:
+        return where, 0.03453 * 1.1 ** (numbers - 1.0)
+    unit = str(f.attrs.get("units", "Hz" if family.documented else "")).replace(" ", "").lower()
+    if unit not in ("hz", "s-1", "s^-1", "s**-1", "1/s", "hertz"):
+        raise ReaderError(f"{where} must have units Hz or s-1, got {f.attrs.get('units')!r}")
+    return where, values
+
+
+def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real, bool]:
+    """Where the directions stand, they, clockwise from north in degrees, and whether waves go there (or come from there)."""
+    where, d = _coordinate(raw, axes, "dir", source)
+    values = _numbers(where, d)
+    if family is _ERA5 and (numbers := _bin_numbers(where, values, 24)) is not None:
+        values = 7.5 + 15.0 * (numbers - 1.0)
+    else:
+        unit = str(d.attrs.get("units", "degree" if family.documented else "")).lower()
+        turn = np.nanmax(np.abs(values), initial=0.0)
+        if unit in _RADIANS:
+            values = np.degrees(values)
+        elif unit.removesuffix("_true") not in _DEGREES:
+            raise ReaderError(f"{where} must have units degree or radian, got {d.attrs.get('units')!r}")
+        elif values.size >= 8 and turn <= 2.0 * np.pi + 1e-3:
+            raise ReaderError(f"{where} must be in degrees, as it says, but spans {turn:.4g} in {values.size} steps: is it in radians?")
+    return where, values, _goes_to(where, d.attrs, family)
+
+
+def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
+    """ERA5's axes where they hold the numbers of bins, 1 to `most`, in place of Hz and degrees: no sea has waves of 1, 2, 3 Hz only."""
+    whole = bool(np.all(values == np.rint(values))) and bool(np.all(np.abs(np.diff(values)) == 1.0))
+    if not whole or values.size < 2:
+        return None
+    if values.min() < 1.0 or values.max() > most:
+        raise ReaderError(f"{where} must hold bin numbers between 1 and {most}, got {values.min():g} to {values.max():g}")
+    return values
+
+
+def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
+    """Whether directions are where waves go TO (true) or come FROM (false)."""
+    said: dict[bool, str] = {}
+    for key in ("standard_name", "long_name", "convention"):
+        text = str(attrs.get(key, ""))
+        words = set(re.split(r"[^a-z]+", re.sub(r"(relative|respect|referred) to", "", text.lower())))
+        if key == "standard_name" and text and "wave" not in words:
+            raise ReaderError(f"{where} must be a wave direction, got standard_name {text!r:.60}")
+        if words & {"to", "toward", "towards"}:
+            said[True] = f"{key} {text!r:.60}"
+        if words & {"from"}:
+            said[False] = f"{key} {text!r:.60}"
+    if len(said) == 2:
+        raise ReaderError(f"{where} must say one way, where waves come from or where they go to, got {said[False]} and {said[True]}")
+    if said:
+        return next(iter(said))
+    if family.goes_to is None:
+        raise ReaderError(
+            f"{where} must say whether waves come from there or go there (standard_name sea_surface_wave_from_direction or _to_direction)"
+        )
+    return family.goes_to
+
+
+def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, directional: bool) -> float:
+    """What turns the variable's numbers into m2/Hz/degree (m2/Hz without directions); 1 for logarithms, which are scaled later."""
+    text = attrs.get("units", attrs.get("GRIB_units"))
+    if text is None and family.documented:
+        scale = np.pi / 180.0 if directional and family.per == "radian" else 1.0
+    else:
+        scale = _unit(where, text, directional)
+    if family.log10:
+        if abs(scale - np.pi / 180.0) > 1e-12:
+            raise ReaderError(f"{where} must have units m**2 s radian**-1, got {text!r:.60}")
+        return 1.0
+    return scale
+
+
+def _unit(where: str, text: Any, directional: bool) -> float:
+    """Read `m2 s rad-1`, `m**2 s radian**-1`, `m^{2}.s.degree^{-1}`, `m2/Hz/degr`, `m^2/(Hz radian)` alike."""
+    powers: dict[str, int] = {}
+    spelt = re.sub(r"[{}^]|\*\*", "", str(text).lower())
+    sign = 1
+    for token in re.findall(r"[a-z]+-?[0-9]*|/|[()]|[^\s.*·]", spelt):
+        match = re.fullmatch(r"([a-z]+)(-?[0-9]*)", token)
+        if token == "/":
+            sign = -1
+        elif match:
+            powers[match[1]] = powers.get(match[1], 0) + sign * int(match[2] or 1)
+            sign = sign if "(" in spelt else 1
+        elif token not in "()1":
+            powers[token] = 1  # unknown: refused below
+    per_angle = {name: power for name, power in powers.items() if name in (*_DEGREES, *_RADIANS)}
+    rest = {name: power for name, power in powers.items() if name not in per_angle}
+    right = rest.pop("m", 0) == 2 and len(rest) == 1 and next(iter(rest.items())) in _PER_HERTZ
+    if not right or list(per_angle.values()) != ([-1] if directional else []):
+        raise ReaderError(f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}")
+    return np.pi / 180.0 if set(per_angle) & set(_RADIANS) else 1.0
+
+
+def _from_log10(where: str, values: Real) -> tuple[Real, int]:
+    """
+    ERA5 keeps log10 of m2/Hz/radian, and nothing at all where there is almost nothing: there it is 0, but where a whole spectrum
+    is missing (land, ice) it stays missing.
+    """
+    with np.errstate(invalid="ignore"):
+        wrong = values > np.log10(layout.LARGEST * 180.0 / np.pi)
+    if np.any(wrong):
+        raise ReaderError(f"{where} must be log10 of a density, at most 7.7, got {values[wrong][0]}")
+    nothing = np.isnan(values)
+    gaps = nothing & ~np.all(nothing, axis=(1, 2), keepdims=True)
+    with np.errstate(under="ignore"):
+        values = 10.0**values * (np.pi / 180.0)
+    values[gaps] = 0.0
+    return values, int(np.count_nonzero(gaps))
+
+
+def _times(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], source: str) -> Any:
+    """The times as datetime64, or None where there are none."""
+    name = axes.get("time", "time")
+    if name not in raw.variables:
+        return None
+    times = np.asarray(raw[name].isel({d: i for d, i in picked.items() if d in raw[name].dims}).values)
+    if not np.issubdtype(times.dtype, np.datetime64):
+        raise ReaderError(
+            f"{source}: variable {name} must be a time of the usual calendar with units like 'days since 1990-01-01', got {times.dtype}"
+        )
+    if np.any(np.isnat(times)):
+        raise ReaderError(f"{source}: variable {name} must be a time everywhere, got a missing one")
+    return np.atleast_1d(times)
+
+
+def _at(variable: "DataArray", picked: Mapping[Hashable, int]) -> "DataArray":
+    return variable.isel({d: i for d, i in picked.items() if d in variable.dims})
+
+
+def _depth(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], count: int) -> Real | None:
+    """The water depth at each time [m], NaN where it is not known or not above 0."""
+    for name, variable in raw.variables.items():
+        if name == "dpt" or str(variable.attrs.get("standard_name", "")).startswith("sea_floor_depth_below"):
+            depth = _at(raw[name], picked)
+            if set(depth.dims) <= {axes.get("time")} and str(variable.attrs.get("units", "m")) in (
+                "m",
+                "meter",
+                "metre",
+                "meters",
+                "metres",
+            ):
+                values = np.broadcast_to(np.asarray(depth.values, dtype=np.float64), (count,))
+                return np.where((values > 0.0) & (values < 1e5), values, np.nan)
+    return None
+
+
+def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float]:
+    """Longitude and latitude, or x and y, of the place; of the first time where it moves."""
+    position = {}
+    for key, names in (("lon", ("lon", "longitude")), ("lat", ("lat", "latitude")), ("x", ("x",)), ("y", ("y",))):
+        for name in names:
+            if name in raw.variables:
+                values = np.asarray(_at(raw[name], picked).values).ravel()
+                if values.size and np.issubdtype(values.dtype, np.number) and np.isfinite(values[0]):
+                    position[key] = float(values[0])
+    return position

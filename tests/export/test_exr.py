@@ -1,0 +1,164 @@
+"""EXR files: the pixels that went in, rounded once, the north row on top, and never a silent clip."""
+
+import io
+import struct
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean.bake.maps import MAPS
+from fftocean.errors import OutputError
+from fftocean.export import exr
+from fftocean.fields import EIGHT
+
+OpenEXR = pytest.importorskip("OpenEXR")
+
+SHAPES = [(1, 1), (1, 7), (7, 1), (2, 2), (31, 31), (80, 48), (17, 256)]  # (ny, nx)
+
+
+def raw(data):
+    """Header and pixels as OpenEXR itself reads them, row 0 as it stands in the file."""
+    file = OpenEXR.File(io.BytesIO(data), separate_channels=True)
+    return file.header(), {name: channel.pixels for name, channel in file.channels().items()}
+
+
+def fields(shape, dtype=np.float64, seed=0):
+    """Three channels over all the sizes that a half can hold, from subnormals to thousands, of both signs."""
+    rng = np.random.default_rng(seed)
+    return [(rng.choice([-1.0, 1.0], shape) * 10.0 ** rng.uniform(-8.0, 4.8, shape)).astype(dtype) for _ in range(3)]
+
+
+def rounded(values):
+    """The nearest half of each value, ties to even, by C's own packing: not by numpy, whose cast is what is tested."""
+    flat = [struct.unpack("<e", struct.pack("<e", float(v)))[0] for v in np.ravel(values)]
+    return np.array(flat, dtype=np.float64).reshape(np.shape(values))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pixels_are_the_fields_rounded_once_and_row_0_is_north(shape, dtype):
+    """By the raw reader: R, G, B as given, the last row of a field (the northmost) first, every value its nearest half."""
+    channels = fields(shape, dtype)
+    _, pixels = raw(exr.encode_half(*channels))
+    assert sorted(pixels) == ["B", "G", "R"]
+    for name, values in zip("RGB", channels, strict=True):
+        assert pixels[name].dtype == np.float16
+        assert pixels[name].shape == shape
+        assert np.array_equal(pixels[name].astype(np.float64), rounded(values)[::-1])
+
+
+def test_rounding_is_at_most_half_a_step():
+    """|stored - given| <= 0.5 ulp of the stored half, ties and the smallest subnormals (2^-24) included."""
+    steps = np.arange(-4096, 4096) * 2.0**-25  # every second one is a tie between two subnormals
+    values = np.concatenate([steps, *(np.ravel(c) for c in fields((64, 64)))])[None, :]
+    stored, _, _ = exr.decode(exr.encode_half(values, values, values))
+    ulp = np.abs(np.spacing(stored)).astype(np.float64)
+    assert np.all(np.abs(stored.astype(np.float64) - values) <= 0.5 * ulp)
+
+
+def test_every_half_survives_to_the_bit():
+    """All 63 488 finite halves, -0 among them."""
+    bits = np.arange(2**16, dtype=np.uint16)
+    halves = bits[(bits & 0x7C00) != 0x7C00].view(np.float16).reshape(248, 256)
+    red, green, blue = exr.decode(exr.encode_half(halves.astype(np.float32), halves.astype(np.float64), halves))
+    for channel in (red, green, blue):
+        assert np.array_equal(channel.view(np.uint16), halves.view(np.uint16))
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
+@pytest.mark.parametrize(
+    "view",
+    [
+        lambda a: a.T.copy().T,
+        lambda a: np.asfortranarray(a),
+        lambda a: np.repeat(np.repeat(a, 2, axis=0), 3, axis=1)[::2, ::3],
+        lambda a: a[::-1].copy()[::-1],
+        lambda a: a[:, ::-1].copy()[:, ::-1],
+        lambda a: np.stack([a, a + 1, a + 2], axis=-1)[..., 0],
+        lambda a: np.broadcast_to(a[:1], a.shape),
+        lambda a: np.frombuffer(b"\0" + a.tobytes(), dtype=np.uint8)[1:].view(a.dtype).reshape(a.shape),
+    ],
+    ids=["transposed", "fortran", "strided", "upside-down", "mirrored", "interleaved", "broadcast", "misaligned"],
+)
+@pytest.mark.parametrize("shape", [(5, 7), (1, 7), (7, 1)])
+def test_arrays_of_any_layout_give_their_own_pixels(shape, view, dtype):
+    """OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing: the encoder must not hand it any."""
+    values = view(np.arange(shape[0] * shape[1], dtype=dtype).reshape(shape))
+    _, pixels = raw(exr.encode_half(values, values, values))
+    for name in "RGB":
+        assert np.array_equal(pixels[name], values[::-1].astype(np.float16))
+
+
+def test_openexr_still_needs_contiguous_arrays_or_the_guard_can_go():
+    """Why the guard is there: straight from a transposed array the file is refused or wrong."""
+    values = np.arange(35, dtype=np.float16).reshape(7, 5).T
+    stream = io.BytesIO()
+    try:
+        OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, {"R": values}).write(stream)
+        same = np.array_equal(raw(stream.getvalue())[1]["R"], values)
+    except Exception:
+        same = False
+    assert not same
+
+
+def test_header_is_one_that_every_engine_opens():
+    """One part, scanlines, ZIP, marked as data and as periodic; and no clock in it: the same pixels are the same bytes."""
+    channels = fields((9, 4), np.float32)
+    data = exr.encode_half(*channels)
+    header, _ = raw(data)
+    assert header["compression"] == OpenEXR.ZIP_COMPRESSION
+    assert header["type"] == OpenEXR.scanlineimage
+    assert header["wrapmodes"] == "periodic,periodic"
+    assert header["colorInteropID"] == "data"
+    assert struct.unpack("<II", data[:8]) == (20000630, 2)  # magic number; version 2 without flags for tiles, deep or several parts
+    assert exr.encode_half(*channels) == data
+
+
+def test_decode_turns_south_up_again():
+    channels = fields((6, 5), np.float32)
+    for given, got in zip(channels, exr.decode(exr.encode_half(*channels)), strict=True):
+        assert got.flags.c_contiguous
+        assert np.array_equal(got, given.astype(np.float16))
+
+
+@pytest.mark.parametrize("bad", [65505.0, -65505.0, 65520.0, 1e30, np.inf, -np.inf, np.nan])
+@pytest.mark.parametrize("where", [0, 1, 2])
+def test_what_a_half_cannot_hold_is_refused(where, bad):
+    """Beyond +-65504 a half is infinite: one such value in any channel is an error that names the channel and the value."""
+    channels = [np.zeros((3, 4), np.float32) for _ in range(3)]
+    channels[where][1, 2] = bad
+    with pytest.raises(OutputError, match=rf"channel {'RGB'[where]} must stay within \+-65504 .* got ") as caught:
+        exr.encode_half(*channels)
+    assert caught.value.exit_code == 4
+
+
+def test_the_largest_half_passes():
+    edge = np.array([[65504.0, -65504.0]])
+    for channel in exr.decode(exr.encode_half(edge, edge, edge)):
+        assert np.array_equal(channel, edge.astype(np.float16))
+
+
+@pytest.mark.parametrize("n", [1, 8, 31, (6, 10)])
+def test_a_flat_sea_points_exactly_up(n):
+    """Height 0, normal (0, 0, 1), Jacobian 1, without a rounding."""
+    ocean = fo.Ocean.from_modes([], n=n, size=10.0, loop=4.0)
+    frame = ocean.loop_frame(1, 3, (*EIGHT, "normal", "jacobian"))
+    x, y, z = exr.decode(exr.encode_half(*MAPS["normal"].channels(frame)))
+    assert not x.any()
+    assert not y.any()
+    assert np.all(z == 1.0)
+    for name, value in (("height", 0.0), ("displacement", 0.0), ("jacobian", 1.0)):
+        for channel in exr.decode(exr.encode_half(*MAPS[name].channels(frame))):
+            assert np.all(channel == value)
+
+
+def test_north_is_up_in_a_baked_map():
+    """A wave whose crest lies on the row iy = ny/4: in the file it is 3/4 of the way down, whichever map it is read from."""
+    ocean = fo.Ocean.from_modes([(0, 1, 1.0, 0.5 * np.pi)], n=(8, 16), size=(8.0, 16.0), loop=100.0, dtype="float64")  # cos(ky - pi/2)
+    frame = ocean.frame(0.0)
+    _, pixels = raw(exr.encode_half(*MAPS["displacement"].channels(frame)))
+    assert np.all(np.argmax(pixels["B"], axis=0) == 16 - 1 - 4)  # blue is the height
+    toward_crest = pixels["G"][:, 0]  # green is the displacement north: south of the crest water is drawn north
+    assert toward_crest[16 - 1 - 3] > 0.0
+    assert toward_crest[16 - 1 - 5] < 0.0

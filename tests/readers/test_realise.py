@@ -1,0 +1,196 @@
+"""A measured spectrum as a `Sea`."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+from written import DATA, FREQUENCY, TIMES, TO, era5, sea, write_ndbc, ww3
+
+from fftocean import readers
+from fftocean.errors import ParameterError, ReaderError, SeaWarning
+from fftocean.physics import moments
+from fftocean.physics.spectra import JONSWAP
+from fftocean.physics.spreading import CosinePower
+from fftocean.readers import Realised, sea_from_spectrum
+
+
+def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
+    """The layout of the wavespectra package, without any attributes."""
+    return xr.Dataset({"efth": (("freq", "dir"), density)}, {"freq": frequency, "dir": (toward + 180.0) % 360.0, **coords})
+
+
+def test_at_the_points_it_is_the_source():
+    """S D [m^2 s/rad^2] = efth [m^2/Hz/degree] (180/pi)/(2 pi), times the factor that is reported."""
+    order = sea(toward=200.0)
+    made = Realised.from_spectrum(ww3(order), time=0)
+    got = made.sea.density(2.0 * np.pi * FREQUENCY[:, None], np.radians(90.0 - TO))
+    want = order.density[0] * (180.0 / np.pi) / (2.0 * np.pi) * made.factor
+    assert got == pytest.approx(want, rel=1e-9, abs=1e-12 * want.max())  # angles are turned by the mean direction and back
+
+
+def test_its_variance_is_the_sum_over_the_bands_of_the_source():
+    """Sum of E df dtheta, df half way to the neighbours and symmetric at the ends, dtheta 15 degrees."""
+    order = sea()
+    made = Realised.from_spectrum(ww3(order), time=1)
+    f = FREQUENCY
+    df = np.concatenate([[f[1] - f[0]], 0.5 * (f[2:] - f[:-2]), [f[-1] - f[-2]]])
+    want = 4.0 * math.sqrt(np.sum(order.density[1] * df[:, None]) * 15.0)
+    assert made.hs_source == pytest.approx(want, rel=1e-12)
+    assert made.sea.hs == pytest.approx(want, rel=1e-9)
+    # Over frequency and direction, by another rule: the trapezoid on eight panels to every straight line (1/64 of a bend of 1 %).
+    omega = 2.0 * np.pi * np.concatenate([np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(f)] + [f[-1:]])
+    theta = np.linspace(-np.pi, np.pi, 24 * 8 + 1)
+    density = made.sea.density(omega[:, None], theta)
+    over_theta = np.sum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1) * (theta[1] - theta[0])
+    m0 = np.sum(0.5 * (over_theta[1:] + over_theta[:-1]) * np.diff(omega))
+    assert 4.0 * math.sqrt(m0) == pytest.approx(want, rel=2e-4)
+
+
+def test_the_factor_says_how_much_the_straight_lines_lacked():
+    """A single band of energy, the rest empty: its triangle holds S (f2 - f0)/2, exactly the band, so the factor is 1; at an end, 2."""
+    density = np.zeros((30, 24))
+    density[10] = 0.1
+    assert Realised.from_spectrum(by_hand(density)).factor == pytest.approx(1.0, rel=1e-12)
+    density = np.zeros((30, 24))
+    density[29] = 0.1
+    assert Realised.from_spectrum(by_hand(density)).factor == pytest.approx(2.0, rel=1e-12)
+
+
+def test_a_known_sea_comes_back():
+    """JONSWAP, Hs = 2 m, measured in fine bands: Hs but for what lies above 0.6 Hz, 0.2 %; Tp to a band."""
+    spectrum = JONSWAP.from_sea_state(hs=2.0, tp=9.0)
+    f = np.arange(0.03, 0.6, 0.002)
+    dirs = np.arange(0.0, 360.0, 5.0)
+    spread = CosinePower(s=10.0)(1.0, np.radians(90.0 - dirs) - np.radians(20.0), 1.0)
+    density = spectrum(2.0 * np.pi * f)[:, None] * spread * (2.0 * np.pi) * (np.pi / 180.0)
+    made = sea_from_spectrum(by_hand(density, frequency=f, toward=dirs))
+    assert made.hs == pytest.approx(2.0, rel=2e-3)
+    assert made.tp == pytest.approx(9.0, abs=0.2)
+    assert made.systems[0].direction == pytest.approx(20.0, abs=1e-6)
+
+
+def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
+    order = sea().density[0].copy()
+    order[12] = np.nan
+    order[14, 3] = np.nan
+    made = Realised.from_spectrum(by_hand(order))
+    f = np.delete(FREQUENCY, 12)
+    rest = np.nan_to_num(np.delete(order, 12, axis=0)).sum(axis=1) * 15.0
+    assert made.hs_source == pytest.approx(4.0 * math.sqrt(np.sum(rest * np.gradient(f))), rel=1e-12)
+    got = made.sea(2.0 * np.pi * FREQUENCY[12])
+    assert got == pytest.approx(np.interp(FREQUENCY[12], f, rest) * made.factor / (2.0 * np.pi), rel=1e-9)
+
+
+def test_a_sector_is_closed_with_nothing():
+    """SWAN may compute a quarter of the circle: nothing comes from the rest, least of all a straight line right round it."""
+    quarter = np.arange(50.0, 140.0, 10.0)
+    f = np.array([0.05, 0.1, 0.15])
+    density = np.tile([0.5, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.5], (3, 1))
+    made = Realised.from_spectrum(by_hand(density, frequency=f, toward=quarter))
+    assert made.hs_source == pytest.approx(4.0 * math.sqrt(17.0 * 10.0 * 0.15), rel=1e-12)
+    got = made.sea.density(2.0 * np.pi * 0.1, np.radians(np.arange(0.0, 360.0, 5.0)))
+    toward = (90.0 - np.arange(0.0, 360.0, 5.0)) % 360.0
+    assert np.all(got[(toward < 39.9) | (toward > 140.1)] < 1e-12)  # the angles are turned and turned back, in round-off
+    assert np.all(got[(toward > 41.0) & (toward < 139.0)] > 0.0)
+
+
+def test_an_empty_spectrum_is_a_flat_sea_and_says_so():
+    with pytest.warns(SeaWarning, match="holds no energy: the sea is exactly flat"):
+        made = Realised.from_spectrum(by_hand(np.zeros((30, 24))))
+    assert made.sea.systems == ()
+    assert (made.hs_source, made.factor) == (0.0, 1.0)
+
+
+def test_a_spectrum_that_is_missing_is_refused_not_flat():
+    """ERA5 over land: no values at all. The grid's other point is the sea."""
+    with pytest.raises(ReaderError, match=r"at least 2 frequencies that are not missing \(land"):
+        sea_from_spectrum(era5(sea()), site=0)
+    assert sea_from_spectrum(era5(sea()), site=1).hs > 1.0
+
+
+def test_a_spectrum_without_directions_asks_for_them():
+    data = readers.open(DATA / "44004w2000.txt")
+    for given in ({}, {"direction": 30.0}, {"spreading": CosinePower(s=8.0)}):
+        with pytest.raises(ParameterError, match=r"needs direction .* and spreading"):
+            sea_from_spectrum(data, **given)
+    made = sea_from_spectrum(data, time=1, direction=30.0, spreading=CosinePower(s=8.0))
+    assert made.hs == pytest.approx(4.0 * math.sqrt(float(np.sum(data.ef[1] * 0.01))), rel=1e-9)
+    assert made.systems[0].direction == 30.0
+    assert made.systems[0].spreading == CosinePower(s=8.0)
+    with pytest.raises(ParameterError, match=r"takes no others, got direction=30\.0, spreading=None"):
+        sea_from_spectrum(by_hand(sea().density[0]), direction=30.0)
+
+
+def test_one_direction_only_is_none_as_the_wavespectra_package_has_it():
+    """It reads a buoy without directions as efth with dir = [0], in m2/Hz."""
+    total = sea().density[0].sum(axis=1) * 15.0
+    data = xr.Dataset({"efth": (("freq", "dir"), total[:, None])}, {"freq": FREQUENCY, "dir": [0.0]})
+    with pytest.raises(ParameterError, match="needs direction"):
+        sea_from_spectrum(data)
+    assert sea_from_spectrum(data, direction=0.0, spreading=CosinePower(s=8.0)).hs == pytest.approx(sea_from_spectrum(ww3(sea())).hs)
+
+
+def test_depth_is_that_of_the_dataset_unless_it_is_said():
+    assert sea_from_spectrum(ww3(sea())).depth == 30.0
+    assert sea_from_spectrum(ww3(sea()), depth=math.inf).depth == math.inf
+    assert sea_from_spectrum(era5(sea()), site=1).depth == math.inf
+    with pytest.raises(ParameterError, match="depth must be"):
+        sea_from_spectrum(ww3(sea()), depth=-3.0)
+
+
+def test_times_and_places_are_picked():
+    """The second time was ordered with twice the energy."""
+    one, two = (sea_from_spectrum(ww3(sea()), time=t).variance for t in (0, 1))
+    assert two == pytest.approx(2.0 * one, rel=1e-9)
+    assert sea_from_spectrum(ww3(sea()), time=-1).variance == two
+    assert sea_from_spectrum(ww3(sea()).sel(time=TIMES[1])).variance == two  # a caller's own choice, by name
+    assert sea_from_spectrum(ww3(sea()).isel(time=1, station=0)).variance == two
+    for which, message in (({"time": 2}, "time must be a whole number between -2 and 1, got 2"), ({"site": 1}, "site must be .* got 1")):
+        with pytest.raises(ParameterError, match=message):
+            sea_from_spectrum(ww3(sea()), **which)
+
+
+def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round():
+    """The wavespectra package turns directions and leaves `sea_surface_wave_to_direction` on them: FROM all the same, with a warning."""
+    data = by_hand(sea(toward=70.0).density[0])
+    want = sea_from_spectrum(data).systems[0].direction
+    assert want == pytest.approx(20.0, abs=0.5)
+    data.efth.attrs["units"] = "m2 s degree-1"
+    data.dir.attrs["standard_name"] = "sea_surface_wave_to_direction"
+    with pytest.warns(SeaWarning, match="says that waves go to there"):
+        assert sea_from_spectrum(data).systems[0].direction == want
+    # Per radian it has not been through that package's hands: then the attribute is right.
+    data.efth.attrs["units"] = "m2 s rad-1"
+    assert abs(sea_from_spectrum(data).systems[0].direction - want) == pytest.approx(180.0)
+
+
+def test_a_buoys_sea_has_its_spread(tmp_path):
+    """r1 = 0.9 at every frequency: spread sqrt(2 (1 - r1)); straight lines between bins x apart make r1 less by (sin(x/2)/(x/2))^2."""
+    made = sea_from_spectrum(readers.open(write_ndbc(tmp_path, source=200.0, r1=0.9, r2=0.65)))
+    theta = np.linspace(-np.pi, np.pi, 7200, endpoint=False)
+    direction, spread = moments.mean_direction_and_spread(made.density(2.0 * np.pi * 0.1, theta), theta)
+    assert direction == pytest.approx(70.0, abs=1e-3)
+    x = np.radians(5.0)
+    assert spread == pytest.approx(np.degrees(math.sqrt(2.0 * (1.0 - 0.9 * (2.0 * math.sin(x / 2.0) / x) ** 2))), rel=1e-4)
+
+
+def test_a_height_that_no_sea_has_is_refused():
+    with pytest.raises(ReaderError, match=r"significant wave height must be between 0 and 100 m, got .* \(in other units"):
+        sea_from_spectrum(by_hand(1e4 * sea().density[0]))
+
+
+@pytest.mark.parametrize(
+    ("what", "message"),
+    [
+        (None, "must be an xarray.Dataset, got NoneType"),
+        (xr.DataArray([1.0]), "must be an xarray.Dataset, got DataArray"),
+        (xr.Dataset({"hs": ((), 1.0)}), "must hold one wave spectrum .* got hs"),
+        (xr.Dataset({"efth": (("x", "dir"), np.ones((3, 4)))}), "must have a frequency dimension"),
+        (xr.Dataset({"efth": (("freq", "dir"), np.ones((3, 4)))}), "dimension freq must have a coordinate"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused(what, message):
+    with pytest.raises(ReaderError, match=message):
+        sea_from_spectrum(what)

@@ -1,0 +1,638 @@
+"""The command line: what it prints and where, its exit codes, and that a wrong word costs one line and nothing else."""
+
+import contextlib
+import dataclasses
+import io
+import json
+import os
+import resource
+import shlex
+import signal
+import subprocess
+import sys
+import threading
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean import cli
+from fftocean.bake import baker
+from fftocean.bake.parameters import BY_KEY, PARAMETERS
+from fftocean.errors import FFTOceanError
+from fftocean.export import exr
+from fftocean.statistics import SeaState
+
+BAD = ["nan", "inf", "-1", "0", '"5"', "true", "1e308", "1e-308"]
+SMALL = ("--n", "8", "--frames", "1")
+SWELL = "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.5, tp = 4.0 }\n"
+
+
+@pytest.fixture(autouse=True)
+def place(tmp_path, monkeypatch):
+    """Each test in a folder of its own; a 160-column terminal's worth of width, no colours, whatever the outer ones are."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("FORCE_COLOR", "NO_COLOR", "COLUMNS", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
+        monkeypatch.delenv(name, raising=False)
+    return tmp_path
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """No picture and no integrals over the sea, which take most of the time of a small bake; test_baker.py has them."""
+    still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
+
+    def statistics(ocean):
+        m0 = 0.0 if ocean.amplitudes.variance == 0.0 else 0.1
+        return dataclasses.replace(still, ordered=SeaState(m0=m0, hs=4.0 * m0**0.5, tp=5.0, mean_direction=0.0, spread=30.0))
+
+    monkeypatch.setattr(baker, "measure", statistics)
+    monkeypatch.setattr(baker.preview, "contact_sheet", lambda *_: b"picture")
+
+
+@pytest.fixture
+def run(capsys):
+    """Run a command; return its exit code, what it printed, and what it said on stderr."""
+
+    def run(*arguments):
+        try:
+            code = cli.main([str(a) for a in arguments])
+        except SystemExit as left:
+            code = left.code
+        out, err = capsys.readouterr()
+        assert "Traceback" not in err
+        return code, out, err
+
+    return run
+
+
+def clean(result, folder="out"):
+    """The one line of a clean refusal: exit code 2, nothing printed, nothing made."""
+    code, out, err = result
+    assert code == 2
+    assert not out
+    assert err.startswith("fftocean: ")
+    assert err.endswith("\n")
+    assert err.count("\n") == 1
+    assert err.rstrip("\n").isprintable()
+    assert not Path(folder).exists()
+    return err
+
+
+# Bad values
+
+
+def refused_or_finite(result, key, value):
+    """Clean refusal with key, rule and value, or a bake without a NaN. Returns whether it was refused."""
+    if result[0] == 2:
+        message = clean(result).lower().replace("e+", "e")
+        for part in (key, "must ", value.strip('"').removesuffix(".0")):
+            assert part in message
+        return True
+    assert result[0] == 0
+    manifest = json.loads(Path("out/manifest.json").read_text(), parse_constant=pytest.fail)
+    for row in manifest["frames"]:
+        for entry in row["files"].values():
+            for channel in exr.decode(Path("out", entry["path"]).read_bytes()):
+                assert np.all(np.isfinite(channel))
+    return False
+
+
+ACCEPTED = {
+    "sea.wind.speed": ("0", "1e-308"),
+    "sea.wind.direction": ("-1", "0", "1e-308"),
+    "sea.wind.blend": ("0", "1e-308"),
+    "sea.depth": ("inf", "1e308"),
+    "sea.surface_tension": ("0", "1e-308"),
+    "ocean.seed": ("0",),
+    "ocean.choppiness": ("0", "1e-308"),
+}
+FLAGGED = [p for p in PARAMETERS if p.flag]
+
+
+def others(key):
+    """Flags that keep a bake small, but for the key in question."""
+    return [
+        part
+        for flag, small in (("n", "8"), ("frames", "1"))
+        if key not in (f"ocean.{flag}", f"bake.{flag}")
+        for part in (f"--{flag}", small)
+    ]
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize("key", BY_KEY)
+def test_a_bad_value_by_set(run, key, value):
+    assert refused_or_finite(run("bake", "-o", "out", *others(key), "--set", f"{key}={value}"), key, value) == (
+        value not in ACCEPTED.get(key, ())
+    )
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize("key", BY_KEY)
+def test_a_bad_value_in_a_file(run, key, value):
+    table, _, name = key.rpartition(".")
+    Path("job.toml").write_text(f"[{table}]\n{name} = {value}\n")
+    assert refused_or_finite(run("bake", "job.toml", "-o", "out", *others(key)), key, value) == (value not in ACCEPTED.get(key, ()))
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize("parameter", FLAGGED, ids=lambda p: p.flag)
+def test_a_bad_value_by_flag(run, parameter, value):
+    key = parameter.key
+    assert refused_or_finite(run("bake", "-o", "out", *others(key), f"--{parameter.flag}", value), key, value) == (
+        value not in ACCEPTED.get(key, ())
+    )
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize("key", ["spectrum.hs", "spectrum.tp", "spectrum.gamma", "spreading.s", "direction"])
+def test_a_bad_value_in_a_wave_system(run, key, value):
+    """One spectrum stands for all here; tests/bake/test_job.py goes through them."""
+    values = {"spectrum.hs": "0.5", "spectrum.tp": "4.0", "spectrum.gamma": "2.0", "spreading.s": "9.0", "direction": "30.0", key: value}
+    v = {k.replace(".", "_"): text for k, text in values.items()}
+    text = "[[sea.systems]]\nspectrum = {{ kind = 'jonswap', hs = {spectrum_hs}, tp = {spectrum_tp}, gamma = {spectrum_gamma} }}\n"
+    text += "spreading = {{ kind = 'cosine-power', s = {spreading_s} }}\ndirection = {direction}\n"
+    Path("job.toml").write_text(text.format(**v))
+    accepted = {"spectrum.hs": ("0", "1e-308"), "spreading.s": ("0", "1e-308"), "direction": ("-1", "0", "1e-308")}.get(key, ())
+    assert refused_or_finite(run("bake", "job.toml", "-o", "out", *SMALL), f"sea.systems[0].{key}", value) == (value not in accepted)
+
+
+@pytest.mark.parametrize("command", ["bake", "info", "verify"])
+def test_each_command_refuses_alike(run, command):
+    assert "sea.wind.speed must be between 0 and 150 m/s, got -1.0" in clean(run(command, "--set", "sea.wind.speed=-1"))
+
+
+@pytest.mark.parametrize("command", ["bake", "info", "verify"])
+def test_more_samples_than_memory_are_refused_before_they_are_taken(run, command, monkeypatch):
+    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    start = time.process_time()
+    assert "n = 65536 x 65536 needs about " in clean(run(command, "--n", "65536"))
+    assert "between 1 and 65536, got 1000000000" in clean(run(command, "--n", "1000000000"))
+    assert "whole number" in clean(run(command, "--n", "1e9"))
+    assert "whole number" in clean(run(command, "--n", "1.5"))
+    assert time.process_time() - start < 2.0
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("[sea.wind]\nsped = 3\n", ["job.toml", "unknown key 'sea.wind.sped'", "did you mean sea.wind.speed?"]),
+        ("[ocean]\nn = 8\nn = 9\n", ["job.toml", "TOML", "line 3"]),
+        (f"[sea.wind]\nfetch = 1e4\n{SWELL}", ["sea.wind.speed must be given"]),
+        ("ocean = 5\n", ["'ocean'"]),
+        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', \"a\\nb\\u001b[31m\" = 1.0 }\n", ["a\\nb\\x1b[31m"]),
+        ("a" * 100_000, ["at most 65536 bytes"]),
+        (".".join("a" * 30_000) + " = 1", ["line 1", "at most 2048 characters"]),
+        (".".join(['"\u2028"'] * 9000) + " = 1", ["line 1", "at most 2048 characters"]),
+        ("#\n" * 40_000, ["at most 65536 bytes"]),
+        ("n = " + "[" * 2000, ["nested"]),
+        ("n = " + "{a = " * 400, ["nested"]),
+        (b"\xff\xfe", ["UTF-8", "byte 0"]),
+        (b"\0", ["TOML"]),
+    ],
+    ids=lambda v: repr(v[:20]),
+)
+def test_bad_files_are_refused_within_two_seconds(run, text, parts):
+    Path("job.toml").write_bytes(text if isinstance(text, bytes) else text.encode())
+    start = time.process_time()
+    message = clean(run("bake", "job.toml", "-o", "out"))
+    assert time.process_time() - start < 2.0
+    for part in parts:
+        assert part in message
+
+
+@pytest.mark.parametrize(
+    "path", ["/dev/zero", "/dev/full", "/dev/null", ".", "none.toml", "a\nb", "\udcff", "x" * 5000, "/dev/full/x", "[/red].toml", ""]
+)
+def test_what_is_no_job_file_is_refused(run, path):
+    clean(run("bake", path, "-o", "out"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--set", "a"], "a setting must be key=value"),
+        (["--set", "=1"], "a setting must be key=value"),
+        (["--set", "ocean.m=1"], "did you mean ocean.n?"),
+        (["--set", "sea.systems=1"], "sea.systems must be given in a job file"),
+        (["--set", "ocean.n=8\nocean.size=9"], "ocean.n must be a whole number"),
+        (["--set", "ocean.n="], "ocean.n must be one value or two"),
+        (["--set", "ocean.n=" + "[" * 1000], "ocean.n must be a whole number"),
+        (["--n", ""], "ocean.n must be one value or two"),
+        (["--n", "abc"], "got 'abc'"),
+        (["--n", "8,0"], "between 1 and 65536, got 0"),
+        (["--n", "8,8,8"], "one value or two"),
+        (["--size=-inf"], "got -inf"),
+        (["--maps", ""], "bake.maps must be a list"),
+        (["--maps", "height,wrong"], "got 'wrong'"),
+        (["--set", "bake.maps=wrong"], "got 'wrong'"),
+        (["--seed", "18446744073709551616"], "got 18446744073709551616"),
+    ],
+)
+def test_bad_arguments_are_refused(run, arguments, part):
+    assert part in clean(run("bake", "-o", "out", *arguments))
+
+
+def test_a_wind_that_nobody_ordered_is_refused(run):
+    Path("swell.toml").write_text(SWELL)
+    assert "sea.wind.speed must be given where sea.wind.gamma is" in clean(
+        run("bake", "swell.toml", "-o", "out", "--set", "sea.wind.gamma=2")
+    )
+
+
+@pytest.mark.parametrize("t", ["nan", "inf", "1e13"])
+def test_times_that_cannot_be_are_refused(run, t):
+    assert f"t must be between -1e+12 and 1e+12 s, got {float(t)}" in clean(run("verify", "--n", "8", "--t", t))
+
+
+# Words of the command line
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        ([], "the following arguments are required: COMMAND"),
+        (["bkae"], "invalid choice: 'bkae'"),
+        (["bake", "--frame"], "expected one argument"),
+        (["bake", "--wind", "3"], "unrecognized arguments: --wind"),
+        (["bake", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
+        (["verify", "--t", "soon"], "invalid float value: 'soon'"),
+        (["verify", "--dtype", "float16"], "invalid choice: 'float16'"),
+    ],
+)
+def test_usage_errors_exit_2(run, arguments, part):
+    code, out, err = run(*arguments)
+    assert code == 2
+    assert not out
+    assert part in err
+    assert err.startswith("usage: fftocean")
+
+
+def test_version(run):
+    assert run("--version") == (0, f"fftocean {fo.__version__}\n", "")
+
+
+@pytest.mark.parametrize("command", ["", "bake", "info", "verify"])
+def test_help_shows_an_example_and_the_exit_codes(run, command):
+    code, out, err = run(*command.split(), "--help")
+    assert code == 0
+    assert not err
+    assert f"example:\n  fftocean {command}" in out
+    for number in ("0 ok", "2 usage or job", "4 output", "5 integrity", "130 interrupted"):
+        assert number in out
+    assert max(map(len, out.splitlines())) <= 120
+    for p in FLAGGED if command else ():
+        assert f"--{p.flag} {p.flag.upper()}" in out
+        assert p.help.split("%")[0][:20] in " ".join(out.split())
+
+
+@pytest.mark.parametrize("example", [line for text in cli.EXAMPLES.values() for line in text.splitlines()])
+def test_the_examples_of_the_help_are_commands(example):
+    word, *arguments = shlex.split(example)
+    assert word == "fftocean"
+    options = cli._parser().parse_args(arguments)
+    options.job = None  # the files are the reader's own
+    cli._job(options)
+
+
+def test_help_does_not_wait_for_compilers():
+    """Nor does a usage error: numba, FFTW, OpenEXR, SciPy and NumPy are loaded by the work that needs them."""
+    heavy = {"numba", "pyfftw", "OpenEXR", "scipy", "numpy", "rich", "PIL"}
+    program = (
+        f"import sys; from fftocean.cli import main\ntry: main(['--help'])\nexcept SystemExit: print(sorted({heavy} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], env=environment(), capture_output=True, text=True, timeout=60)
+    assert done.stdout.endswith("\n[]\n"), done.stdout + done.stderr
+
+
+def environment(**more):
+    """This process's environment, with this package in sight."""
+    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
+
+
+# What is printed, and where
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_bake_says_what_it_made(run):
+    code, out, err = run("bake", "-o", "out", "--n", "8,4", "--frames", "2", "--maps", "height,normal")
+    assert code == 0
+    assert "Hs 1.26 m ordered" in out
+    assert "4 maps of 8 x 4 in " in out
+    assert out.endswith(f"look at {Path('out/preview.png')}\n")
+    assert not err
+    assert sorted(p.name for p in Path("out/normal").iterdir()) == ["0000.exr", "0001.exr"]
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("forced", [False, True])
+def test_no_bar_where_there_is_no_terminal(run, forced, monkeypatch):
+    """Not a byte of it, even where colours are forced on files, as CI does."""
+    if forced:
+        monkeypatch.setenv("FORCE_COLOR", "1")
+        monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    code, out, err = run("bake", "-o", "out", *SMALL)
+    assert code == 0
+    assert "\x1b" not in out + err
+    assert "\r" not in out + err
+    assert not err
+    code, out, err = run("bake", "-o", "out", *SMALL, "--quiet")
+    assert (code, out, err) == (0, "", "")
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("quiet", [False, True])
+def test_a_bar_where_there_is_one(quiet, monkeypatch, capsys):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    assert cli.main(["bake", "-o", "out", "--n", "8", "--frames", "3", *(["--quiet"] if quiet else [])]) == 0
+    shown = sys.stderr.getvalue()
+    assert ("baking" in shown and "3/3" in shown) == (not quiet)
+    assert "baking" not in capsys.readouterr().out
+
+
+def test_no_wind_bakes_an_exactly_flat_sea_and_says_so(run, monkeypatch):
+    """All heights 0, all normals up, by the whole way: only the picture is left out."""
+    monkeypatch.setattr(baker.preview, "contact_sheet", lambda *_: b"picture")
+    code, out, err = run("bake", "-o", "out", *SMALL, "--set", "sea.wind.speed=0", "--maps", "height,normal")
+    assert code == 0
+    assert "wind speed 0 m/s raises no waves: the sea is exactly flat\n" in err
+    assert "Hs 0 m ordered, 0 m delivered" in out
+    for channel in exr.decode(Path("out/height/0000.exr").read_bytes()):
+        assert not channel.any()
+    x, y, z = exr.decode(Path("out/normal/0000.exr").read_bytes())
+    assert not x.any()
+    assert not y.any()
+    assert np.all(z == 1.0)
+
+
+def test_notes_tell_what_the_tile_cannot_hold(run):
+    """Too short a loop, waves too long for the tile and too short for its samples: on stderr, one line each."""
+    code, _, err = run("info", "--n", "8", "--size", "40", "--loop", "2", "--set", "sea.wind.speed=20")
+    assert code == 0
+    notes = err.splitlines()
+    assert all(note.startswith("note: ") for note in notes)
+    assert "a loop of 2 s is less than four peak periods" in err
+    assert "waves longer than the tile; a larger --size holds them" in err
+    assert "waves shorter than two samples" in run("info", "--n", "4", "--size", "100")[2]
+
+
+@pytest.mark.parametrize("n", ["1", "2", "31", "12,20"])
+def test_info_describes_any_tile(run, n):
+    code, out, _ = run("info", "--n", n)
+    assert code == 0
+    for part in ("sea.wind.speed", "7 m/s", "significant wave height Hs", "loop frequency error", "720 EXR", "MB", "time to bake"):
+        assert part in out
+    assert "nan" not in out
+    assert "inf m" in out  # the depth, and nothing else
+    assert out.count("inf") == 1
+
+
+def test_info_describes_a_job_with_systems_and_without_waves(run):
+    Path("job.toml").write_text("sea.depth = 8.0\n" + SWELL + "direction = 45\n")
+    code, out, _ = run("info", "job.toml", "--n", "16")
+    assert code == 0
+    assert "Job: job.toml" in out
+    assert "sea.systems[0]" in out
+    assert "'hs': 1.5" in out
+    assert "sea.wind" not in out
+    code, out, err = run("info", "--n", "8", "--set", "sea.wind.speed=0")
+    assert code == 0
+    assert "the sea is exactly flat" in err
+    assert "nan" not in out
+
+
+@pytest.mark.parametrize("name", ["[/x].toml", "[bold]a[/bold].toml", "a\\[b.toml", "ünï.toml", "a\x1b[31mb.toml", "\udcff.toml"])
+@pytest.mark.parametrize("command", ["info", "verify"])
+def test_names_are_shown_as_they_are(run, name, command):
+    """No markup of theirs is obeyed, and what a terminal would obey is spelt out."""
+    Path(name).parent.mkdir(exist_ok=True)
+    Path(name).write_text("[ocean]\nn = 8\n")
+    code, out, _ = run(command, name)
+    assert code == 0
+    assert name.encode("unicode_escape").decode() in out or name in out
+    assert "\x1b" not in out
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_folder_s_name_may_be_anything(run):
+    for name in ("a b", "ünï", "\udcff", "line\nbreak", "[/x]"):
+        code, out, err = run("bake", "-o", name, *SMALL)
+        assert (code, err) == (0, "")
+        assert Path(name, "manifest.json").exists()
+        assert len(out.splitlines()) == 3
+
+
+# Output faults: tests/bake/test_baker.py has them all; here their exit code and their line
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("folder", ["a file", "/dev/full", "a file/below", "x" * 300])
+def test_a_folder_that_cannot_be_exits_4(run, folder):
+    Path("a file").write_text("")
+    code, out, err = run("bake", "-o", folder, *SMALL)
+    assert code == 4
+    assert not out
+    assert err.startswith(f"fftocean: {folder} could not be made a folder: ")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_full_disk_exits_4(run):
+    run("bake", "-o", "warm", *SMALL)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limits[1]))
+        code, out, err = run("bake", "-o", "out", "--n", "32", "--frames", "1", "--maps", "height")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert code == 4
+    assert not out
+    assert err == f"fftocean: {Path('out/height/0000.exr')} could not be written: File too large\n"
+    assert [p.name for p in Path("out").rglob("*") if p.is_file()] == ["job.json"]
+
+
+@pytest.mark.usefixtures("quick")
+def test_another_job_s_folder_exits_4_and_overwrite_takes_it(run):
+    assert run("bake", "-o", "out", *SMALL)[0] == 0
+    before = Path("out/manifest.json").read_bytes()
+    code, out, err = run("bake", "-o", "out", "--n", "9", "--frames", "1")
+    assert code == 4
+    assert not out
+    assert "ocean.n: 8 there, 9 here" in err
+    assert "--overwrite" in err
+    assert err.count("\n") == 1
+    assert Path("out/manifest.json").read_bytes() == before
+    assert run("bake", "-o", "out", "--n", "9", "--frames", "1", "--overwrite")[0] == 0
+    assert json.loads(Path("out/manifest.json").read_text())["ocean"]["n"] == [9, 9]
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (MemoryError(), 2, "fftocean: not enough memory; a smaller --n needs less\n"),
+        (KeyboardInterrupt(), 130, "fftocean: interrupted; a folder without manifest.json is not a finished bake\n"),
+        (OSError(28, "No space left on device"), 4, "fftocean: output: No space left on device\n"),
+        (OSError(5, "Input/output error", "some/file"), 4, "fftocean: some/file: Input/output error\n"),
+        (BrokenPipeError(), 0, ""),
+    ],
+    ids=lambda v: type(v).__name__ if isinstance(v, BaseException) else "",
+)
+def test_what_can_stop_a_command_has_its_exit_code(run, error, code, said, monkeypatch):
+    def fail(_):
+        raise error
+
+    monkeypatch.setattr(cli, "_drop_stdout", lambda: None)
+    monkeypatch.setattr(cli, "_job", fail)
+    assert run("info") == (code, "", said)
+
+
+def test_each_error_of_ours_has_an_exit_code():
+    kinds = [FFTOceanError]
+    for kind in kinds:
+        kinds += kind.__subclasses__()
+    assert {kind.exit_code for kind in kinds} <= {2, 3, 4, 5, 6}
+
+
+def test_a_full_disk_under_stdout_exits_4():
+    """One line, no traceback, nothing ignored at exit. (A broken pipe: rich exits 1, silently.)"""
+    command = [sys.executable, "-m", "fftocean.cli", "info", "--n", "4"]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+    assert done.returncode == 4
+    assert done.stderr.endswith("fftocean: output: No space left on device\n")
+    assert all(line.startswith(("note: ", "fftocean: ")) for line in done.stderr.splitlines())
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_closed_stdout_is_no_concern_of_the_bake(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdout", None)
+    assert cli.main(["bake", "-o", "out", *SMALL]) == 0
+    assert cli.main(["info", "--n", "4"]) == 0
+    assert Path("out/manifest.json").exists()
+    assert "fftocean:" not in capsys.readouterr().err
+
+
+# Signals and threads
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("at", [1, 2, 5])
+def test_a_signal_leaves_no_manifest(run, number, code, at, monkeypatch):
+    """In the middle of a write, the at-th: the file's temporary name goes, its final name is not taken."""
+    before = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a test runner in the background may ignore it
+    calls = []
+    real = os.fsync
+
+    def fsync(descriptor):
+        calls.append(descriptor)
+        if len(calls) == at:
+            os.kill(os.getpid(), number)
+        real(descriptor)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    try:
+        left, out, err = run("bake", "-o", "out", "--n", "8", "--frames", "4", "--maps", "height")
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert left == code
+    assert not out
+    assert err.count("\n") <= 1
+    assert len(calls) == at
+    assert len([p for p in Path("out").rglob("*") if p.is_file()]) == at - 1
+    assert not Path("out/manifest.json").exists()
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("arguments", [("bake", *SMALL), ("bake", "--n", "0"), ("--version",), ()])
+def test_the_caller_keeps_its_own_handlers_and_filters(run, arguments):
+    """Whatever comes of a command: SIGTERM is the caller's again, and so are the warnings."""
+
+    def mine(*_):
+        raise AssertionError
+
+    before = signal.signal(signal.SIGTERM, mine)
+    shown, filters = warnings.showwarning, list(warnings.filters)
+    try:
+        run(*arguments)
+        assert signal.getsignal(signal.SIGTERM) is mine
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert warnings.showwarning is shown
+    assert warnings.filters == filters
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_command_runs_in_any_thread():
+    """Signals are the main thread's business alone."""
+    codes, said = [], io.StringIO()
+    before = signal.getsignal(signal.SIGTERM)
+
+    def work():
+        with contextlib.redirect_stdout(said):
+            codes.append(cli.main(["bake", "-o", "out", *SMALL]))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert codes == [0]
+    assert "look at" in said.getvalue()
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+# Several ways to the same job
+
+
+@pytest.mark.usefixtures("quick")
+def test_flags_override_the_file_and_so_does_set(run):
+    Path("job.toml").write_text("[ocean]\nn = 16\nseed = 5\n[bake]\nframes = 9\nmaps = ['jacobian']\n")
+    assert run("bake", "job.toml", "-o", "out", "--n", "8,4", "--set", "bake.frames=1", "--set", "ocean.seed=6", "--seed", "7")[0] == 0
+    described = json.loads(Path("out/job.json").read_text())["job"]
+    assert described["ocean.n"] == [8, 4]
+    assert described["ocean.seed"] == 7  # a flag is the last word
+    assert described["bake.frames"] == 1
+    assert described["bake.maps"] == ["jacobian"]
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("maps", ["--maps height", "--set bake.maps=height", "--set bake.maps=['height']", "--maps height,height"])
+def test_one_map_needs_no_brackets(run, maps):
+    assert run("bake", "-o", "out", *SMALL, *maps.split())[0] == 0
+    assert sorted(p.name for p in Path("out").iterdir()) == ["height", "job.json", "manifest.json", "preview.png"]
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("n", ["1", "2", "31", "[48, 80]", "48,80", "1,5"])
+def test_any_number_of_samples_bakes(run, n):
+    assert run("bake", "-o", "out", "--n", n, "--frames", "1")[0] == 0
+    nx, ny = json.loads(Path("out/manifest.json").read_text())["ocean"]["n"]
+    assert exr.decode(Path("out/height/0000.exr").read_bytes())[0].shape == (ny, nx)
+
+
+@pytest.mark.usefixtures("quick")
+def test_an_empty_file_is_a_job(run):
+    Path("job.toml").write_text("")
+    assert run("bake", "job.toml", "-o", "out", *SMALL)[0] == 0
+
+
+@pytest.mark.usefixtures("quick")
+def test_two_bakes_give_the_same_bytes(run):
+    for folder in ("one", "two"):
+        assert run("bake", "-o", folder, "--n", "12,20", "--frames", "3", "--maps", "height,displacement,normal,jacobian")[0] == 0
+    one, two = ({p.relative_to(f): p.read_bytes() for p in Path(f).rglob("*") if p.is_file()} for f in ("one", "two"))
+    assert one == two
+    assert len(one) == 3 * 4 + 3
