@@ -322,7 +322,7 @@ def _arrow(ax: "PolarAxes", system: WaveSystem, rim: float, colour: str | None) 
         return
     ax.annotate(
         f"Tp {_three(moments.peak_period(system.spectrum))} s\ntoward {_degrees((system.direction + 180.0) % 360.0 - 180.0, 0)}",
-        (theta, 0.78 * rim),
+        (theta, 0.74 * rim),
         xytext=(40.0 * math.sin(theta), -20.0 * math.cos(theta)),  # beside the arrow
         textcoords="offset points",
         color=colour,
@@ -388,13 +388,13 @@ def _verdict(statistics: Statistics) -> str:
     """One line: how what came differs from what was ordered, and why."""
     if statistics.ordered is None:
         return f"Delivered: the waves that were given, Hs {_three(statistics.hs)} m"
-    both = f"Hs {_three(statistics.ordered.hs)} m ordered, {_three(statistics.hs)} m delivered"
+    both = f"Delivered: Hs {_three(statistics.hs)} m of {_three(statistics.ordered.hs)} m ordered"
     if statistics.resolved < 0.9 * statistics.ordered.m0:
-        return f"{both}: this tile cannot hold {'the rest' if statistics.m0 > _NOTHING else 'any of it'}"
+        return f"{both}; this tile cannot hold {'the rest' if statistics.m0 > _NOTHING else 'any of it'}"
     scatter = _scatter_of_hs(statistics)
     if scatter > 0.0:
         apart = abs(statistics.hs - 4.0 * math.sqrt(statistics.resolved)) / scatter
-        return f"{both}: {'within chance' if apart < 2.0 else 'a rare draw'} ({apart:.1f} σ)"
+        return f"{both}, {'within chance' if apart < 2.0 else 'a rare draw'} ({apart:.1f} σ)"
     return both
 
 
@@ -460,9 +460,9 @@ def _tabulate(ax: "Axes", statistics: Statistics) -> None:
     """Write the figures under the picture: each quantity ordered, delivered, and how far draws scatter."""
     ax.set_axis_off()
     sea, scatter = statistics.ordered, _scatter_of_hs(statistics)
-    spread = f"± {scatter:.2g} m" if scatter else "nothing" if sea else ""
+    spread = f"± {scatter:.2g} m" if scatter else "none" if sea else ""
     rows = [
-        ("", "ordered" if sea else "", "delivered", "draws scatter by" if sea else ""),
+        ("", "ordered" if sea else "", "delivered", "expected scatter" if sea else ""),
         ("significant wave height Hs", f"{_three(sea.hs)} m" if sea else "", f"{_three(statistics.hs)} m", spread),
         ("peak period Tp", f"{_three(sea.tp)} s" if sea else "", f"{_three(statistics.tp)} s", ""),
         ("mean direction, toward", _degrees(sea.mean_direction) if sea else "", _degrees(statistics.mean_direction), ""),
@@ -802,8 +802,10 @@ def _three(value: float) -> str:
 def _spell_out(axis: "Axis", most: float) -> None:
     """Write very small and very large numbers in full at each tick: an exponent above the axis is easily overlooked."""
     if not 1e-3 <= most < 1e5:
+        from matplotlib.ticker import MaxNLocator
+
+        axis.set_major_locator(MaxNLocator(4))
         axis.set_major_formatter("{x:.3g}")
-        axis.get_major_locator().set_params(nbins=4)
 
 
 def _degrees(value: float, digits: int = 1) -> str:

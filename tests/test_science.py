@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 ALL = (*FIELDS, "normal", "jacobian")
 TIMES = [-2.0, 0.0, 1.0 / 3.0, 1e7]
 SWELL = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=9.0), spreading=fo.CosinePower(s=12.0), direction=160.0)
-WIND_SEA = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=5.0), spreading=fo.CosinePower(s=3.0), direction=20.0)
+WIND_SEA = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=5.0), spreading=fo.CosineSquared(), direction=20.0)
 SEA = fo.Sea(WIND_SEA, SWELL, depth=25.0)
 
 

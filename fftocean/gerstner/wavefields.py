@@ -101,6 +101,11 @@ class WaveSurface:
         return np.stack([self.velocity_x, self.velocity_y, self.velocity_z], axis=-1)
 
     @property
+    def choppiness(self) -> float:
+        """1: the waves' own sharpness is in `displace_*` already; so the surface can go wherever a `Frame` can."""
+        return 1.0
+
+    @property
     def tangent_x(self) -> Real:
         """d position / dx0, (..., 3), not normalised."""
         return np.stack([1.0 + self.stretch_xx, self.stretch_xy, self.slope_x], axis=-1)

@@ -154,8 +154,8 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
     if directional:
         there, bearing, goes_to = _direction(raw, axes, family, source)
         if goes_to and family is _WAVESPECTRA and scale == 1.0:
-            # wavespectra's own readers turn directions and densities but leave WAVEWATCH's attributes on `dir` (xarray keeps them
-            # since 2025.11): in its layout, once densities are per degree, directions are FROM, whatever is left over there.
+            # wavespectra's own readers turn directions and densities but leave WAVEWATCH's attributes on `dir`, where xarray keeps
+            # attributes through arithmetic: in its layout, once densities are per degree, directions are FROM, whatever `dir` says.
             goes_to = False
             notes["direction_note"] = f"{there} says that waves go to there; in this layout they come from there, and so it is taken"
         if goes_to:
