@@ -175,6 +175,7 @@ class Ocean:
                 SeaWarning,
                 stacklevel=2,
             )
+        self.seed: int | None = seed  # checked where it is used, next
         self._set_up(sea, seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes), choppiness, dtype, backend, planning, threads)
 
     @classmethod
@@ -208,6 +209,7 @@ class Ocean:
         grid, dtype, loop = _checked(n, size, dtype, loop)
         amplitudes = place_modes(modes, grid, depth=depth, surface_tension=surface_tension, loop=loop)
         ocean = cls.__new__(cls)
+        ocean.seed = None  # there is no chance in it
         ocean._set_up(None, amplitudes, choppiness, dtype, backend, planning, threads)
         return ocean
 

@@ -223,7 +223,7 @@ def _write_netcdf(dataset: "Dataset", path: Path) -> None:
     _require("h5netcdf")
     require_memory(f"encoding {path.name}", 1.1 * dataset.nbytes)
     encoding = _encoding(dataset, "chunksizes", lambda variable: {"fletcher32": True} if variable.ndim else {})
-    write_whole(path, dataset.to_netcdf(engine="h5netcdf", encoding=encoding))  # type: ignore[arg-type]  # a view of bytes does as well
+    write_whole(path, dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
 
 
 def _write_zarr(dataset: "Dataset", path: Path) -> None:

@@ -62,12 +62,12 @@ ENERGY = ["m0 of the frame", "energy held + lost", "m0 of this draw"]
 @pytest.mark.parametrize(
     "case",
     [
-        lambda: ocean(dtype="float32", n=64),
+        lambda: ocean(dtype="float32", n=40),
         lambda: ocean(n=64, loop=None),
         lambda: ocean(n=31, size=97.0),
         lambda: ocean(SHALLOW, n=(48, 80), size=(100.0, 230.0)),
         lambda: ocean(SHALLOW, n=(48, 80), dtype="float32", loop=None, amplitudes="fixed"),
-        lambda: ocean(SWELL, n=64, size=700.0, amplitudes="fixed"),
+        lambda: ocean(SWELL, n=32, size=500.0, amplitudes="fixed"),
         lambda: ocean(n=2),
         lambda: ocean(n=3),
         lambda: ocean(n=(1, 33)),
@@ -94,7 +94,7 @@ def test_an_ocean_of_a_sea_is_proven(case):
     ],
     ids=str,
 )
-@pytest.mark.parametrize("t", [0.0, -1e6, 1e9, 1e12])
+@pytest.mark.parametrize("t", [0.0, -1e6, 1e12])
 def test_an_ocean_of_given_waves_is_proven(arguments, dtype, t):
     """At any time: what rounding omega t costs the direct sum is allowed for, in both precisions."""
     assert failed(few(dtype=dtype, **arguments), t) == []

@@ -44,3 +44,19 @@ def test_notebooks_run(path):
     notebook = nbformat.read(path, as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}).execute()
     assert not any(output.output_type == "error" for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs)
+
+
+def test_every_test_that_the_errata_name_is_there():
+    """Each row of docs/errata.md is pinned by a test of that name, in the file that it gives."""
+    text = (ROOT / "docs" / "errata.md").read_text(encoding="utf-8")
+    named = re.findall(r"`(?:(tests/[\w/]+\.py)::)?(test_\w+)`", text)
+    assert len(named) > 30
+    for file, name in named:
+        source = (ROOT / (file or "tests/gerstner/test_wavefields.py")).read_text(encoding="utf-8")
+        assert f"def {name}(" in source, f"{file}::{name}"
+    rows = [
+        line
+        for line in text.splitlines()
+        if line.startswith("| ") and not line.startswith(("| where", "| printed", "| as often written", "|---"))
+    ]
+    assert [row for row in rows if "test_" not in row] == []

@@ -12,7 +12,7 @@ from fftocean.errors import OutputError
 MAX_JSON = 4 * 2**20  # what a job of the largest file can come to, several times over
 
 
-def write_whole(path: Path, data: bytes) -> str:
+def write_whole(path: Path, data: bytes | memoryview) -> str:
     """
     Write a file so that it is either whole or absent, and return its SHA-256.
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import errno
+import functools
 import hashlib
 import json
 import os
@@ -37,10 +38,14 @@ def job(**changes):
 @pytest.fixture
 def quick(monkeypatch):
     """No picture and no integrals over the sea, which take most of the time of a small bake; they have their own tests."""
-    still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    statistics = dataclasses.replace(still, ordered=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0))
-    monkeypatch.setattr(baker, "measure", lambda _: statistics)
+    monkeypatch.setattr(baker, "measure", lambda _: some_statistics())
     monkeypatch.setattr(baker.preview, "contact_sheet", lambda *_: b"\x89PNG a picture of the sea" * 40)
+
+
+@functools.cache
+def some_statistics():
+    still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
+    return dataclasses.replace(still, ordered=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0))
 
 
 def tree(folder):
@@ -216,6 +221,7 @@ def environment(**more):
 )
 def test_jobs_of_all_kinds_bake(changes, tmp_path):
     order = job(**changes)
+    shape = order.ocean().grid.shape
     manifest = fo.bake(order, tmp_path / "out")
     assert list(manifest["maps"]) == list(order.maps)
     assert len(manifest["frames"]) == order.frames
@@ -224,7 +230,7 @@ def test_jobs_of_all_kinds_bake(changes, tmp_path):
         for entry in row["files"].values():
             for channel in exr.decode((tmp_path / "out" / entry["path"]).read_bytes()):
                 assert np.all(np.isfinite(channel))
-                assert channel.shape == order.ocean().grid.shape
+                assert channel.shape == shape
     strict((tmp_path / "out" / "manifest.json").read_bytes())
 
 
