@@ -736,30 +736,48 @@ def _label(ax: "Axes", labels: Sequence[_Label], curve: tuple[Real, Real], *, he
     Write each label right of its anchor, above all that is drawn there and clear of the others, and tie it to the anchor.
 
     Args:
-        ax: with its limits set.
+        ax: with its limits set; the upper one is raised until all labels are under it.
         labels: in any order.
         curve: x and the highest y of all that is drawn.
         height: about how high the axes will be [in].
     """
+    for _ in range(_ATTEMPTS):
+        places = _places(ax, labels, curve, height)
+        top = ax.get_ylim()[1]
+        if all(y + half <= top for _, y, half, _ in places):
+            break
+        ax.set_ylim(top=1.06 * top)
+    tie = {"arrowstyle": "-", "linewidth": 0.7, "relpos": (0.0, 0.5), "shrinkA": 0.0, "shrinkB": 1.0}
+    for (text, colour, anchor), (x, y, _, _) in zip(_from_below(labels), places, strict=True):
+        place: dict[str, Any] = {"color": colour, "fontsize": _LABEL_SIZE, "va": "center", "bbox": _PAPER}
+        ax.annotate(text, anchor, xytext=(x, y), arrowprops={**tie, "color": colour}, **place)
+
+
+def _places(ax: "Axes", labels: Sequence[_Label], curve: tuple[Real, Real], height: float) -> list[tuple[float, float, float, float]]:
+    """For each label from below: left end, middle, half height and right end, in the units of the axes."""
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     points_x, points_y = (WIDTH - 0.9) * 72.0 / (right - left), height * 72.0 / (top - bottom)
     taken: list[tuple[float, float, float, float]] = []
-    for text, colour, (x, y) in sorted(labels, key=lambda label: label.anchor[1]):
+    for text, _, (x, y) in _from_below(labels):
         lines = text.split("\n")
         width = 0.56 * _LABEL_SIZE * max(map(len, lines)) / points_x
-        half = 0.68 * _LABEL_SIZE * len(lines) / points_y
+        half = 0.7 * _LABEL_SIZE * len(lines) / points_y
         start = max(min(x + 10.0 / points_x, right - width), left)
         beside = (curve[0] >= start - 4.0 / points_x) & (curve[0] <= start + width)
         level = max(y, float(np.max(curve[1][beside], initial=0.0)) + half)
-        for middle, other, from_x, to_x in sorted(taken):
+        for from_x, middle, other, to_x in sorted(taken, key=lambda place: place[1]):
             if abs(level - middle) < half + other and start < to_x and from_x < start + width:
                 level = middle + other + half
-        level = min(level, top - half)
-        taken.append((level, half, start, start + width))
-        tie = {"arrowstyle": "-", "color": colour, "linewidth": 0.7, "relpos": (0.0, 0.5), "shrinkA": 0.0, "shrinkB": 1.0}
-        ax.annotate(text, (x, y), xytext=(start, level), color=colour, fontsize=_LABEL_SIZE, va="center", arrowprops=tie, bbox=_PAPER)
+        taken.append((start, level, half, start + width))
+    return taken
 
 
+def _from_below(labels: Sequence[_Label]) -> list[_Label]:
+    """Labels in the order in which they are placed."""
+    return sorted(labels, key=lambda label: label.anchor[1])
+
+
+_ATTEMPTS = 12
 _LABEL_SIZE = 9.5
 
 

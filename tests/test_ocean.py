@@ -226,7 +226,7 @@ def test_only_what_is_asked_is_there():
     assert not hasattr(frame, "slope_x")
     with pytest.raises(fo.FFTOceanError, match="has height; for slope_x ask"):
         _ = frame.slope_x
-    with pytest.raises(AttributeError, match="fo.normals"):
+    with pytest.raises(AttributeError, match=r"fo\.normals"):
         _ = frame.normal
     assert o.frame(0.0).fields == EIGHT
     for name in ALL:
@@ -243,8 +243,8 @@ def test_only_what_is_asked_is_there():
         (lambda o: o.frame("3"), "t must be"),
         (lambda o: o.frame(0.0, fields=("hieght",)), "a field must be one of"),
         (lambda o: o.loop_frame(0, 48), "loops"),
-        (lambda o: ocean(loop=30.0).loop_frame(0.5, 48), "j must be"),
-        (lambda o: ocean(loop=30.0).loop_frame(0, 0), "count must be"),
+        (lambda _: ocean(loop=30.0).loop_frame(0.5, 48), "j must be"),
+        (lambda _: ocean(loop=30.0).loop_frame(0, 0), "count must be"),
         (lambda o: o.frame(0.0, out=ocean(n=16).frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=ocean(dtype="float32").frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))), "has height; for displace_x"),
@@ -258,18 +258,25 @@ def test_bad_calls_are_refused(call, rule):
 BAD = [math.nan, math.inf, -math.inf, -1, 0, "5", True, None, 1e308, 1e-308]
 
 
+def tried(make):
+    """What was made, or why it was refused."""
+    try:
+        return make(), ""
+    except fo.ParameterError as error:
+        return None, str(error)
+
+
 @pytest.mark.parametrize("value", BAD, ids=repr)
 @pytest.mark.parametrize("key", ["n", "size", "seed", "loop", "choppiness", "dtype", "amplitudes", "backend", "planning"])
 def test_bad_values_are_refused_or_finite(key, value):
     """Every key: a refusal that names it, or a finite sea."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", fo.SeaWarning)
-        try:
-            o = ocean(n=8, **{key: value}) if key != "n" else ocean(n=value)
-        except fo.ParameterError as error:
-            assert key in str(error)
-            assert str(value) in str(error) or repr(value) in str(error)
-            return
+        o, refusal = tried(lambda: ocean(n=8, **{key: value}) if key != "n" else ocean(n=value))
+    if o is None:
+        assert key in refusal
+        assert str(value) in refusal or repr(value) in refusal
+        return
     frame = o.frame(1.0, fields=ALL)
     assert all(np.all(np.isfinite(frame[f])) for f in ALL)
 
@@ -280,11 +287,10 @@ def test_bad_seas_are_refused_or_finite(key, value):
     arguments = {"speed": 10.0, "fetch": 1e5, key: value}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", fo.SeaWarning)
-        try:
-            o = ocean(fo.Sea.from_wind(**arguments), n=16)
-        except fo.ParameterError as error:
-            assert key in str(error)
-            return
+        o, refusal = tried(lambda: ocean(fo.Sea.from_wind(**arguments), n=16))
+    if o is None:
+        assert key in refusal
+        return
     frame = o.frame(1.0, fields=ALL)
     assert all(np.all(np.isfinite(frame[f])) for f in ALL)
 

@@ -67,7 +67,7 @@ def test_energy_outside_the_band_in_one_direction(size):
 
 @pytest.mark.parametrize("draw", ["gaussian", "fixed"])
 def test_expected_scatter_is_what_seeds_do(draw):
-    """Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good to 1/sqrt(200) = 7 %, four of them."""
+    """Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good to 7 % each, four of them."""
     sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=6.0), spreading=fo.CosinePower(s=2.0)))
     oceans = [fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=draw, dtype="float64") for seed in range(100)]
     s = fo.measure(oceans[0])

@@ -496,15 +496,21 @@ def test_a_folder_that_cannot_be_is_an_output_error(folder):
         fo.bake(job(), folder)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
 @pytest.mark.usefixtures("quick")
 def test_a_read_only_folder_is_an_output_error(tmp_path):
-    tmp_path.chmod(0o555)
+    fo.bake(job(), tmp_path / "before")  # whatever has to be loaded is loaded, before we become somebody who may not
+    (tmp_path / "closed").mkdir(mode=0o555)
+    root = os.geteuid() == 0  # who may write anywhere
+    if root:
+        tmp_path.chmod(0o755)
+        os.seteuid(65534)
     try:
         with pytest.raises(OutputError, match=r"could not be (written|made)"):
-            fo.bake(job(), tmp_path)
+            fo.bake(job(), tmp_path / "closed")
     finally:
-        tmp_path.chmod(0o755)
+        if root:
+            os.seteuid(0)
+    tmp_path = tmp_path / "closed"
     assert not tree(tmp_path)
 
 
