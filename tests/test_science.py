@@ -594,7 +594,8 @@ def test_directions_in_any_order_come_out_ascending(spec):
 
 def test_a_sea_can_be_made_of_it_again(tmp_path):
     """Out to a file, in through the readers: Hs as delivered, direction and depth too, and the spread but for the bins' own width."""
-    readers = pytest.importorskip("fftocean.readers")
+    from fftocean import readers
+
     o = fo.Ocean(SEA, n=64, size=600.0, seed=5)
     science.write(science.realised_spectrum(o), tmp_path / "a.nc")
     again = readers.sea_from_spectrum(readers.open(tmp_path / "a.nc"))

@@ -1,11 +1,13 @@
 """Jobs: every key with its default and its rule, what a file may hold, and what is refused before anything is made."""
 
 import contextlib
+import itertools
 import json
 import math
 import os
 import time
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,30 +19,22 @@ from fftocean.bake import job as job_room
 from fftocean.bake.job import Job, parse_setting, parse_value
 from fftocean.bake.maps import MAPS
 from fftocean.bake.parameters import BY_KEY, PARAMETERS
-from fftocean.errors import JobError, ParameterError
+from fftocean.bake.systems import SPREADINGS as SPREADING_KINDS
+from fftocean.bake.systems import spectra_in
+from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.fields import FIELDS
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 BAD = ["nan", "inf", "-1", "0", '"5"', "true", "1e308", "1e-308"]
+SPECTRA_FILES = Path(__file__).parents[1] / "data" / "spectra"
 SWELL = "spectrum = { kind = 'jonswap', hs = 1.5, tp = 14.0, gamma = 7.0 }"
-SYSTEM_KEYS = [
-    ("jonswap", "hs", "tp = 8.0, gamma = 2.0"),
-    ("jonswap", "tp", "hs = 0.5, gamma = 2.0"),
-    ("jonswap", "gamma", "hs = 0.5, tp = 8.0"),
-    ("jonswap", "speed", "fetch = 1e5, gamma = 2.0"),
-    ("jonswap", "fetch", "speed = 9.0, gamma = 2.0"),
-    ("tma", "hs", "tp = 8.0, gamma = 2.0"),
-    ("tma", "tp", "hs = 0.5, gamma = 2.0"),
-    ("tma", "gamma", "hs = 0.5, tp = 8.0"),
-    ("tma", "speed", "fetch = 1e5"),
-    ("tma", "fetch", "speed = 9.0"),
-    ("pierson-moskowitz", "hs", "tp = 8.0"),
-    ("pierson-moskowitz", "tp", "hs = 0.5"),
-    ("pierson-moskowitz", "speed", ""),
-    ("tabulated", "frequency", "density = [0.0, 1.0, 0.2]"),
-    ("tabulated", "density", "frequency = [0.1, 0.2, 0.4]"),
-]
+GOOD = {
+    **{"hs": "0.5", "tp": "8.0", "gamma": "2.0", "speed": "9.0", "fetch": "1e5", "number": "4", "s": "9.0", "n": "4.0", "spread": "20.0"},
+    **{"xi": "0.5", "weight": "0.5", "frequency": "[0.1, 0.2, 0.4]", "density": "[0.0, 1.0, 0.2]"},
+    **{"hs_low": "0.5", "tp_low": "9.0", "lambda_low": "3.0", "hs_high": "0.4", "tp_high": "5.0", "lambda_high": "1.0"},
+}
+WAYS = [(kind, tuple(rules)) for kind, ways in spectra_in(math.inf, 0.0).items() for rules, _ in ways]
 
 
 def refused(text, *parts):
@@ -106,12 +100,52 @@ def test_a_bad_value_of_any_key_is_refused_or_gives_finite_water(key):
         assert refused_or_finite(toml_of(key, value), key, value) == (verdict == "r"), value
 
 
-@pytest.mark.parametrize(("kind", "key", "others"), SYSTEM_KEYS)
-def test_a_bad_value_in_a_wave_system_is_refused_or_gives_finite_water(kind, key, others):
-    for value in BAD:
-        table = ", ".join(part for part in (f"kind = {kind!r}", f"{key} = {value}", others) if part)
-        passes = key in ("hs", "speed") and value in ("0", "1e-308")
-        assert refused_or_finite(f"[ocean]\nn = 8\n[[sea.systems]]\nspectrum = {{ {table} }}\n", key, value) == (not passes), value
+def passes_at(kind, key):
+    """What a kind makes of `BAD`, by the meaning of its keys: no waves are waves, and a wind of 0 raises none; calm is number 0."""
+    if key == "number":
+        return ("0",)
+    nothing = key in ("hs", "hs_low", "hs_high", "speed", "s", "n", "xi", "weight")
+    return ("0", "1e-308") if nothing and (kind, key) != ("phillips", "speed") else ()
+
+
+@pytest.mark.parametrize(("kind", "keys"), WAYS, ids=str)
+def test_a_bad_value_in_a_spectrum_is_refused_or_gives_finite_water(kind, keys):
+    for key, value in itertools.product(keys, BAD):
+        table = ", ".join(f"{name} = {value if name == key else GOOD[name]}" for name in keys)
+        text = f"[ocean]\nn = 8\n[[sea.systems]]\nspectrum = {{ kind = '{kind}', {table} }}\n"
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (key, value)
+
+
+@pytest.mark.parametrize("kind", [kind for kind, (rules, _) in SPREADING_KINDS.items() if rules])
+def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind):
+    for key, value in itertools.product(SPREADING_KINDS[kind][0], BAD):
+        text = f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\nspreading = {{ kind = '{kind}', {key} = {value} }}\n"
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (key, value)
+
+
+@pytest.mark.parametrize("value", [*BAD, "1.5", "1000000"])
+@pytest.mark.parametrize("key", ["time", "site"])
+def test_a_bad_place_in_a_measured_file_is_refused(key, value):
+    """Counted from 0, or back from the end, as Python does."""
+    text = f"[ocean]\nn = 8\n[[sea.systems]]\nmeasured = {{ file = '{SPECTRA_FILES / '41010.data_spec'}', {key} = {value} }}\n"
+    if value == "0" or (key, value) == ("time", "-1"):
+        assert not refused_or_finite(text, key, value)
+    else:
+        with pytest.raises(ParameterError, match=key):
+            Job.from_toml(text)
+
+
+@pytest.mark.parametrize(
+    "file", ["", ".", "..", "/dev/zero", "/dev/full", "none", "a\nb", "a\0b", "x" * 1900, "README.md", "/proc/self/mem"]
+)
+def test_a_measured_file_that_is_none_is_an_input_error(file):
+    """Exit 3, and at once."""
+    start = time.process_time()
+    with pytest.raises(ReaderError) as caught:
+        Job.from_tree({"sea": {"systems": [{"measured": {"file": file}}]}}, source=str(SPECTRA_FILES / "job.toml"))
+    assert caught.value.exit_code == 3
+    assert "\n" not in str(caught.value)
+    assert time.process_time() - start < 2.0
 
 
 @pytest.mark.parametrize("value", BAD)
@@ -126,17 +160,9 @@ def test_a_bad_value_in_a_measured_spectrum_is_refused_or_gives_finite_water(key
 
 
 @pytest.mark.parametrize("value", BAD)
-@pytest.mark.parametrize(
-    ("key", "text", "passes"),
-    [
-        ("direction", "direction = {}", ("-1", "0", "1e-308")),
-        ("spreading.s", "spreading = {{ kind = 'cosine-power', s = {} }}", ("0", "1e-308")),
-        ("spreading.weight", "spreading = {{ kind = 'blend', weight = {} }}", ("0", "1e-308")),
-    ],
-)
-def test_a_bad_direction_or_spreading_is_refused_or_gives_finite_water(key, text, passes, value):
-    job = f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\n{text.format(value)}\n"
-    assert refused_or_finite(job, f"sea.systems[0].{key}", value) == (value not in passes)
+def test_a_bad_direction_is_refused_or_gives_finite_water(value):
+    job = f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\ndirection = {value}\n"
+    assert refused_or_finite(job, "sea.systems[0].direction", value) == (value not in ("-1", "0", "1e-308"))
 
 
 def test_no_wind_is_an_exactly_flat_sea_that_says_so():

@@ -4,11 +4,10 @@ import io
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import fftocean as fo
 from fftocean.bake import preview
-
-Image = pytest.importorskip("PIL.Image")
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 FIELDS = ("height", "displace_x", "displace_y", "normal")

@@ -4,6 +4,7 @@ import io
 import struct
 
 import numpy as np
+import OpenEXR
 import pytest
 
 import fftocean as fo
@@ -11,8 +12,6 @@ from fftocean.bake.maps import MAPS
 from fftocean.errors import OutputError
 from fftocean.export import exr
 from fftocean.fields import EIGHT
-
-OpenEXR = pytest.importorskip("OpenEXR")
 
 SHAPES = [(1, 1), (1, 7), (7, 1), (2, 2), (31, 31), (80, 48), (17, 256)]  # (ny, nx)
 
