@@ -8,6 +8,7 @@ import numpy as np
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.grid import Grid
+from fftocean.limits import LOOP
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
 from fftocean.physics.sea import Sea, WaveSystem
@@ -232,7 +233,7 @@ def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
         return math.sqrt(float(np.sum(weight * relative**2))), float(np.sum(weight * relative))
 
     candidates = [round(period * (0.9 + 0.001 * i), 2) for i in range(201)]
-    tried = {c: errors(c, omega[strongest], energy[strongest])[0] for c in candidates if c > 0.0}
+    tried = {c: errors(c, omega[strongest], energy[strongest])[0] for c in candidates if LOOP.low <= c <= LOOP.high}
     better = min(tried, key=lambda c: (tried[c], abs(c - period))) if tried else period
     rms, bias = errors(period, omega, energy)
     better_rms = errors(better, omega, energy)[0]

@@ -205,7 +205,9 @@ def test_the_shade_is_where_the_tile_has_no_waves(measured):
 
 
 def test_the_table_says_what_measure_says(crossed):
-    text, s = words(drawn(plots.plot_delivered, crossed)), fo.measure(crossed)
+    figure, s = drawn(plots.plot_delivered, crossed), fo.measure(crossed)
+    text = words(figure)
+    assert figure.get_suptitle().startswith(f"Delivered: Hs {s.hs:#.3g} m of {s.ordered.hs:#.3g} m ordered, ")
     for value in (f"{s.hs:#.3g} m", f"{s.ordered.hs:#.3g} m", f"{s.tp:#.3g} s", f"{s.spread:.1f}°", f"{s.ordered.spread:.1f}°"):
         assert value in text
     assert f"± {0.5 * s.sampling_error * 4 * math.sqrt(s.resolved):.2g} m" in text
@@ -214,7 +216,7 @@ def test_the_table_says_what_measure_says(crossed):
 
 def test_the_expected_scatter_is_what_seeds_do():
     """Each bin over 100 draws: its mean is good to a tenth of its scatter, its standard deviation to 1/sqrt(200) = 7 %."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=7.0), spreading=fo.CosineSquared()))
+    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=7.0), spreading=fo.CosinePower(s=0.0)))
     edges, _, expected, scatter = plots._delivered_spectrum(fo.Ocean(sea, n=8, size=160.0))
     draws = []
     for seed in range(100):
@@ -343,6 +345,10 @@ def test_every_picture_can_be_read(plot, which, request):
         assert box.x1 <= width, text
         assert box.y0 >= 0, text
         assert box.y1 <= height, text
+    for axes in figure.axes:
+        for label in axes.texts:
+            if isinstance(label, Annotation) and axes.name == "rectilinear":  # a curve's: not over the axis of periods
+                assert boxes[label.get_text()].y1 <= axes.get_window_extent().y1 + 1, label.get_text()
     for (a, first), (b, second) in combinations(boxes.items(), 2):
         assert not first.overlaps(second), (a, b)
     assert figure.get_suptitle()
@@ -421,7 +427,7 @@ def test_what_cannot_be_drawn_is_refused(crossed, tmp_path):
             plot(CROSSED)
     with pytest.raises(fo.ParameterError, match="figure must be a matplotlib Figure, got 'sea'"):
         plots.save("sea", tmp_path / "a.png")
-    assert isinstance(plots.plot_spectrum(CROSSED), Figure)
+    assert isinstance(plots.plot_spectrum(fo.Sea()), Figure)
 
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):

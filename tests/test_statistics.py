@@ -104,6 +104,15 @@ def test_loop_error_by_hand():
     assert loop_error(better.amplitudes, e.better_period).rms == pytest.approx(e.better_rms, rel=1e-6)
 
 
+@pytest.mark.parametrize("period", [1e-2, 1e9])
+def test_the_shortest_and_the_longest_loop_have_an_error_too(period):
+    """No better period is looked for where none is allowed."""
+    e = fo.measure(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=100.0, loop=period)).loop
+    assert e is not None
+    assert np.isfinite(e.rms)
+    assert 1e-2 <= e.better_period <= 1e9
+
+
 def test_a_flat_sea_measures_as_nothing():
     s = fo.measure(fo.Ocean(fo.Sea(), n=8, size=10.0, loop=5.0))
     assert (s.m0, s.hs, s.tp, s.mean_direction, s.spread) == (0.0,) * 5

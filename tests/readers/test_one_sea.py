@@ -6,6 +6,7 @@ import xarray as xr
 from written import FREQUENCY, TO, era5, packed, sea, write_era5, write_ndbc, write_swan, write_wavespectra, write_ww3, ww3
 
 from fftocean import readers
+from fftocean.ocean import Ocean
 
 OMEGA = 2.0 * np.pi * np.geomspace(0.03, 0.6, 97)
 THETA = np.linspace(-np.pi, np.pi, 101)
@@ -50,6 +51,19 @@ def test_the_same_sea_in_every_format(name, tmp_path):
     by_hand = xr.Dataset({"efth": (("dir", "freq"), order.density[1].T)}, {"freq": FREQUENCY, "dir": (TO + 180.0) % 360.0})
     want = density(by_hand)
     assert np.max(np.abs(got - want)) <= 1e-6 * np.max(want)
+
+
+def test_the_same_surface_from_every_format(tmp_path):
+    """wavespectra, WAVEWATCH III and ERA5 files of one sea realise one surface: heights within 1e-6 of the largest."""
+    order = sea(toward=70.0)
+    heights = []
+    for name in ("wavespectra", "ww3", "era5 in Hz"):
+        write, which = WRITERS[name]
+        got = readers.sea_from_spectrum(readers.open(write(tmp_path / name.replace(" ", "_"), order), **which), time=1)
+        heights.append(Ocean(got, n=64, size=900.0, seed=5, dtype="float64").frame(3.0, ("height",)).height)
+    assert np.std(heights[0]) > 0.1
+    for height in heights[1:]:
+        assert np.max(np.abs(height - heights[0])) <= 1e-6 * np.max(np.abs(heights[0]))
 
 
 @pytest.mark.parametrize("name", [*WRITERS, "ndbc"])
