@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from fftocean.bake.baker import bake as bake
     from fftocean.bake.job import Job as Job
     from fftocean.errors import FFTOceanError as FFTOceanError
+    from fftocean.errors import FieldError as FieldError
+    from fftocean.errors import FolderInUseError as FolderInUseError
     from fftocean.errors import IntegrityError as IntegrityError
     from fftocean.errors import JobError as JobError
     from fftocean.errors import OutputError as OutputError
     from fftocean.errors import ParameterError as ParameterError
+    from fftocean.errors import ReaderError as ReaderError
     from fftocean.errors import SeaWarning as SeaWarning
     from fftocean.ocean import Frame as Frame
     from fftocean.ocean import Ocean as Ocean
@@ -63,7 +66,17 @@ __version__ = "0.1.0"
 
 _ROOMS = {
     "fftocean.bake.job": ("Job",),
-    "fftocean.errors": ("FFTOceanError", "IntegrityError", "JobError", "OutputError", "ParameterError", "SeaWarning"),
+    "fftocean.errors": (
+        "FFTOceanError",
+        "FieldError",
+        "FolderInUseError",
+        "IntegrityError",
+        "JobError",
+        "OutputError",
+        "ParameterError",
+        "ReaderError",
+        "SeaWarning",
+    ),
     "fftocean.ocean": ("Frame", "Ocean"),
     "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
@@ -113,4 +126,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    return sorted([*__all__, *(name for name in globals() if name.startswith("__"))])

@@ -58,6 +58,10 @@ class Frame:
             made = {"normal": ", or take fo.normals(frame)", "jacobian": ", or take fo.jacobian(frame)"}.get(name, "")
             raise FieldError(f"this frame has {', '.join(self._arrays)}; for {name} ask frame(t, fields=({name!r}, ...)){made}") from None
 
+    def _become(self, other: "Frame") -> None:
+        """Take over another frame's moment and arrays."""
+        self.t, self.grid, self.choppiness, self._arrays = other.t, other.grid, other.choppiness, other._arrays
+
     def __repr__(self) -> str:
         return f"Frame(t={self.t}, {self.grid.nx} x {self.grid.ny}, {', '.join(self._arrays)})"
 
@@ -226,6 +230,17 @@ class Ocean:
         workers = THREADS.check_whole("threads", threads)
         self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
         self._lock, self._pid = threading.Lock(), os.getpid()
+        self._recipe = (sea, self.seed, amplitudes, choppiness, dtype, backend, planning, threads)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set up once: a change would not reach the plans and tables that were made."""
+        if hasattr(self, "_recipe") and not name.startswith("_"):
+            raise AttributeError(f"an ocean is frozen: make another with the {name} that you want")
+        super().__setattr__(name, value)
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        """Pickle and copy as what it is made of; plans and buffers are made anew."""
+        return _remade, self._recipe
 
     def _require_range(self) -> None:
         """Refuse a sea whose fields would overflow their type, however the waves meet."""
@@ -274,7 +289,7 @@ class Ocean:
         Args:
             t: any time [s]; on a loop, t and t + loop are the same moment.
             fields: which arrays to compute: names of `fields.FIELDS`, "normal", "jacobian". Only what is asked is computed.
-            out: an earlier frame of this ocean with (at least) the same fields: its arrays are overwritten and returned.
+            out: an earlier frame of this shape and precision with at least the same fields: it becomes the new one and is returned.
 
         Raises:
             ParameterError: an unknown field, a time that is not finite, an `out` of another shape or dtype.
@@ -319,7 +334,11 @@ class Ocean:
         arrays = self._outputs(fields, out)
         with self._locked():
             self._synthesis.run(turn, arrays, self.choppiness)
-        return Frame(t, self.grid, self.choppiness, arrays)
+        frame = Frame(t, self.grid, self.choppiness, arrays)
+        if out is not None:
+            out._become(frame)  # else it would go on naming the moment before
+            return out
+        return frame
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
         """The arrays to write to: new ones, or those of an earlier frame."""
@@ -327,6 +346,8 @@ class Ocean:
         if out is None:
             return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
         arrays = {}
+        if not isinstance(out, Frame) or not set(fields) <= set(out.fields):
+            raise ParameterError(f"out must be a frame that has {', '.join(fields)}, got {out!r:.200}")
         for name, shape in shapes.items():
             array = out[name]
             if array.shape != shape or array.dtype != self.dtype or not array.flags.c_contiguous or not array.flags.writeable:
@@ -337,14 +358,23 @@ class Ocean:
         return arrays
 
     def _locked(self) -> threading.Lock:
-        """The lock on plans and buffers; a forked child gets a fresh one, as the parent's may be held by a thread that it does not have."""
+        """The lock on plans and buffers; a forked child gets a fresh one and fresh threads, as it has none of its parent's."""
         if self._pid != os.getpid():
             self._lock, self._pid = threading.Lock(), os.getpid()
+            self._synthesis.restart()
         return self._lock
 
     def __repr__(self) -> str:
         g = self.grid
         return f"Ocean({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m, depth={self.depth:g}, loop={self.loop}, dtype={self.dtype!r})"
+
+
+def _remade(sea: Sea | None, seed: int | None, *made: Any) -> Ocean:
+    """An ocean from its own amplitudes, without seeding them again."""
+    ocean = Ocean.__new__(Ocean)
+    ocean.seed = seed
+    ocean._set_up(sea, *made)
+    return ocean
 
 
 def memory_needed(grid: Grid, dtype: str) -> float:

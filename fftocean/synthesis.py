@@ -91,8 +91,12 @@ class Synthesis:
         self._rate_omega: Real | None = None
         self._between = np.zeros(0, dtype=COMPLEX_OF[dtype])
         self._desks: dict[Plan, list[_Desk]] = {}
-        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="fftocean") if threads > 1 else None
+        self.restart()
         self.backend = self._desk_set(plan_of(("height",)))[0].first.backend
+
+    def restart(self) -> None:
+        """Start the threads; once more in a forked child, to which its parent's are not handed down."""
+        self._pool = ThreadPoolExecutor(self._threads, thread_name_prefix="fftocean") if self._threads > 1 else None
 
     def run(self, turn: Turn, outputs: Mapping[str, Real], choppiness: float) -> None:
         """Compute fields into the arrays given by name, each (ny, nx), or (ny, nx, 3) for normals."""

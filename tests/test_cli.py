@@ -166,12 +166,12 @@ def test_a_bad_value_in_a_wave_system(run, key, value):
     assert refused_or_finite(run("bake", "job.toml", "-o", "out", *SMALL), f"sea.systems[0].{key}", value) == (value not in accepted)
 
 
-@pytest.mark.parametrize("command", ["bake", "info", "verify"])
+@pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
 def test_each_command_refuses_alike(run, command):
     assert "sea.wind.speed must be between 0 and 150 m/s, got -1.0" in clean(run(command, "--set", "sea.wind.speed=-1"))
 
 
-@pytest.mark.parametrize("command", ["bake", "info", "verify"])
+@pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
 def test_more_samples_than_memory_are_refused_before_they_are_taken(run, command, monkeypatch):
     monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
     start = time.process_time()
@@ -281,7 +281,7 @@ def test_version(run):
     assert run("--version") == (0, f"fftocean {fo.__version__}\n", "")
 
 
-@pytest.mark.parametrize("command", ["", "bake", "info", "verify"])
+@pytest.mark.parametrize("command", ["", "bake", "info", "verify", "plot", "presets"])
 def test_help_shows_an_example_and_the_exit_codes(run, command):
     code, out, err = run(*command.split(), "--help")
     assert code == 0
@@ -290,7 +290,7 @@ def test_help_shows_an_example_and_the_exit_codes(run, command):
     for number in ("0 ok", "2 usage or job", "4 output", "5 integrity", "130 interrupted"):
         assert number in out
     assert max(map(len, out.splitlines())) <= 120
-    for p in FLAGGED if command else ():
+    for p in FLAGGED if command not in ("", "presets") else ():
         assert f"--{p.flag} {p.flag.upper()}" in out
         assert p.help.split("%")[0][:20] in " ".join(out.split())
 
@@ -391,7 +391,7 @@ def test_notes_tell_what_the_tile_cannot_hold(run):
     assert "waves shorter than two samples" in run("info", "--n", "4", "--size", "100")[2]
 
 
-@pytest.mark.parametrize("n", ["1", "2", "31", "12,20"])
+@pytest.mark.parametrize("n", ["1", "2", "31,12"])
 def test_info_describes_any_tile(run, n):
     code, out, _ = run("info", "--n", n)
     assert code == 0
@@ -423,9 +423,7 @@ def test_info_describes_a_job_with_systems_and_without_waves(run):
         ("verify", "[/x].toml"),
         ("info", "[bold]a[/bold].toml"),
         ("verify", "a\\[b.toml"),
-        ("info", "ünï.toml"),
-        ("info", "a\x1b[31mb.toml"),
-        ("verify", "\udcff.toml"),
+        ("info", "ünï\x1b[31m\udcff.toml"),
     ],
 )
 def test_names_are_shown_as_they_are(run, command, name):
@@ -434,7 +432,7 @@ def test_names_are_shown_as_they_are(run, command, name):
     Path(name).write_text("[ocean]\nn = 8\n")
     code, out, _ = run(command, name)
     assert code == 0
-    assert name.encode("unicode_escape").decode() in out or name in out
+    assert name.replace("\x1b", "\\x1b").replace("\udcff", "\\udcff") in out
     assert "\x1b" not in out
 
 
@@ -445,6 +443,13 @@ def test_a_folder_s_name_may_be_anything(run):
         assert (code, err) == (0, "")
         assert Path(name, "manifest.json").exists()
         assert len(out.splitlines()) == 3
+
+
+def test_presets_are_listed(run):
+    code, out, err = run("presets")
+    assert (code, err) == (0, "")
+    for call in ("Sea.beaufort(0)", "Sea.beaufort(12)", "Sea.sea_state(9)"):
+        assert call in out
 
 
 # Output faults: tests/bake/test_baker.py has them all; here their exit code and their line

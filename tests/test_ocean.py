@@ -1,8 +1,11 @@
 """The frame: every field against the direct sum, at any time, on any grid; loops, seams, seeds, threads and bad input."""
 
+import copy
 import dataclasses
 import math
 import os
+import pickle
+import signal
 import threading
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -247,7 +250,8 @@ def test_only_what_is_asked_is_there():
         (lambda _: ocean(loop=30.0).loop_frame(0, 0), "count must be"),
         (lambda o: o.frame(0.0, out=ocean(n=16).frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=ocean(dtype="float32").frame(0.0)), "out.height must be"),
-        (lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))), "has height; for displace_x"),
+        (lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))), "out must be a frame that has height, displace_x"),
+        (lambda o: o.frame(0.0, out={}), "out must be a frame"),
     ],
 )
 def test_bad_calls_are_refused(call, rule):
@@ -337,6 +341,45 @@ def test_sixteen_threads_on_one_ocean_get_right_data():
             for i, frame in results:
                 assert np.array_equal(frame.height, expected[i].height)
                 assert np.array_equal(frame.normal, expected[i].normal)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@pytest.mark.parametrize("backend", ["pyfftw", "scipy"])
+def test_a_forked_child_has_threads_of_its_own(backend):
+    """The parent's workers are not handed down to it: without new ones it would wait for ever."""
+    o = ocean(dtype="float32", threads=2, backend=backend)
+    expected = o.frame(1.0).height
+    child = os.fork()
+    if child == 0:
+        signal.alarm(20)  # a hang is a failure, not a hanging suite
+        os._exit(0 if np.array_equal(o.frame(1.0).height, expected) else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert np.array_equal(o.frame(1.0).height, expected)
+
+
+def test_a_reused_frame_names_the_moment_that_it_shows():
+    o = ocean(loop=30.0)
+    first = o.frame(1.0)
+    second = o.frame(2.0, ("height", "slope_x"), out=first)
+    assert second is first
+    assert (first.t, first.fields) == (2.0, ("height", "slope_x"))
+    assert np.array_equal(first.height, o.frame(2.0).height)
+
+
+@pytest.mark.parametrize("make", [lambda: ocean(loop=30.0, threads=2), lambda: fo.Ocean.from_modes([(1, 2, 0.5, 0.1)], n=8, size=9.0)])
+def test_oceans_can_be_pickled_and_copied(make):
+    o = make()
+    for twin in (pickle.loads(pickle.dumps(o)), copy.copy(o), copy.deepcopy(o)):
+        assert twin is not o
+        assert twin.seed == o.seed
+        assert all(np.array_equal(twin.frame(1.3)[name], o.frame(1.3)[name]) for name in EIGHT)
+
+
+@pytest.mark.parametrize(("name", "value"), [("choppiness", 0.5), ("dtype", "float32"), ("seed", 9), ("sea", None)])
+def test_an_ocean_is_frozen(name, value):
+    with pytest.raises(AttributeError, match=f"an ocean is frozen: make another with the {name}"):
+        setattr(ocean(), name, value)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")

@@ -14,7 +14,7 @@ from fftocean.bake.files import as_json, make_folder, read_json, remove, write_w
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.maps import MAPS
 from fftocean.bake.parameters import PARAMETERS
-from fftocean.errors import OutputError
+from fftocean.errors import JobError, OutputError
 from fftocean.export import exr
 from fftocean.ocean import Ocean
 from fftocean.statistics import Statistics, measure
@@ -42,6 +42,8 @@ def bake(job: Job, folder: str | Path = "out", *, overwrite: bool = False, progr
         OutputError: a file cannot be written, or the folder holds another job.
         JobError: the job asks for more than can be.
     """
+    if not isinstance(job, Job):
+        raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
     folder = Path(folder)
     ocean = job.ocean()
     make_folder(folder)

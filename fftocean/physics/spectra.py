@@ -244,7 +244,11 @@ class CustomSpectrum:
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not asked."""
         omega = np.asarray(omega, dtype=np.float64)
-        values = np.asarray(self.function(np.where(omega > 0.0, omega, self.peak)))
+        asked = np.where(omega > 0.0, omega, self.peak)
+        try:
+            values = np.asarray(self.function(asked))
+        except (TypeError, ValueError):  # written for one number, with math.exp or an if
+            values = np.vectorize(self.function, otypes=[np.float64])(asked)
         if values.dtype.kind not in "iuf":
             raise ParameterError(f"the custom spectrum must return real numbers, got {values!r:.60}")
         if values.shape not in (omega.shape, ()):

@@ -1,6 +1,8 @@
 """D(omega, theta): how a frequency's energy is shared out among the directions; every D integrates to 1 over the circle."""
 
 from dataclasses import dataclass, field
+from functools import partial
+from types import BuiltinFunctionType, FunctionType, MethodType
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -23,8 +25,10 @@ def require_spreading(name: str, value: object) -> None:
     Refuse what cannot spread waves.
 
     Raises:
-        ParameterError: not callable, or a model's class where a model is wanted.
+        ParameterError: not callable, a model's class where a model is wanted, or a plain function, whose integral nobody has seen to.
     """
+    if isinstance(value, (FunctionType, BuiltinFunctionType, MethodType, partial)):
+        raise ParameterError(f"{name} must integrate to 1 round the circle (wrap a plain function: CustomSpreading(f)), got {value!r:.60}")
     if not callable(value) or isinstance(value, type):
         raise ParameterError(f"{name} must be callable as D(omega, theta, peak), got {value!r:.60}")
 

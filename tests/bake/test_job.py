@@ -24,7 +24,7 @@ from fftocean.bake.systems import spectra_in
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.fields import FIELDS
 
-pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+pytestmark = [pytest.mark.nojit, pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")]
 
 BAD = ["nan", "inf", "-1", "0", '"5"', "true", "1e308", "1e-308"]
 SPECTRA_FILES = Path(__file__).parents[1] / "data" / "spectra"

@@ -200,8 +200,16 @@ def test_no_wind_over_any_depth_gives_anything_but_a_finite_sea(speed, depth):
             assert np.max(density) > 0.0
 
 
-def test_a_system_may_be_a_plain_function():
+def test_plain_functions_are_wrapped_first():
+    """A spectrum to name its peak, a spreading to see to its integral; an own class may do as it likes."""
     spectrum = CustomSpectrum(lambda w: np.exp(-w), peak=1.0)
-    sea = Sea(WaveSystem(spectrum=spectrum, spreading=lambda _omega, theta, _peak: np.exp(-np.abs(theta))))
+    with pytest.raises(ParameterError, match=r"spreading must integrate to 1 .* CustomSpreading"):
+        WaveSystem(spectrum=spectrum, spreading=lambda _omega, theta, _peak: np.exp(-np.abs(theta)))
+
+    class Front:
+        def __call__(self, _omega, theta, _peak, /):
+            return np.exp(-np.abs(theta))
+
+    sea = Sea(WaveSystem(spectrum=spectrum, spreading=Front()))
     assert sea.variance == pytest.approx(1.0, rel=1e-10)  # the integral of e^-w
     assert sea.density(1.0, 0.5) == pytest.approx(math.exp(-1.5), rel=1e-14)

@@ -434,3 +434,12 @@ def test_moments_are_finite_at_every_depth(depth, n):
         turn = math.sqrt(GRAVITY / depth)
         # 1/2 from below the turn, 1 from above it, less what the rounded corner takes.
         assert 0.5 * turn < m / (s.spectrum.alpha * GRAVITY * depth) < 1.5 * turn
+
+
+def test_a_function_of_one_number_is_a_spectrum_too():
+    """Written with math.exp, or with an if: asked point by point where it cannot take an array."""
+    omega = np.linspace(0.5, 3.0, 7)
+    bell = CustomSpectrum(lambda w: math.exp(-((w - 1.0) ** 2)), peak=1.0)
+    assert bell(omega) == pytest.approx(np.exp(-((omega - 1.0) ** 2)), rel=1e-15)
+    box = CustomSpectrum(lambda w: 1.0 if 0.6 < w < 2.0 else 0.0, peak=1.0)
+    assert np.array_equal(box(omega), np.where((omega > 0.6) & (omega < 2.0), 1.0, 0.0))

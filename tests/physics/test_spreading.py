@@ -3,6 +3,7 @@
 import math
 import pickle
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import mpmath
@@ -185,11 +186,12 @@ def test_models_are_frozen_values(model):
             setattr(model, name, 1.0)
 
 
-def test_a_function_is_a_model_too():
-    """Any D(omega, theta, peak) will do."""
+def test_a_plain_function_is_no_model():
+    """Nobody has seen to its integral: 1 everywhere would deliver 2 pi times the energy. CustomSpreading does see to it."""
 
-    def toward(omega, theta, _peak):
-        return np.broadcast_to(np.where(np.abs(wrapped(theta)) < 0.5, 1.0, 0.0), np.broadcast_shapes(np.shape(omega), np.shape(theta)))
+    def everywhere(omega, theta, _peak):
+        return 1.0 + 0.0 * omega + 0.0 * theta
 
-    assert isinstance(toward, Spreading)
-    assert Blend(toward, toward)(np.ones(3), 0.2, PEAK) == pytest.approx(np.ones(3), rel=1e-15)
+    for f in (everywhere, partial(everywhere), np.add.reduce):
+        with pytest.raises(ParameterError, match=r"first must integrate to 1 .* CustomSpreading\(f\)"):
+            Blend(f, CosineSquared())

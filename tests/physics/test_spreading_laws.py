@@ -165,13 +165,23 @@ def test_wrapped_normal_equals_its_fourier_series(spread):
     assert measured == pytest.approx(math.degrees(math.sqrt(2.0 * (1.0 - math.exp(-0.5 * sigma**2)))), rel=1e-9, abs=1e-6)
 
 
+class _Disguised:
+    """A model of which nothing is known but its values."""
+
+    def __init__(self, model):
+        self._model = model
+
+    def __call__(self, omega, theta, peak, /):
+        return self._model(omega, theta, peak)
+
+
 def test_swell_elongation_adds_its_exponent_in_closed_form():
     """For a power of cos(theta/2) the exponents add; the numerical norm, reached through a disguise, agrees."""
     theta = np.linspace(-3.1, 3.1, 41)
     omega = PEAK * np.array([[0.4], [0.99], [1.3], [6.0]])
     for base in (CosinePower(s=3.0), CosinePower(s=0.0), Mitsuyasu(speed=12.0), Hasselmann(speed=12.0)):
         closed = SwellElongation(base, xi=0.6)(omega, theta, PEAK)
-        numerical = SwellElongation(lambda o, t, p, base=base: base(o, t, p), xi=0.6)(omega, theta, PEAK)
+        numerical = SwellElongation(_Disguised(base), xi=0.6)(omega, theta, PEAK)
         assert numerical == pytest.approx(closed, rel=1e-12)
     s = 3.0 + 16.0 * math.tanh(1.0 / 1.3) * 0.36
     assert SwellElongation(CosinePower(s=3.0), xi=0.6)(1.3 * PEAK, 0.8, PEAK) == pytest.approx(
@@ -195,7 +205,7 @@ def test_swell_elongation_narrows_the_long_waves():
         assert widths == sorted(widths, reverse=True)
     left = [spread(1.0, x) / spread(0.0, x) for x in (0.5, 2.0, 8.0, 30.0)]
     assert left == sorted(left)
-    everywhere = SwellElongation(lambda _o, t, _p: np.full(np.shape(t), 0.5 / math.pi), xi=1.0)
+    everywhere = SwellElongation(_Disguised(CosinePower(s=0.0)), xi=1.0)
     assert mean_direction_and_spread(everywhere(0.01 * PEAK, theta, PEAK), theta)[1] == pytest.approx(
         math.degrees(math.sqrt(2.0 / 17.0)), rel=1e-9
     )
