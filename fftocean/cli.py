@@ -125,16 +125,23 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
         _add_job_flags(command)
         if name == "bake":
-            command.add_argument("-o", "--output", type=Path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
+            command.add_argument("-o", "--output", type=_path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
             command.add_argument("--overwrite", action="store_true", help="bake over another job's folder")
             command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
         if name == "plot":
             help_ = "picture to write, .png, .svg or .pdf (default: sea.png)"
-            command.add_argument("-o", "--output", type=Path, default=Path("sea.png"), metavar="FILE", help=help_)
+            command.add_argument("-o", "--output", type=_path, default=Path("sea.png"), metavar="FILE", help=help_)
         if name == "verify":
             command.add_argument("--t", type=float, default=3.7, metavar="T", help="time to look at [s] (default: 3.7)")
             command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
     return parser
+
+
+def _path(text: str) -> Path:
+    """A path that was really given: an empty one is nearly always a shell variable that is not set, and would be the current folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("must not be empty")
+    return Path(text)
 
 
 def _add_job_flags(command: argparse.ArgumentParser) -> None:

@@ -653,3 +653,12 @@ def test_two_bakes_give_the_same_bytes(run):
     one, two = ({p.relative_to(f): p.read_bytes() for p in Path(f).rglob("*") if p.is_file()} for f in ("one", "two"))
     assert one == two
     assert len(one) == 3 * 4 + 3
+
+
+def test_an_empty_output_is_not_the_current_folder(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as leaving:
+        cli.main(["bake", "-o", "", "--n", "8", "--frames", "1"])
+    assert leaving.value.code == 2
+    assert "must not be empty" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

@@ -84,7 +84,10 @@ def read(path: Path, *, site: int) -> "Dataset":
         warnings.simplefilter("ignore")  # of two fill values, odd calendars: what matters is checked below
         if modern:
             hdf5.require_sound(path.name, opened)
-        with xr.open_dataset(opened, engine="h5netcdf" if modern else "scipy", decode_timedelta=False) as raw:
+        # A stream of our own: given a path, the libraries map it or leave it open where they fail.
+        engine = "h5netcdf" if modern else "scipy"
+        stream = opened.open("rb") if isinstance(opened, Path) else opened
+        with stream, xr.open_dataset(stream, engine=engine, decode_timedelta=False) as raw:
             return tidy(raw, site=site, source=path.name)
 
 
@@ -96,7 +99,9 @@ def _broken(name: str) -> Iterator[None]:
     except ParameterError:
         raise
     except ImportError as error:
-        raise layout.missing(error) from error
+        if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
+            raise layout.missing(error) from error
+        raise ReaderError(f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}") from error
     except Exception as error:
         raise ReaderError(f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}") from error
 
