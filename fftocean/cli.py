@@ -281,22 +281,11 @@ def _verify(options: argparse.Namespace) -> int:
     from rich.text import Text
 
     from fftocean.limits import TIME
-    from fftocean.ocean import Ocean
     from fftocean.proof import verify
 
     t = TIME.check("t", options.t)
     job = _job(options)
-    s = job.settings
-    ocean = Ocean(
-        job.sea(),
-        n=s["ocean.n"],
-        size=s["ocean.size"],
-        seed=s["ocean.seed"],
-        loop=s["ocean.loop"],
-        choppiness=s["ocean.choppiness"],
-        amplitudes=s["ocean.amplitudes"],
-        dtype=options.dtype,
-    )
+    ocean = job.ocean(dtype=options.dtype)
     checks = verify(ocean, t)
     title = f"{_plain(job.source)}: {ocean.grid.nx} x {ocean.grid.ny}, {ocean.dtype}, t = {t:g} s"
     table = Table(title=Text(title), title_justify="left")

@@ -139,8 +139,8 @@ class Job:
         except ParameterError as error:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
 
-    def ocean(self) -> Ocean:
-        """The tile, in float32."""
+    def ocean(self, *, dtype: str = "float32") -> Ocean:
+        """The tile."""
         s = self.settings
         try:
             return Ocean(
@@ -151,6 +151,7 @@ class Job:
                 loop=s["ocean.loop"],
                 choppiness=s["ocean.choppiness"],
                 amplitudes=s["ocean.amplitudes"],
+                dtype=dtype,
             )
         except (JobError, ReaderError):
             raise
