@@ -135,7 +135,7 @@ _DIRECTIONS = 720
 
 def _edge(theta: Real, half_x: float, half_y: float) -> Real:
     """Distance from the centre of a rectangle to its edge in direction theta."""
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
         return np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
 
 
