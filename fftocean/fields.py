@@ -29,11 +29,6 @@ class Field:
     unit: str
     caption: str
 
-    @property
-    def quarter_turns(self) -> int:
-        """The power of i in front: i^(dx + dy)."""
-        return (self.dx + self.dy) % 4
-
 
 FIELDS: dict[str, Field] = {
     #                     of          dx dy dt

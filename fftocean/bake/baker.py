@@ -84,7 +84,7 @@ def bake(job: Job, folder: str | Path = "out", *, overwrite: bool = False, progr
     manifest = {
         **_header(job),
         "ocean": _tile(ocean),
-        "statistics": _plain(statistics),
+        "statistics": asdict(statistics),  # ordered beside delivered
         "conventions": {
             "axes": "x east, y north, z up, right-handed",
             "rows": "row 0 of a picture is the north edge",
@@ -160,11 +160,6 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "choppiness": ocean.choppiness,
         "fft": ocean.backend,
     }
-
-
-def _plain(statistics: Statistics) -> dict[str, Any]:
-    """Statistics as plain data, ordered beside delivered."""
-    return asdict(statistics)
 
 
 def _caption(statistics: Statistics, job: Job) -> str:
