@@ -58,3 +58,7 @@ class IntegrityError(FFTOceanError):
 
 class SeaWarning(UserWarning):
     """The sea can be had, but perhaps it is not what was meant."""
+
+
+class CacheWarning(UserWarning):
+    """Something in the user's cache is of no use, and is done without."""

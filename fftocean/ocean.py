@@ -17,7 +17,7 @@ from fftocean.grid import Grid
 from fftocean.kernels import passes
 from fftocean.limits import CHOPPINESS, FRAMES, LOOP, THREADS, TIME
 from fftocean.physics.sea import Sea
-from fftocean.synthesis import BLOCK, POINTWISE, Synthesis, Turn
+from fftocean.synthesis import POINTWISE, Synthesis, Turn
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -226,9 +226,9 @@ class Ocean:
         self.choppiness = CHOPPINESS.check("choppiness", choppiness)
         self.dtype = dtype
         self._require_range()
-        self._coarse, self._fine = _turns_per_second(amplitudes)
         workers = THREADS.check_whole("threads", threads)
         self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
+        self._frequency = _frequencies(amplitudes, self._synthesis.columns)
         self._lock, self._pid = threading.Lock(), os.getpid()
         self._recipe = (sea, self.seed, amplitudes, choppiness, dtype, backend, planning, threads)
 
@@ -295,15 +295,10 @@ class Ocean:
             ParameterError: an unknown field, a time that is not finite, an `out` of another shape or dtype.
         """
         t = TIME.check("t", t)
-        if self.loop is None:
-            scale = t * 134217729.0  # 2^27 + 1 splits a double in two halves of 26 bits  (Veltkamp 1968)
-            t_coarse = scale - (scale - t)
-            t_fine = t - t_coarse
-        else:
-            t_coarse, t_fine = math.fmod(t, self.loop) / self.loop, 0.0
+        moment = t if self.loop is None else math.fmod(t, self.loop) / self.loop
 
         def turn(columns: slice, out: Real) -> None:
-            passes.turns_at(self._coarse[columns], self._fine[columns] if self.loop is None else self._fine, t_coarse, t_fine, out)
+            passes.turns_at(self._frequency[columns], moment, out)
 
         return self._render(t, fields, out, turn)
 
@@ -322,7 +317,7 @@ class Ocean:
         step = int(j) % count
 
         def turn(columns: slice, out: Real) -> None:
-            passes.turns_in_loop(self._coarse[columns], float(step), float(count), out)
+            passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
 
         return self._render(self.loop * step / count, fields, out, turn)
 
@@ -396,17 +391,15 @@ def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float
     return grid, name, None if loop is None else LOOP.check("loop", loop)
 
 
-def _turns_per_second(amplitudes: Amplitudes) -> tuple[Real, Real]:
+def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     """
-    Split each wave's frequency into 26 leading bits and the rest; on a loop, whole turns and 0.
+    Return the turns that each wave makes in a second or, on a loop, in its period: whole numbers then; (columns, ny), float64.
 
-    The rest is taken in extended precision where the machine has it, so that the phase of a wave is good to 1e-11 turns
-    even after 1e9 s. Both are transposed, (nx // 2 + 1, ny), as the first pass wants them.
+    omega / 2 pi is taken in extended precision where the machine has it: what it is rounded by is all that a phase ever loses.
     """
     if amplitudes.cycles is not None:
-        return np.ascontiguousarray(amplitudes.cycles.T, dtype=np.float64), np.zeros((BLOCK, amplitudes.grid.ny))
-    frequency = np.ascontiguousarray(amplitudes.omega.T).astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
-    rough = frequency.astype(np.float64)
-    scale = rough * 134217729.0
-    coarse = scale - (scale - rough)
-    return coarse, (frequency - coarse).astype(np.float64)
+        return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
+    frequency = np.empty((columns, amplitudes.grid.ny))
+    for column, omega in zip(frequency, amplitudes.omega.T, strict=False):  # the Nyquist column is left over
+        column[:] = omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
+    return frequency

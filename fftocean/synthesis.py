@@ -1,9 +1,10 @@
 """
 From h0 to fields, block by block: the plan of a frame, drawn from the table in `fields.py`.
 
-A two-dimensional inverse transform is a pass along y, then one along x. Fields that differ only by a derivative along x share the
-first: the eight linear fields need five transforms along y. After it, each row is the Hermitian half of a real one, so two fields go
-through the second as one complex row: four transforms for eight fields. Both passes run over blocks that stay in cache.
+A two-dimensional inverse transform is a pass along y, then one along x. After the first, each row is the Hermitian half of a real
+one, so two real fields A and B go through the second as one complex row, A + i B at k >= 0 and conj(A - i B) at -k. Where B = dA/dx
+both are A times a real number, 1 -+ kx: the two share one spectrum in the first pass as well. So eight fields take five transforms
+along y and four along x. Both passes run over blocks that stay in cache.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -15,10 +16,9 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import COMPLEX_OF, Complex, Real
-from fftocean.fields import FIELDS, potential_factor
-from fftocean.grid import Grid
+from fftocean.fields import FIELDS, Field, potential_factor
 from fftocean.kernels import passes, surface
-from fftocean.transforms import inverse_rows
+from fftocean.transforms import aligned, inverse_rows
 
 GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
@@ -27,27 +27,71 @@ POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
 Turn = Callable[[slice, Real], None]
 """Writes how far the waves of some columns of wavenumbers have turned, (columns, ny)."""
 
-PAIRS = (
+PAIRS: tuple[tuple[str, ...], ...] = (
     ("height", "slope_x"),
     ("displace_x", "stretch_xx"),
     ("displace_y", "stretch_xy"),
     ("slope_y", "stretch_yy"),
-    ("velocity_x", "velocity_y"),
-    ("velocity_z",),
+    ("velocity_z", "velocity_y"),
+    ("velocity_x",),
 )
 """Who shares a complex row with whom: always the same, asked for or not, so that a field has the same bits whatever is asked."""
 
-BLOCK = 16  # columns or rows at a time: 5 x 16 x n complex numbers are 160 kB at n = 256 and 1.3 MB at 2048
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """
+    What goes through the first pass: i^turns (ky^power source [+ sign weight ky^other_power other]), with no factor of kx.
+
+    Sources are the height or the potential, or their time derivatives.
+    """
+
+    pair: tuple[str, ...]  # whose it is
+    source: tuple[str, int]  # (of, dt)
+    turns: int  # quarter turns
+    power: int
+    other: tuple[str, int] | None = None
+    other_power: int = 0
+    sign: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One complex row of the second pass: its one or two fields, and where in the first their spectra at k and -k are."""
+
+    pair: tuple[str, ...]
+    ahead: int
+    astern: int
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to compute for a set of fields: the spectra of the first pass, and the pairs of the second."""
+    """What to compute for a set of fields."""
 
     asked: tuple[str, ...]
     linear: tuple[str, ...]  # the linear fields computed, asked for or not
-    columns: tuple[tuple[str, int, int], ...]  # (of, dt, dy) of each spectrum that goes through the first pass
-    pairs: tuple[tuple[str, ...], ...]  # the one or two fields in each complex row of the second
+    spectra: tuple[Spectrum, ...]
+    rows: tuple[Row, ...]
+
+
+def _derived(pair: tuple[str, ...]) -> bool:
+    """Whether the second of a pair is the first's derivative along x, or there is none."""
+    if len(pair) == 1:
+        return True
+    a, b = (FIELDS[name] for name in pair)
+    return (b.of, b.dt, b.dy, b.dx) == (a.of, a.dt, a.dy, a.dx + 1)
+
+
+def _spectra_of(pair: tuple[str, ...]) -> tuple[Spectrum, ...]:
+    """The spectra that a pair needs: A alone where the rest is a factor of kx, else A + i weight B and A - i weight B."""
+    a: Field = FIELDS[pair[0]]
+    if _derived(pair):
+        return (Spectrum(pair, (a.of, a.dt), a.dx + a.dy, a.dy),)
+    b: Field = FIELDS[pair[1]]
+    half_turns, odd = divmod(1 + b.dy - a.dy, 2)  # by which i B leads A
+    assert a.dx == b.dx == odd == 0, "the two must differ by a real factor, and kx is not known yet"
+    sign = (-1) ** half_turns
+    return tuple(Spectrum(pair, (a.of, a.dt), a.dy, a.dy, (b.of, b.dt), b.dy, s) for s in (sign, -sign))
 
 
 @lru_cache(maxsize=256)
@@ -55,44 +99,58 @@ def plan_of(fields: tuple[str, ...]) -> Plan:
     """Plan a set of field names."""
     wanted = {name for field in fields for name in ((field,) if field in FIELDS else POINTWISE[field])}
     pairs = tuple(pair for pair in PAIRS if wanted & set(pair))
-    linear = tuple(name for pair in pairs for name in pair)
-    columns = tuple(sorted({(FIELDS[name].of, FIELDS[name].dt, FIELDS[name].dy) for name in linear}))
-    return Plan(fields, linear, columns, pairs)
+    spectra: list[Spectrum] = []
+    rows = []
+    for pair in pairs:
+        own = _spectra_of(pair)
+        rows.append(Row(pair, len(spectra), len(spectra) + len(own) - 1))
+        spectra.extend(own)
+    return Plan(fields, tuple(name for pair in pairs for name in pair), tuple(spectra), tuple(rows))
 
 
-def magnitudes(amplitudes: Amplitudes, potential: Real) -> dict[str, float]:
-    """
-    The size of each field: the root mean square over waves of height, slope, displacement or stretch; velocities count as 1.
-
-    `potential` is the transpose of `potential_factor`.
-    """
+def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
+    """The size of each field: its root mean square over waves, a derivative along x or y taken as one by |k|; 1 where there is none."""
     k = amplitudes.grid.k
     energy = np.abs(amplitudes.forward) ** 2 + np.abs(amplitudes.backward) ** 2
-    along = (potential.T * k) ** 2
-    sizes = {
-        ("height", 0): np.sum(energy),
-        ("height", 1): np.sum(energy * k**2),
-        ("potential", 1): np.sum(energy * along),
-        ("potential", 2): np.sum(energy * along * k**2),
-    }
-    return {name: 1.0 if f.dt else float(np.sqrt(sizes[f.of, f.dx + f.dy])) or 1.0 for name, f in FIELDS.items()}
+    sources: dict[str, Real | float] = {"height": 1.0, "potential": potential_factor(k, amplitudes.depth)}
+
+    @lru_cache
+    def size(of: str, order: int, dt: int) -> float:
+        return float(np.sqrt(np.sum(energy * (sources[of] * k**order * amplitudes.running_omega**dt) ** 2))) or 1.0
+
+    return {name: size(f.of, f.dx + f.dy, f.dt) for name, f in FIELDS.items()}
+
+
+def block_of(n: int, available: int, dtype: str) -> int:
+    """How many rows of n to work on at a time: what stays in a second-level cache of 1 MB, and at least what a cache line holds."""
+    fitting = 2**17 // (n * np.dtype(dtype).itemsize) if n < 2**14 else 0
+    return int(min(max(fitting, 8), 32, available))
 
 
 class Synthesis:
     """The waves of one tile, and the buffers that turn them into fields. Whoever owns it sees to it that it runs once at a time."""
 
     def __init__(self, amplitudes: Amplitudes, dtype: str, *, backend: str, planning: str, threads: int) -> None:
-        self._amplitudes, self._grid = amplitudes, amplitudes.grid
-        self._dtype, self._backend, self._planning, self._threads = dtype, backend, planning, threads
-        # Columns of wavenumbers are contiguous: the transposes copy nothing where amplitudes are in Fortran order.
-        self._forward, self._backward = (_parts(np.ascontiguousarray(a.T)) for a in (amplitudes.forward, amplitudes.backward))
-        self._potential = np.ascontiguousarray(potential_factor(self._grid.k.T, amplitudes.depth).astype(dtype))
-        self._magnitudes = magnitudes(amplitudes, self._potential)
-        self._rate_omega: Real | None = None
+        self._amplitudes, self._grid, self._threads = amplitudes, amplitudes.grid, threads
+        self._dtype = np.dtype(dtype)
+        grid = self._grid
+        self.columns = (grid.nx + 1) // 2  # of the half plane; the Nyquist column, where there is one, is always zero
+        self._waves = self._prepared(amplitudes)
+        k = grid.k.T[: self.columns]
+        self._potential = np.ascontiguousarray(potential_factor(k, amplitudes.depth), dtype=dtype)
+        self._omega: Real | None = None
         self._between = np.zeros(0, dtype=COMPLEX_OF[dtype])
-        self._desks: dict[Plan, list[_Desk]] = {}
+        size = magnitudes(amplitudes)
+        # The transform's rounding errors are shared out between a pair: a power of two, which rounds nothing, makes them equals.
+        self._weights: dict[tuple[str, ...], float] = {
+            pair: 2.0 ** round(np.log2(size[pair[0]] / size[pair[1]])) for pair in PAIRS if len(pair) == 2
+        }
+        self._powers: dict[tuple[int, float], Real] = {}
+        self._factors = {pair: self._factors_of(pair) for pair in PAIRS}
+        self._widths = (block_of(grid.ny, self.columns, dtype), block_of(grid.nx, grid.ny, dtype))
+        self._desks = [_Desk(self._widths, grid.shape, dtype, backend, planning) for _ in range(threads)]
         self.restart()
-        self.backend = self._desk_set(plan_of(("height",)))[0].first.backend
+        self.backend = self._desks[0].first.backend
 
     def restart(self) -> None:
         """Start the threads; once more in a forked child, to which its parent's are not handed down."""
@@ -103,68 +161,76 @@ class Synthesis:
         plan = plan_of(tuple(outputs))
         if not plan.linear:
             return
-        if self._rate_omega is None and any(dt for _, dt, _ in plan.columns):
-            self._rate_omega = np.ascontiguousarray(self._amplitudes.running_omega.T)
-        desks, grid = self._desk_set(plan), self._grid
-        half = grid.nx // 2 + 1
-        size = grid.ny * len(plan.columns) * half
-        if self._between.size < size:
-            self._between = np.zeros(size, dtype=COMPLEX_OF[self._dtype])
-        between = self._between[:size].reshape(grid.ny, len(plan.columns), half)
-        self._share(desks, half, lambda desk, block: self._first_pass(desk, block, turn, between))
-        c = np.dtype(self._dtype).type(choppiness)
-        self._share(desks, grid.ny, lambda desk, block: self._second_pass(desk, block, _parts(between), outputs, c))
+        if self._omega is None and any(spectrum.source[1] for spectrum in plan.spectra):
+            self._omega = np.ascontiguousarray(self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype)
+        between = self._between_passes(len(plan.spectra))
+        moved = _movable(between)
+        c = self._dtype.type(choppiness)
+        self._share(self.columns, self._widths[0], lambda desk, block: self._first_pass(plan, desk, block, turn, moved))
+        self._share(self._grid.ny, self._widths[1], lambda desk, block: self._second_pass(plan, desk, block, _parts(between), outputs, c))
 
-    def _share(self, desks: "list[_Desk]", total: int, work: "Callable[[_Desk, slice], None]") -> None:
+    def _share(self, total: int, width: int, work: "Callable[[_Desk, slice], None]") -> None:
         """Do the blocks of one pass, on one thread or each desk on its own. The blocks are the same, so are their bytes."""
-        blocks = [slice(start, min(start + BLOCK, total)) for start in range(0, total, BLOCK)]
+        blocks = [slice(start, min(start + width, total)) for start in range(0, total, width)]
 
         def at(desk: _Desk, own: Iterable[slice]) -> None:
             for block in own:
                 work(desk, block)
 
         if self._pool is None:
-            at(desks[0], blocks)
+            at(self._desks[0], blocks)
         else:
-            list(self._pool.map(at, desks, [blocks[i :: len(desks)] for i in range(len(desks))]))
+            list(self._pool.map(at, self._desks, [blocks[i :: self._threads] for i in range(self._threads)]))
 
-    def _first_pass(self, desk: "_Desk", block: slice, turn: Turn, between: Complex) -> None:
+    def _first_pass(self, plan: Plan, desk: "_Desk", block: slice, turn: Turn, between: Real | Complex) -> None:
         """Columns kx: turn the waves, derive along y, transform along y, store transposed."""
         n = block.stop - block.start
         turns, cosine, sine = desk.turns[:n], desk.cosine[:n], desk.sine[:n]
         turn(block, turns)
-        passes.phasors(turns, cosine, sine)
-        for dt in sorted({dt for _, dt, _ in desk.plan.columns}):
-            if dt == 0:
-                passes.heights(self._forward[block], self._backward[block], cosine, sine, desk.height)
-            else:
-                assert self._rate_omega is not None  # made before the first pass
-                passes.rates(self._forward[block], self._backward[block], cosine, sine, self._rate_omega[block], desk.height)
-            source = desk.height
-            for of in sorted({of for of, d, _ in desk.plan.columns if d == dt}):  # the height, then the potential made of it
-                if of == "potential":
-                    source = desk.potential
-                    passes.scale(desk.height, self._potential[block], source)
-                for s, column in enumerate(desk.plan.columns):
-                    if column[:2] == (of, dt):
-                        dy = column[2]
-                        passes.derive(source, desk.along_y[dy], *desk.units[dy], n, desk.first_parts[s])
-        desk.first_parts[:, n:] = 0.0  # of the last, narrower block: else its leftovers would grow with each transform
-        desk.first()
-        passes.transpose(desk.first_block, block.start, n, between)
+        (passes.phasors_single if self._dtype == np.float32 else passes.phasors)(turns, cosine, sine)
+        ready: set[tuple[str, int]] = set()
 
-    def _second_pass(self, desk: "_Desk", block: slice, between: Real, outputs: Mapping[str, Real], choppiness: float) -> None:
+        def parts_of(source: tuple[str, int]) -> tuple[Real, Real]:
+            """Real and imaginary part of the height, the potential, or a rate of one, made once a block."""
+            parts: tuple[Real, Real] = desk.parts[source]
+            if source not in ready:
+                ready.add(source)
+                of, dt = source
+                if of == "potential":
+                    for whole, part in zip(parts_of(("height", dt)), parts, strict=True):
+                        passes.scale(whole, self._potential[block], part)
+                elif dt == 0:
+                    passes.turn_waves(self._waves[block], cosine, sine, *parts)
+                else:
+                    assert self._omega is not None  # made before the first pass
+                    passes.turn_rates(self._waves[block], cosine, sine, self._omega[block], *parts)
+            return parts
+
+        for s, spectrum in enumerate(plan.spectra):
+            parts, (first, second) = _turned(parts_of(spectrum.source), spectrum.turns)
+            power, source = self._power(spectrum.power), _parts(desk.first.source)
+            first, second = self._dtype.type(first), self._dtype.type(second)
+            if spectrum.other is None:
+                passes.derive(*parts, power, first, second, n, source)
+            else:
+                other, _ = _turned(parts_of(spectrum.other), spectrum.turns)
+                other_power = self._power(spectrum.other_power, spectrum.sign * self._weights[spectrum.pair])
+                passes.mix(*parts, power, *other, other_power, first, second, n, source)
+            desk.first()
+            passes.transpose(_movable(desk.first.result), s, block.start, n, between)
+
+    def _second_pass(self, plan: Plan, desk: "_Desk", block: slice, between: Real, outputs: Mapping[str, Real], choppiness: float) -> None:
         """Rows y: derive along x, transform two fields as one, split them, and finish what is made of them."""
         n = block.stop - block.start
-        passes.pack(between, block.start, n, desk.sources, desk.powers, desk.turned, desk.second_parts)
-        desk.second_parts[n:] = 0.0
-        desk.second()
-        rows = {name: outputs[name][block] if name in outputs else desk.scratch[name][:n] for name in desk.plan.linear}
-        for p, pair in enumerate(desk.plan.pairs):
-            if len(pair) == 2:
-                passes.split(desk.second_parts, p, n, desk.weights[p], rows[pair[0]], rows[pair[1]])
+        rows = {name: outputs[name][block] if name in outputs else desk.scratch[name][:n] for name in plan.linear}
+        source, result = _parts(desk.second.source), _parts(desk.second.result)
+        for row in plan.rows:
+            passes.pack(between, block.start, n, row.ahead, row.astern, *self._factors[row.pair], source)
+            desk.second()
+            if len(row.pair) == 2:
+                passes.split(result, self._dtype.type(1.0 / self._weights[row.pair]), rows[row.pair[0]], rows[row.pair[1]])
             else:
-                passes.split_one(desk.second_parts, p, n, rows[pair[0]])
+                passes.real_parts(result, rows[row.pair[0]])
         if "normal" in outputs:
             sx, sy, xx, xy, yy = (rows[name] for name in POINTWISE["normal"])
             surface.normals(sx, sy, xx, xy, yy, choppiness, outputs["normal"][block])
@@ -172,48 +238,64 @@ class Synthesis:
             xx, xy, yy = (rows[name] for name in POINTWISE["jacobian"])
             surface.jacobian(xx, xy, yy, choppiness, outputs["jacobian"][block])
 
-    def _desk_set(self, plan: Plan) -> "list[_Desk]":
-        """The desks for a plan, one a thread; those of the last few plans are kept."""
-        if plan not in self._desks:
-            while len(self._desks) >= 8:
-                self._desks.pop(next(iter(self._desks)))
-            self._desks[plan] = [
-                _Desk(plan, self._grid, self._magnitudes, self._dtype, self._backend, self._planning) for _ in range(self._threads)
-            ]
-        return self._desks[plan]
+    def _prepared(self, amplitudes: Amplitudes) -> Real:
+        """Sums and differences of forward and backward waves, as `passes.turn_waves` wants them, (columns, 4 ny)."""
+        forward, backward = (a.T[: self.columns] for a in (amplitudes.forward, amplitudes.backward))
+        waves = np.empty((self.columns, 4, self._grid.ny), dtype=self._dtype)
+        np.add(forward.real, backward.real, out=waves[:, 0], casting="same_kind")
+        np.subtract(forward.imag, backward.imag, out=waves[:, 1], casting="same_kind")
+        np.add(forward.imag, backward.imag, out=waves[:, 2], casting="same_kind")
+        np.subtract(forward.real, backward.real, out=waves[:, 3], casting="same_kind")
+        return waves.reshape(self.columns, -1)
+
+    def _power(self, order: int, factor: float = 1.0) -> Real:
+        """factor ky^order, (ny,)."""
+        if (order, factor) not in self._powers:
+            self._powers[order, factor] = (factor * self._grid.ky**order).astype(self._dtype)
+        return self._powers[order, factor]
+
+    def _factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real]:
+        """The factors of kx that a pair's spectra take at k and at -k, laid out as `passes.pack` wants them."""
+        kx = self._grid.kx[: self.columns]
+        slant = self._weights[pair] * kx if len(pair) == 2 and _derived(pair) else 0.0
+        order = FIELDS[pair[0]].dx
+        ahead, astern = np.repeat(kx**order * (1.0 - slant), 2), np.repeat(kx**order * (1.0 + slant), 2)[:1:-1]
+        astern[1::2] *= -1.0
+        return ahead.astype(self._dtype), astern.astype(self._dtype)
+
+    def _between_passes(self, spectra: int) -> Complex:
+        """What the first pass leaves for the second, (ny, spectra, columns), each row on cache lines of its own."""
+        line = 64 // self._between.itemsize
+        columns = -(-self.columns // line) * line
+        size = self._grid.ny * spectra * columns
+        if self._between.size < size:
+            self._between = aligned((1, size), self._dtype.name)[0]
+        return self._between[:size].reshape(self._grid.ny, spectra, columns)
 
 
 class _Desk:
-    """What one thread needs to work on a plan: buffers, FFT plans, and the table's signs and powers as arrays."""
+    """What one thread needs to work: buffers and FFT plans, the same for whatever is asked."""
 
-    def __init__(self, plan: Plan, grid: Grid, magnitudes: Mapping[str, float], dtype: str, backend: str, planning: str) -> None:
-        self.plan = plan
-        columns, pairs = len(plan.columns), len(plan.pairs)
-        number = np.dtype(dtype).type
-        self.turns, self.cosine, self.sine = np.empty((3, BLOCK, grid.ny))
-        self.height, self.potential = np.zeros((2, BLOCK, 2 * grid.ny), dtype=dtype)
-        self.first = inverse_rows((columns * BLOCK, grid.ny), dtype, backend=backend, planning=planning)
-        self.first_block = self.first.rows.reshape(columns, BLOCK, grid.ny)
-        self.first_parts = _parts(self.first_block)
-        self.second = inverse_rows((BLOCK * pairs, grid.nx), dtype, backend=backend, planning=planning)
-        self.second_parts = _parts(self.second.rows.reshape(BLOCK, pairs, grid.nx))
-        self.scratch = {name: np.empty((BLOCK, grid.nx), dtype=dtype) for name in plan.linear if name not in plan.asked}
-        orders = range(max(max(f.dx, f.dy) for f in FIELDS.values()) + 1)
-        self.along_y = [(grid.ky**order).astype(dtype) for order in orders]
-        self.units = [(number((1j**order).real), number((1j**order).imag)) for order in orders]
-        self.sources = np.zeros((2, pairs), dtype=np.int64)
-        self.powers = np.zeros((2, pairs, grid.nx // 2 + 1), dtype=dtype)
-        self.turned = np.zeros((2, pairs, 2), dtype=dtype)
-        self.weights = [number(1.0) for _ in plan.pairs]
-        for p, pair in enumerate(plan.pairs):
-            if len(pair) == 2:
-                # The transform's rounding errors are shared out between the two: a power of two, which rounds nothing, makes them equals.
-                self.weights[p] = number(2.0 ** round(np.log2(magnitudes[pair[0]] / magnitudes[pair[1]])))
-            for half, name in enumerate(pair):
-                field = FIELDS[name]
-                self.sources[half, p] = plan.columns.index((field.of, field.dt, field.dy))
-                self.powers[half, p] = grid.kx**field.dx
-                self.turned[half, p] = np.array(self.units[field.dx]) * (self.weights[p] if half else 1)
+    def __init__(self, widths: tuple[int, int], shape: tuple[int, int], dtype: str, backend: str, planning: str) -> None:
+        (columns, rows), (ny, nx) = widths, shape
+        self.turns = np.empty((columns, ny))
+        self.cosine, self.sine = np.empty((2, columns, ny), dtype=dtype)
+        sources = [(of, dt) for of in ("height", "potential") for dt in (0, 1)]
+        self.parts: dict[tuple[str, int], tuple[Real, Real]] = {s: tuple(np.empty((2, columns, ny), dtype=dtype)) for s in sources}  # type: ignore[misc]
+        self.first = inverse_rows((columns, ny), dtype, backend=backend, planning=planning)
+        self.second = inverse_rows((rows, nx), dtype, backend=backend, planning=planning)
+        self.scratch = {name: np.empty((rows, nx), dtype=dtype) for name in FIELDS}
+
+
+def _turned(parts: tuple[Real, Real], quarters: int) -> tuple[tuple[Real, Real], tuple[int, int]]:
+    """Multiply with i^quarters: which parts to take as real and imaginary, and their signs."""
+    real, imag = parts
+    return [((real, imag), (1, 1)), ((imag, real), (-1, 1)), ((real, imag), (-1, -1)), ((imag, real), (1, -1))][quarters % 4]
+
+
+def _movable(array: Complex) -> Real | Complex:
+    """A complex array as `passes.transpose` moves it: those of single precision as reals of 8 bytes; a view."""
+    return array.view(np.float64) if array.dtype == np.complex64 else array
 
 
 def _parts(array: Complex) -> Real:

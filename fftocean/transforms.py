@@ -1,32 +1,42 @@
 """
-The only inverse FFT: plans, buffers and backends.
+The only inverse FFT: plans, buffers and libraries.
 
-All compute, in place and for each row of a buffer,  out[j] = sum over m of rows[m] e^{+2 pi i m j / n},  without 1/n.
+All compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+2 pi i m j / n},  without 1/n, on one thread.
 """
 
+import ctypes
 import importlib
+import importlib.metadata
 import sys
 import threading
+import weakref
+from collections.abc import Callable
+from functools import cache
 from types import ModuleType
 from typing import Any, Protocol
 
 import numpy as np
 
+from fftocean import wisdom
 from fftocean.arrays import COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
-PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
+PLANNING = {"estimate": ("FFTW_ESTIMATE", 64), "measure": ("FFTW_MEASURE", 0), "patient": ("FFTW_PATIENT", 32)}
+"""FFTW's efforts, by its names and the bits they stand for."""
+
+ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
 _planner = threading.Lock()  # FFTW's planner is shared by all plans and is not safe to enter twice
 
 
 class InverseRows(Protocol):
-    """A plan for one shape and precision: fill `rows`, call, read `rows`."""
+    """A plan for one shape and precision: fill `source`, call, read `result`; `source` is left as it is."""
 
-    rows: Complex  # (count, n), C-contiguous
+    source: Complex  # (count, n), C-contiguous
+    result: Complex  # the same
     backend: str
 
     def __call__(self) -> None:
-        """Transform each row, in place."""
+        """Transform each row."""
 
 
 def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", planning: str = "estimate") -> InverseRows:
@@ -36,8 +46,9 @@ def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", p
     Args:
         shape: (count, n) of the buffer.
         dtype: "float32" or "float64", of its real and imaginary parts.
-        backend: "pyfftw", "scipy", or "auto" for the first of them that is installed.
-        planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and "patient" are faster and do not.
+        backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
+        planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and "patient" time several ways, keep what
+            they find in the user's cache, and give the same bytes as long as it is there.
 
     Raises:
         ParameterError: an unknown backend, precision or effort, or a backend that is not installed.
@@ -46,15 +57,134 @@ def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", p
         raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
     if planning not in PLANNING:
         raise ParameterError(f"planning must be one of {', '.join(PLANNING)}, got {planning!r}")
-    if backend == "auto":
-        backend = "pyfftw" if _pyfftw() else "scipy"
+    if backend not in ("auto", *BACKENDS):
+        raise ParameterError(f"backend must be one of auto, {', '.join(BACKENDS)}, got {backend!r}")
+    for name in BACKENDS if backend == "auto" else (backend,):
+        if (transform := BACKENDS[name](shape, dtype, planning)) is not None:
+            return transform
+    raise ParameterError(f"backend {backend!r} must be installed (pip install {backend}), and is not; 'scipy' always is")
+
+
+@cache
+def library(backend: str) -> str | None:
+    """Name a backend's library and its version, such as "FFTW 3.3.5 (pyfftw 0.15.1)"; None where it is not installed."""
+    if backend == "mkl":
+        return f"MKL {importlib.metadata.version('mkl')}" if _mkl() else None
     if backend == "pyfftw":
-        if (pyfftw := _pyfftw()) is None:
-            raise ParameterError("backend 'pyfftw' must be installed (pip install pyfftw), and is not; 'scipy' always is")
-        return _FFTW(pyfftw, shape, dtype, planning)
-    if backend == "scipy":
-        return _SciPy(shape, dtype)
-    raise ParameterError(f"backend must be 'auto', 'pyfftw' or 'scipy', got {backend!r}")
+        pyfftw = _pyfftw()
+        return f"FFTW {str(pyfftw.fftw_version).removeprefix('fftw-')} (pyfftw {pyfftw.__version__})" if pyfftw else None
+    return f"pocketfft (scipy {importlib.metadata.version('scipy')})"
+
+
+def aligned(shape: tuple[int, int], dtype: str) -> Complex:
+    """Zeros that start on a cache line: the same bits in every run need the same alignment."""
+    kind = COMPLEX_OF[dtype]
+    size = shape[0] * shape[1] * kind.itemsize
+    raw = np.zeros(size + ALIGNMENT, dtype=np.uint8)
+    start = -raw.ctypes.data % ALIGNMENT
+    return raw[start : start + size].view(kind).reshape(shape)
+
+
+class _FFTW:
+    """FFTW through pyFFTW, out of place: for rows in cache as fast by its estimate as measured."""
+
+    backend = "pyfftw"
+
+    def __init__(self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str) -> None:
+        self.source, self.result = aligned(shape, dtype), aligned(shape, dtype)
+
+        def plan() -> Any:
+            flag = PLANNING[planning][0]
+            return pyfftw.FFTW(self.source, self.result, axes=(1,), direction="FFTW_BACKWARD", flags=(flag,), threads=1)
+
+        with _planner:
+            if planning == "estimate":
+                self._plan = plan()
+            else:
+                self._plan = wisdom.planned(pyfftw, plan, shape, dtype, planning)
+        self.source[:] = 0.0  # measuring scribbles over it
+
+    def __call__(self) -> None:
+        self._plan.execute()
+
+
+class _MKL:
+    """MKL through its FFTW3 interface; its plans know no effort."""
+
+    backend = "mkl"
+
+    def __init__(self, mkl: ctypes.CDLL, shape: tuple[int, int], dtype: str) -> None:
+        self.source, self.result = aligned(shape, dtype), aligned(shape, dtype)
+        count, n = shape
+        prefix = "fftwf" if dtype == "float32" else "fftw"
+        length = ctypes.byref(ctypes.c_int(n))
+        many = getattr(mkl, f"{prefix}_plan_many_dft")
+        many.restype = ctypes.c_void_p
+        source, result = ctypes.c_void_p(self.source.ctypes.data), ctypes.c_void_p(self.result.ctypes.data)
+        with _planner:
+            getattr(mkl, f"{prefix}_plan_with_nthreads")(1)
+            plan = many(1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(PLANNING["estimate"][1]))
+        if not plan:
+            raise MemoryError(f"MKL could not plan {count} transforms of {n}")
+        self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)
+        weakref.finalize(self, getattr(mkl, f"{prefix}_destroy_plan"), self._plan)
+
+    def __call__(self) -> None:
+        self._execute(self._plan)
+
+
+class _SciPy:
+    """SciPy's pocketfft, always there."""
+
+    backend = "scipy"
+
+    def __init__(self, shape: tuple[int, int], dtype: str) -> None:
+        self.source, self.result = aligned(shape, dtype), aligned(shape, dtype)
+
+    def __call__(self) -> None:
+        from scipy import fft
+
+        self.result[:] = fft.ifft(self.source, axis=1, norm="forward", workers=1)
+
+
+def _with_mkl(shape: tuple[int, int], dtype: str, _: str) -> InverseRows | None:
+    mkl = _mkl()
+    return _MKL(mkl, shape, dtype) if mkl else None
+
+
+def _with_pyfftw(shape: tuple[int, int], dtype: str, planning: str) -> InverseRows | None:
+    pyfftw = _pyfftw()
+    return _FFTW(pyfftw, shape, dtype, planning) if pyfftw else None
+
+
+def _with_scipy(shape: tuple[int, int], dtype: str, _: str) -> InverseRows | None:
+    return _SciPy(shape, dtype)
+
+
+BACKENDS: dict[str, Callable[[tuple[int, int], str, str], InverseRows | None]] = {
+    "mkl": _with_mkl,
+    "pyfftw": _with_pyfftw,
+    "scipy": _with_scipy,
+}
+"""The backends, the fastest first; each makes a plan, or None where it is not installed."""
+
+
+@cache
+def _mkl() -> ctypes.CDLL | None:
+    """The library that the wheel `mkl` has brought, on one thread unless somebody has set it up otherwise; None without it."""
+    try:
+        files = importlib.metadata.files("mkl") or []
+    except importlib.metadata.PackageNotFoundError:
+        return None
+    for file in files:
+        if file.name.startswith(("libmkl_rt.", "mkl_rt.")) and not file.name.endswith((".a", ".lib")):
+            try:
+                mkl = ctypes.CDLL(str(file.locate()))
+            except OSError:
+                continue  # for another machine, or without a library that it needs
+            mkl.MKL_Set_Threading_Layer(1)  # sequential; without effect where this MKL is at work already
+            return mkl
+    return None
 
 
 def _pyfftw() -> ModuleType | None:
@@ -71,34 +201,3 @@ def _pyfftw() -> ModuleType | None:
     finally:
         if hide:
             del sys.modules["dask"]
-
-
-class _FFTW:
-    """A single-threaded FFTW plan and its buffer."""
-
-    backend = "pyfftw"
-
-    def __init__(self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str) -> None:
-        self.rows: Complex = pyfftw.zeros_aligned(shape, dtype=COMPLEX_OF[dtype])
-        with _planner:
-            self._plan: Any = pyfftw.FFTW(
-                self.rows, self.rows, axes=(1,), direction="FFTW_BACKWARD", flags=(PLANNING[planning],), threads=1
-            )
-        self.rows[:] = 0.0  # measuring scribbles over it
-
-    def __call__(self) -> None:
-        self._plan.execute()
-
-
-class _SciPy:
-    """SciPy's pocketfft, always there."""
-
-    backend = "scipy"
-
-    def __init__(self, shape: tuple[int, int], dtype: str) -> None:
-        self.rows: Complex = np.zeros(shape, dtype=COMPLEX_OF[dtype])
-
-    def __call__(self) -> None:
-        from scipy import fft
-
-        self.rows[:] = fft.ifft(self.rows, axis=1, norm="forward", overwrite_x=True)

@@ -1,5 +1,6 @@
 """Every backend computes the same unscaled inverse transform, as accurately as an FFT can."""
 
+import json
 import math
 import sys
 
@@ -24,7 +25,10 @@ def noise(shape, dtype):
     return (rng.standard_normal(shape) + 1j * rng.standard_normal(shape)).astype(np.complex64 if dtype == "float32" else np.complex128)
 
 
-@pytest.mark.parametrize("backend", ["pyfftw", "scipy"])
+BACKENDS = [name for name in transforms.BACKENDS if transforms.library(name)]  # MKL is an extra
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("n", [1, 2, 8, 9, 31, 48, 80, 97, 256, 1009, 1024])
 def test_accuracy(n, dtype, backend):
@@ -32,27 +36,28 @@ def test_accuracy(n, dtype, backend):
     transform = inverse_rows((3, n), dtype, backend=backend)
     rows = noise((3, n), dtype)
     truth = by_long_double(rows)
-    transform.rows[:] = rows
+    transform.source[:] = rows
     transform()
+    assert np.array_equal(transform.source, rows)  # left as it is
     eps = np.finfo(dtype).eps
     hard = 3.0 if n in (97, 1009) else 1.0  # large primes go through Rader's or Bluestein's algorithm: three transforms in one
-    error = float(np.linalg.norm(transform.rows - truth) / np.linalg.norm(truth))
+    error = float(np.linalg.norm(transform.result - truth) / np.linalg.norm(truth))
     assert error <= eps * (0.5 + 1.5 * hard * math.sqrt(math.log2(n)))
-    assert transform.rows.dtype == rows.dtype
+    assert transform.result.dtype == rows.dtype
     assert transform.backend == backend
 
 
-@pytest.mark.parametrize("backend", ["pyfftw", "scipy"])
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_each_row_is_transformed_on_its_own(backend):
     """The same row gives the same bits wherever it stands in the buffer, and whatever stands beside it."""
     rows = noise((16, 60), "float32")
     transform = inverse_rows((16, 60), "float32", backend=backend)
-    transform.rows[:] = rows
+    transform.source[:] = rows
     transform()
-    first = transform.rows.copy()
-    transform.rows[:] = rows[::-1]
+    first = transform.result.copy()
+    transform.source[:] = rows[::-1]
     transform()
-    assert np.array_equal(transform.rows[::-1], first)
+    assert np.array_equal(transform.result[::-1], first)
 
 
 @pytest.mark.parametrize(
@@ -68,12 +73,79 @@ def test_unknown_choices_are_refused(arguments, rule):
         inverse_rows((8, 8), **arguments)
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_buffers_start_on_cache_lines(backend):
+    """The same bits in every run need the same alignment."""
+    for shape in ((3, 7), (16, 60), (1, 1)):
+        transform = inverse_rows(shape, "float32", backend=backend)
+        assert transform.source.ctypes.data % 64 == transform.result.ctypes.data % 64 == 0
+        assert transform.source.flags.c_contiguous
+        assert transform.result.flags.c_contiguous
+
+
+def test_the_fastest_that_is_installed_is_chosen(monkeypatch):
+    installed = [name for name in transforms.BACKENDS if transforms.library(name)]
+    assert inverse_rows((8, 8), "float32").backend == installed[0]
+    monkeypatch.setattr(transforms, "_mkl", lambda: None)
+    assert inverse_rows((8, 8), "float32").backend == "pyfftw"
+    with pytest.raises(fo.ParameterError, match="'mkl' must be installed"):
+        inverse_rows((8, 8), "float32", backend="mkl")
+
+
 def test_without_pyfftw(monkeypatch):
     """The fallback is chosen by itself; asking for what is not there says so."""
+    monkeypatch.setattr(transforms, "_mkl", lambda: None)
     monkeypatch.setitem(sys.modules, "pyfftw", None)
     assert transforms.inverse_rows((8, 8), "float32").backend == "scipy"
     with pytest.raises(fo.ParameterError, match="installed"):
         inverse_rows((8, 8), "float32", backend="pyfftw")
+
+
+def test_libraries_say_which_they_are():
+    assert transforms.library("pyfftw").startswith("FFTW 3.")
+    assert transforms.library("scipy").startswith("pocketfft (scipy 1.")
+
+
+@pytest.mark.parametrize("contents", [b"", b"{}", b"not json", b'{"key": {}, "sha256": "", "wisdom": []}', b"\xff\xfe", b"[1]"])
+def test_wisdom_is_kept_and_a_bent_file_is_done_without(tmp_path, monkeypatch, contents):
+    """The first plan leaves a file and the second uses it; what is no wisdom is replaced, with a note."""
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
+    rows = noise((4, 24), "float32")
+
+    def result():
+        transform = inverse_rows((4, 24), "float32", backend="pyfftw", planning="measure")
+        transform.source[:] = rows
+        transform()
+        return transform.result.copy()
+
+    first = result()
+    (file,) = (tmp_path / "wisdom").iterdir()
+    good = file.read_bytes()
+    assert np.array_equal(result(), first)
+    assert file.read_bytes() == good
+    file.write_bytes(contents)
+    with pytest.warns(fo.errors.CacheWarning, match="ignored"):
+        again = result()
+    assert np.linalg.norm(again - first) < 1e-6 * np.linalg.norm(first)
+    assert len(file.read_bytes()) > 100
+    assert [path.name for path in (tmp_path / "wisdom").iterdir()] == [file.name]
+
+
+def test_wisdom_of_another_library_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
+    inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
+    (file,) = (tmp_path / "wisdom").iterdir()
+    tree = json.loads(file.read_text())
+    tree["key"]["library"] = "FFTW 4"
+    file.write_text(json.dumps(tree))
+    with pytest.warns(fo.errors.CacheWarning, match="another machine's"):
+        inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
+
+
+def test_a_cache_that_cannot_be_written_stops_nothing(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path / "file" / "below"))
+    assert inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
 
 
 def test_pyfftw_is_imported_without_dask(monkeypatch):

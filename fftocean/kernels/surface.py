@@ -15,24 +15,27 @@ def normals(slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppine
     vanish together there is no normal, and up is returned.
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
+    nothing = xx.dtype.type(0)
+    n = out.shape[1]
+    # One row at a time, each loop over five arrays at most, one of them written: compilers vectorise no more than that.
+    x, y, z, per_length = np.empty(n, xx.dtype), np.empty(n, xx.dtype), np.empty(n, xx.dtype), np.empty(n, xx.dtype)
     for j in range(out.shape[0]):
-        for i in range(out.shape[1]):
-            a = one + choppiness * xx[j, i]
-            b = choppiness * xy[j, i]
-            d = one + choppiness * yy[j, i]
-            x = b * slope_y[j, i] - slope_x[j, i] * d
-            y = slope_x[j, i] * b - a * slope_y[j, i]
-            z = a * d - b * b
-            square = x * x + y * y + z * z
-            if square > 0:
-                per_length = one / np.sqrt(square)
-                out[j, i, 0] = x * per_length
-                out[j, i, 1] = y * per_length
-                out[j, i, 2] = z * per_length
-            else:
-                out[j, i, 0] = 0
-                out[j, i, 1] = 0
-                out[j, i, 2] = 1
+        sx, sy, dxx, dxy, dyy = slope_x[j], slope_y[j], xx[j], xy[j], yy[j]
+        for i in range(n):
+            x[i] = choppiness * dxy[i] * sy[i] - sx[i] * (one + choppiness * dyy[i])
+        for i in range(n):
+            y[i] = choppiness * dxy[i] * sx[i] - sy[i] * (one + choppiness * dxx[i])
+        for i in range(n):
+            b = choppiness * dxy[i]
+            z[i] = (one + choppiness * dxx[i]) * (one + choppiness * dyy[i]) - b * b
+        for i in range(n):
+            square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i]
+            per_length[i] = one / np.sqrt(square) if square > nothing else nothing
+        normal = out[j].reshape(3 * n)
+        for i in range(n):
+            normal[3 * i] = x[i] * per_length[i]
+            normal[3 * i + 1] = y[i] * per_length[i]
+            normal[3 * i + 2] = z[i] * per_length[i] if per_length[i] > nothing else one
 
 
 @compiled
@@ -40,11 +43,10 @@ def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None
     """out = (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2: the area of displaced water surface over still; below 0 it is folded."""
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     for j in range(out.shape[0]):
-        for i in range(out.shape[1]):
-            a = one + choppiness * xx[j, i]
-            b = choppiness * xy[j, i]
-            d = one + choppiness * yy[j, i]
-            out[j, i] = a * d - b * b
+        dxx, dxy, dyy, o = xx[j], xy[j], yy[j], out[j]
+        for i in range(o.size):
+            b = choppiness * dxy[i]
+            o[i] = (one + choppiness * dxx[i]) * (one + choppiness * dyy[i]) - b * b
 
 
 @compiled

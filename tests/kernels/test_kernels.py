@@ -7,7 +7,7 @@ import pytest
 from fftocean.amplitudes import place_modes
 from fftocean.grid import Grid
 from fftocean.kernels import passes, surface
-from fftocean.ocean import _turns_per_second
+from fftocean.ocean import _frequencies
 
 pytestmark = pytest.mark.nojit
 RNG = np.random.default_rng(11)
@@ -34,78 +34,117 @@ def test_phasors():
     assert np.max(np.abs(cosine**2 + sine**2 - 1.0)) < 12 * 2.3e-16
 
 
-def test_heights_and_rates():
+def test_phasors_in_single_precision():
+    """Doubling the angle, 1 - 2 sin^2, has errors of 4 eps; the angle is rounded within half a turn, by at most eps/4 of pi."""
+    turns = np.linspace(-0.5, 0.5, 100_001)[None, :]
+    cosine, sine = np.empty((2, *turns.shape), dtype=np.float32)
+    passes.phasors_single(turns, cosine, sine)
+    assert np.max(np.abs(cosine - np.cos(2 * np.pi * turns))) < 5 * 1.2e-7
+    assert np.max(np.abs(sine - np.sin(2 * np.pi * turns))) < 5 * 1.2e-7
+
+
+def waves_of(forward, backward, dtype):
+    """What `passes.turn_waves` wants."""
+    sums = forward.real + backward.real, forward.imag - backward.imag, forward.imag + backward.imag, forward.real - backward.real
+    return np.concatenate(sums, axis=1).astype(dtype)
+
+
+@pytest.mark.parametrize(("dtype", "eps"), [(np.float64, 2.2e-16), (np.float32, 1.2e-7)])
+def test_waves_and_rates(dtype, eps):
     forward, backward, angle, omega = complex_rows(), complex_rows(), RNG.uniform(-3, 3, (ROWS, N)), RNG.uniform(0.1, 9.0, (ROWS, N))
     phase = np.exp(-1j * angle)
-    out = np.empty((ROWS, N), dtype=complex)
-    arguments = parts(forward), parts(backward), np.cos(angle), np.sin(angle)
-    passes.heights(*arguments, parts(out))
-    assert np.max(np.abs(out - (forward * phase + backward * np.conj(phase)))) < 1e-14  # a handful of roundings of values near 3
-    single = np.empty((ROWS, N), dtype=np.complex64)
-    passes.heights(*arguments, parts(single))
-    assert np.array_equal(single, out.astype(np.complex64))  # cast once, at the end
-    passes.rates(*arguments, omega, parts(out))
-    assert np.max(np.abs(out - (-1j * omega * (forward * phase - backward * np.conj(phase))))) < 1e-13
+    real, imag = np.empty((2, ROWS, N), dtype=dtype)
+    arguments = waves_of(forward, backward, dtype), np.cos(angle).astype(dtype), np.sin(angle).astype(dtype)
+    passes.turn_waves(*arguments, real, imag)
+    assert np.max(np.abs(real + 1j * imag - (forward * phase + backward * np.conj(phase)))) < 10 * 6 * eps  # ten roundings of values to 6
+    passes.turn_rates(*arguments, omega.astype(dtype), real, imag)
+    assert np.max(np.abs(real + 1j * imag - (-1j * omega * (forward * phase - backward * np.conj(phase))))) < 10 * 54 * eps
 
 
-@pytest.mark.parametrize("order", [0, 1, 2, 3])
-def test_scale_and_derive(order):
-    spectrum, factor, power = complex_rows(), RNG.standard_normal((ROWS, N)), RNG.standard_normal(N)
-    out = np.empty((ROWS, N), dtype=complex)
-    passes.scale(parts(spectrum), factor, parts(out))
-    assert np.array_equal(out, spectrum * factor)
-    unit = 1j**order
-    passes.derive(parts(spectrum), power, unit.real, unit.imag, ROWS, parts(out))
-    assert np.allclose(out, unit * power * spectrum, rtol=1e-15)
+@pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (-1, -1), (1, -1)])
+def test_scale_derive_and_mix(signs):
+    one, two, factor, power, other = complex_rows(), complex_rows(), RNG.standard_normal((ROWS, N)), *RNG.standard_normal((2, N))
+    first, second = signs
+    out = np.empty((ROWS, N))
+    passes.scale(one.real.copy(), factor, out)
+    assert np.array_equal(out, one.real * factor)
+    mixed = np.empty((ROWS, N), dtype=complex)
+    halves = [part.copy() for part in (one.real, one.imag)]
+    passes.derive(*halves, power, float(first), float(second), ROWS, parts(mixed))
+    assert np.array_equal(mixed, first * power * one.real + 1j * second * power * one.imag)
+    passes.mix(*halves, power, two.real.copy(), two.imag.copy(), other, float(first), float(second), ROWS, parts(mixed))
+    real, imag = power * one.real + other * two.real, power * one.imag + other * two.imag
+    assert np.allclose(mixed, first * real + 1j * second * imag, rtol=0, atol=1e-14)  # the compiler may fuse a multiply and an add
 
 
-def test_transpose():
-    block = (RNG.standard_normal((3, 4, 19)) + 1j).astype(complex)
-    out = np.zeros((19, 3, 10), dtype=complex)
-    passes.transpose(block, 5, 4, out)
-    assert np.array_equal(out[:, :, 5:9], block.transpose(2, 0, 1))
-    assert not np.any(out[:, :, :5])
-    assert not np.any(out[:, :, 9:])
+@pytest.mark.parametrize("columns", [1, 4, 8, 19])
+def test_transpose(columns):
+    block = RNG.standard_normal((20, 11)) + 1j
+    for dtype in (np.complex64, np.complex128):
+        source, out = block.astype(dtype), np.zeros((11, 3, 30), dtype=dtype)
+        moved = (source, out) if dtype == np.complex128 else (source.view(np.float64), out.view(np.float64))
+        passes.transpose(moved[0], 1, 5, columns, moved[1])
+        assert np.array_equal(out[:, 1, 5 : 5 + columns], source[:columns].T)
+        out[:, 1, 5 : 5 + columns] = 0
+        assert not np.any(out)
 
 
 @pytest.mark.parametrize("nx", [1, 2, 7, 8])
 def test_pack_and_split(nx):
-    """Two half spectra go in, derived along x; numpy's transform of the packed row has the two real fields as its parts."""
-    half = nx // 2 + 1
-    columns = np.zeros((3, 2, half), dtype=complex)
-    active = slice(1, (nx - 1) // 2 + 1)  # k = 0 and Nyquist carry nothing
-    columns[:, :, active] = RNG.standard_normal(columns[:, :, active].shape) + 1j * RNG.standard_normal(columns[:, :, active].shape)
-    kx = np.arange(half) * 0.7
-    powers = np.stack([np.ones((2, half)), np.stack([kx, kx**2])])  # first fields as they are, second fields d/dx and d2/dx2
-    units = np.array([[[1.0, 0.0], [1.0, 0.0]], [[0.0, 1.0], [-1.0, 0.0]]])
-    sources = np.array([[0, 1], [1, 0]])
-    packed = np.zeros((2, 2, nx), dtype=complex)
-    passes.pack(parts(columns), 1, 2, sources, powers, units, parts(packed))
-    fields = np.fft.ifft(packed, axis=-1) * nx
+    """Two half spectra go in as A + iB and A - iB; numpy's transform of the packed row has the two real fields as its parts."""
+    columns = (nx + 1) // 2
+    a, b = np.zeros((2, 3, columns), dtype=complex)
+    for field in (a, b):
+        field[:, 1:] = RNG.standard_normal((3, columns - 1)) + 1j * RNG.standard_normal((3, columns - 1))
+    k = 0.7 * np.arange(columns)
+    between = np.stack([a + 1j * b, a - 1j * b, a], axis=1)
+    padded = np.zeros((3, nx // 2 + 1), dtype=complex)
+    packed = np.zeros((3, nx), dtype=complex)
     first, second = np.empty((2, 2, nx))
-    for p, (a, b) in enumerate([(columns[1:, 0], 1j * kx * columns[1:, 1]), (columns[1:, 1], -(kx**2) * columns[1:, 0])]):
-        passes.split(parts(fields), p, 2, 0.25, first, second)
-        assert np.max(np.abs(first - np.fft.irfft(a, nx) * nx)) < 1e-14
-        assert np.max(np.abs(0.25 * second - np.fft.irfft(b, nx) * nx)) < 1e-13
-        passes.split_one(parts(fields), p, 2, second)
+
+    def laid_out(ahead, astern):
+        conjugated = np.repeat(astern, 2)[:1:-1]
+        conjugated[1::2] *= -1
+        return np.repeat(ahead, 2), conjugated
+
+    def real_field(half):
+        padded[:, :columns] = half
+        return np.fft.irfft(padded[1:], nx) * nx
+
+    for (ahead, astern), factors, fields in (
+        ((0, 1), laid_out(np.ones(columns), np.ones(columns)), (real_field(a), real_field(b))),
+        ((2, 2), laid_out(1 - 0.5 * k, 1 + 0.5 * k), (real_field(a), 0.5 * real_field(1j * k * a))),
+    ):
+        passes.pack(parts(between), 1, 2, ahead, astern, *factors, parts(packed))
+        transformed = parts(np.fft.ifft(packed[:2], axis=-1) * nx)
+        passes.split(transformed, 4.0, first, second)
+        assert np.max(np.abs(first - fields[0])) < 1e-13
+        assert np.max(np.abs(second - 4.0 * fields[1])) < 1e-13
+        passes.real_parts(transformed, second)
         assert np.array_equal(first, second)
 
 
 @pytest.mark.parametrize("t", [0.0, 3.7, -1e6, 1e7, 123456789.123, 1e9, 1e12])
 def test_turns_are_exact_at_any_time(t):
-    """frac(omega t / 2 pi) against 60 digits: to the rounding of the fraction, and to that of omega / 2 pi in extended precision."""
+    """frac(f t) against 60 digits: to the rounding of the fraction, and of the last 26 bits' product with time."""
     amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((8, 6), (30.0, 50.0)), depth=4.0)
-    coarse, fine = _turns_per_second(amplitudes)
-    scale = t * 134217729.0
-    t_coarse = scale - (scale - t)
-    out = np.empty(coarse.shape)
-    passes.turns_at(coarse, fine, t_coarse, t - t_coarse, out)
+    frequency = _frequencies(amplitudes, 4)
+    out = np.empty(frequency.shape)
+    passes.turns_at(frequency, t, out)
     assert np.max(np.abs(out)) <= 0.5
     with mpmath.workdps(60):
-        for omega, turns in zip(amplitudes.omega.T.ravel(), out.ravel(), strict=True):
-            exact = mpmath.mpf(float(omega)) * mpmath.mpf(t) / (2 * mpmath.pi)
+        for f, turns in zip(frequency.ravel(), out.ravel(), strict=True):
+            exact = mpmath.mpf(float(f)) * mpmath.mpf(t)
             apart = abs(mpmath.mpf(float(turns)) - exact)
-            assert abs(apart - mpmath.nint(apart)) < 1e-15 + omega * abs(t) * float(np.finfo(np.longdouble).eps)
+            assert abs(apart - mpmath.nint(apart)) < 1e-15 + 2.0**-27 * f * abs(t) * 2.2e-16
+
+
+def test_frequencies_are_the_nearest_doubles():
+    amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((9, 6), (30.0, 50.0)), depth=4.0)
+    frequency = _frequencies(amplitudes, 5)
+    with mpmath.workdps(40):
+        for omega, f in zip(amplitudes.omega.T.ravel(), frequency.ravel(), strict=True):
+            assert float(mpmath.mpf(float(omega)) / (2 * mpmath.pi)) == pytest.approx(f, rel=2.3e-16, abs=0.0)
 
 
 @pytest.mark.parametrize(("step", "count"), [(0, 1), (5, 48), (47, 48), (30, 31), (999_999, 10**6)])
