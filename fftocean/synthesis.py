@@ -121,10 +121,9 @@ def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
     return {name: size(f.of, f.dx + f.dy, f.dt) for name, f in FIELDS.items()}
 
 
-def block_of(n: int, available: int, dtype: str) -> int:
-    """How many rows of n to work on at a time: what stays in a second-level cache of 1 MB, and at least what a cache line holds."""
-    fitting = 2**17 // (n * np.dtype(dtype).itemsize) if n < 2**14 else 0
-    return int(min(max(fitting, 8), 32, available))
+def block_of(n: int, available: int) -> int:
+    """How many rows of n to work on at a time: what a second-level cache of 1 MB holds with its results; measured, and flat about there."""
+    return min(32 if n <= 512 else 16, available)
 
 
 class Synthesis:
@@ -145,9 +144,9 @@ class Synthesis:
         self._weights: dict[tuple[str, ...], float] = {
             pair: 2.0 ** round(np.log2(size[pair[0]] / size[pair[1]])) for pair in PAIRS if len(pair) == 2
         }
-        self._powers: dict[tuple[int, float], Real] = {}
+        self._numbers = {spectrum: self._numbers_of(spectrum) for pair in PAIRS for spectrum in _spectra_of(pair)}
         self._factors = {pair: self._factors_of(pair) for pair in PAIRS}
-        self._widths = (block_of(grid.ny, self.columns, dtype), block_of(grid.nx, grid.ny, dtype))
+        self._widths = (block_of(grid.ny, self.columns), block_of(grid.nx, grid.ny))
         self._desks = [_Desk(self._widths, grid.shape, dtype, backend, planning) for _ in range(threads)]
         self.restart()
         self.backend = self._desks[0].first.backend
@@ -167,7 +166,8 @@ class Synthesis:
         moved = _movable(between)
         c = self._dtype.type(choppiness)
         self._share(self.columns, self._widths[0], lambda desk, block: self._first_pass(plan, desk, block, turn, moved))
-        self._share(self._grid.ny, self._widths[1], lambda desk, block: self._second_pass(plan, desk, block, _parts(between), outputs, c))
+        halves = _parts(between)
+        self._share(self._grid.ny, self._widths[1], lambda desk, block: self._second_pass(plan, desk, block, halves, outputs, c))
 
     def _share(self, total: int, width: int, work: "Callable[[_Desk, slice], None]") -> None:
         """Do the blocks of one pass, on one thread or each desk on its own. The blocks are the same, so are their bytes."""
@@ -207,30 +207,28 @@ class Synthesis:
             return parts
 
         for s, spectrum in enumerate(plan.spectra):
-            parts, (first, second) = _turned(parts_of(spectrum.source), spectrum.turns)
-            power, source = self._power(spectrum.power), _parts(desk.first.source)
-            first, second = self._dtype.type(first), self._dtype.type(second)
+            power, other_power, first, second = self._numbers[spectrum]
+            parts = _swapped(parts_of(spectrum.source), spectrum.turns)
             if spectrum.other is None:
-                passes.derive(*parts, power, first, second, n, source)
+                passes.derive(*parts, power, first, second, n, desk.first_source)
             else:
-                other, _ = _turned(parts_of(spectrum.other), spectrum.turns)
-                other_power = self._power(spectrum.other_power, spectrum.sign * self._weights[spectrum.pair])
-                passes.mix(*parts, power, *other, other_power, first, second, n, source)
+                other = _swapped(parts_of(spectrum.other), spectrum.turns)
+                passes.mix(*parts, power, *other, other_power, first, second, n, desk.first_source)
             desk.first()
-            passes.transpose(_movable(desk.first.result), s, block.start, n, between)
+            passes.transpose(desk.first_result, s, block.start, n, between)
 
     def _second_pass(self, plan: Plan, desk: "_Desk", block: slice, between: Real, outputs: Mapping[str, Real], choppiness: float) -> None:
         """Rows y: derive along x, transform two fields as one, split them, and finish what is made of them."""
         n = block.stop - block.start
         rows = {name: outputs[name][block] if name in outputs else desk.scratch[name][:n] for name in plan.linear}
-        source, result = _parts(desk.second.source), _parts(desk.second.result)
         for row in plan.rows:
-            passes.pack(between, block.start, n, row.ahead, row.astern, *self._factors[row.pair], source)
+            ahead, astern, undo = self._factors[row.pair]
+            passes.pack(between, block.start, n, row.ahead, row.astern, ahead, astern, desk.second_source)
             desk.second()
             if len(row.pair) == 2:
-                passes.split(result, self._dtype.type(1.0 / self._weights[row.pair]), rows[row.pair[0]], rows[row.pair[1]])
+                passes.split(desk.second_result, undo, rows[row.pair[0]], rows[row.pair[1]])
             else:
-                passes.real_parts(result, rows[row.pair[0]])
+                passes.real_parts(desk.second_result, rows[row.pair[0]])
         if "normal" in outputs:
             sx, sy, xx, xy, yy = (rows[name] for name in POINTWISE["normal"])
             surface.normals(sx, sy, xx, xy, yy, choppiness, outputs["normal"][block])
@@ -248,20 +246,22 @@ class Synthesis:
         np.subtract(forward.real, backward.real, out=waves[:, 3], casting="same_kind")
         return waves.reshape(self.columns, -1)
 
-    def _power(self, order: int, factor: float = 1.0) -> Real:
-        """factor ky^order, (ny,)."""
-        if (order, factor) not in self._powers:
-            self._powers[order, factor] = (factor * self._grid.ky**order).astype(self._dtype)
-        return self._powers[order, factor]
+    def _numbers_of(self, spectrum: Spectrum) -> tuple[Real, Real, float, float]:
+        """The powers of ky of a spectrum, the second with its weight, (ny,); the signs that its quarter turns give its parts."""
+        number = self._dtype.type
+        weight = spectrum.sign * self._weights.get(spectrum.pair, 1.0)
+        power, other = self._grid.ky**spectrum.power, weight * self._grid.ky**spectrum.other_power
+        turned = 1j**spectrum.turns * (1 + 1j)
+        return power.astype(self._dtype), other.astype(self._dtype), number(round(turned.real)), number(round(turned.imag))
 
-    def _factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real]:
-        """The factors of kx that a pair's spectra take at k and at -k, laid out as `passes.pack` wants them."""
-        kx = self._grid.kx[: self.columns]
-        slant = self._weights[pair] * kx if len(pair) == 2 and _derived(pair) else 0.0
+    def _factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real, float]:
+        """The factors of kx that a pair's spectra take at k and at -k, laid out as `passes.pack` wants them; what undoes the weight."""
+        kx, weight = self._grid.kx[: self.columns], self._weights.get(pair, 1.0)
+        slant = weight * kx if len(pair) == 2 and _derived(pair) else 0.0
         order = FIELDS[pair[0]].dx
         ahead, astern = np.repeat(kx**order * (1.0 - slant), 2), np.repeat(kx**order * (1.0 + slant), 2)[:1:-1]
         astern[1::2] *= -1.0
-        return ahead.astype(self._dtype), astern.astype(self._dtype)
+        return ahead.astype(self._dtype), astern.astype(self._dtype), self._dtype.type(1.0 / weight)
 
     def _between_passes(self, spectra: int) -> Complex:
         """What the first pass leaves for the second, (ny, spectra, columns), each row on cache lines of its own."""
@@ -284,13 +284,14 @@ class _Desk:
         self.parts: dict[tuple[str, int], tuple[Real, Real]] = {s: tuple(np.empty((2, columns, ny), dtype=dtype)) for s in sources}  # type: ignore[misc]
         self.first = inverse_rows((columns, ny), dtype, backend=backend, planning=planning)
         self.second = inverse_rows((rows, nx), dtype, backend=backend, planning=planning)
+        self.first_source, self.first_result = _parts(self.first.source), _movable(self.first.result)
+        self.second_source, self.second_result = _parts(self.second.source), _parts(self.second.result)
         self.scratch = {name: np.empty((rows, nx), dtype=dtype) for name in FIELDS}
 
 
-def _turned(parts: tuple[Real, Real], quarters: int) -> tuple[tuple[Real, Real], tuple[int, int]]:
-    """Multiply with i^quarters: which parts to take as real and imaginary, and their signs."""
-    real, imag = parts
-    return [((real, imag), (1, 1)), ((imag, real), (-1, 1)), ((real, imag), (-1, -1)), ((imag, real), (1, -1))][quarters % 4]
+def _swapped(parts: tuple[Real, Real], quarters: int) -> tuple[Real, Real]:
+    """What becomes the real part and what the imaginary, but for their signs, when a number is turned by quarters."""
+    return parts if quarters % 2 == 0 else parts[::-1]
 
 
 def _movable(array: Complex) -> Real | Complex:
