@@ -4,7 +4,10 @@ import math
 import os
 import threading
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +18,7 @@ from fftocean.errors import FieldError, ParameterError, SeaWarning
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.grid import Grid
 from fftocean.kernels import passes
-from fftocean.limits import CHOPPINESS, FRAMES, LOOP, THREADS, TIME
+from fftocean.limits import AHEAD, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import POINTWISE, Synthesis, Turn
 
@@ -144,7 +147,7 @@ class Ocean:
         choppiness: factor on the horizontal displacement [-]: 1 is linear wave theory, 0 a plain height field.
         dtype: "float32" or "float64", of the fields; amplitudes and phases are always float64.
         amplitudes: "gaussian" as in nature, or "fixed" for random phases alone (see `seed_amplitudes`).
-        backend: "auto", "pyfftw" or "scipy".
+        backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
         planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
         threads: how many threads share the work on one frame; the bytes are the same for any number.
 
@@ -320,6 +323,60 @@ class Ocean:
             passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
 
         return self._render(self.loop * step / count, fields, out, turn)
+
+    def frames(self, times: Iterable[float], fields: Sequence[str] = EIGHT, *, ahead: int = 1, reuse: bool = False) -> Iterator[Frame]:
+        """
+        Yield the water at each of some times, in their order, while the next is computed on a thread of its own.
+
+        What the consumer does with a frame (encode, draw, send) and what it takes to make the next then cost the longer of the two.
+
+        Args:
+            times: any times [s], as many as there are; an endless supply is fine.
+            fields: as in `frame`.
+            ahead: how many frames to compute ahead of the one that was handed out; 0 does without the thread.
+            reuse: hand out the arrays of earlier frames again: a frame is then good only until the next one is asked for.
+
+        Raises:
+            ParameterError: as `frame`, when the frame in question comes up; `ahead` out of range.
+        """
+        return self._pipeline((partial(self.frame, t, fields) for t in times), ahead, reuse)
+
+    def loop_frames(self, count: int, fields: Sequence[str] = EIGHT, *, ahead: int = 1, reuse: bool = False) -> Iterator[Frame]:
+        """
+        Yield the `count` equally spaced frames of one period, as `frames` does and to the bits of `loop_frame`.
+
+        Raises:
+            ParameterError: as `loop_frame` and `frames`.
+        """
+        return self._pipeline((partial(self.loop_frame, j, count, fields) for j in range(FRAMES.check_whole("count", count))), ahead, reuse)
+
+    def _pipeline(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
+        """Run jobs in their order, some of them ahead; each takes an earlier frame, or None, as `out`."""
+        ahead = AHEAD.check_whole("ahead", ahead)
+        return self._inline(jobs, reuse) if ahead == 0 else self._ahead(jobs, ahead, reuse)
+
+    def _inline(self, jobs: Iterator[Callable[..., Frame]], reuse: bool) -> Iterator[Frame]:
+        frame = None
+        for job in jobs:
+            frame = job(out=frame if reuse else None)
+            yield frame
+
+    def _ahead(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
+        spare: list[Frame] = []  # frames that the consumer has done with
+        with ThreadPoolExecutor(1, thread_name_prefix="fftocean-ahead") as worker:
+            coming: deque[Future[Frame]] = deque()
+            try:
+                for job in jobs:
+                    coming.append(worker.submit(job, out=spare.pop() if spare else None))
+                    if len(coming) > ahead:
+                        yield (frame := coming.popleft().result())
+                        if reuse:
+                            spare.append(frame)
+                while coming:
+                    yield coming.popleft().result()
+            finally:  # the consumer may stop early
+                for future in coming:
+                    future.cancel()
 
     def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
         fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))

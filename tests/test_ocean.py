@@ -409,3 +409,55 @@ def test_capillary_waves_run_faster():
     slow, fast = (fo.Ocean.from_modes([(1, 0, 1e-5, 0.0)], surface_tension=s, **args).modes().omega[0] for s in (0.0, 0.074))
     k = 2 * math.pi / 0.005
     assert (fast / slow) ** 2 == pytest.approx(1.0 + 0.074 / 1025.0 * k**2 / 9.80665, rel=1e-12)
+
+
+WATER = fo.Sea.from_wind(speed=9.0, fetch=100e3)
+
+
+@pytest.mark.parametrize("ahead", [0, 1, 3])
+@pytest.mark.parametrize("reuse", [False, True])
+def test_frames_come_in_order_with_the_bits_of_frame(ahead, reuse):
+    ocean = fo.Ocean(WATER, n=(24, 18), size=100.0, loop=30.0)
+    times = [3.0, -1.0, 3.0, 1e6, 0.25]
+    for t, frame in zip(times, ocean.frames(iter(times), ("height", "normal"), ahead=ahead, reuse=reuse), strict=True):
+        assert frame.t == t
+        assert all(np.array_equal(frame[name], ocean.frame(t, (name,))[name]) for name in ("height", "normal"))
+    for j, frame in enumerate(ocean.loop_frames(7, ahead=ahead, reuse=reuse)):
+        assert all(np.array_equal(frame[name], ocean.loop_frame(j, 7)[name]) for name in frame.fields)
+    assert j == 6
+
+
+def test_frames_reuse_arrays_only_when_told_to():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    kept = list(ocean.frames(range(6), ("height",)))
+    assert len({frame.height.ctypes.data for frame in kept}) == 6
+    assert len({frame.height.ctypes.data for frame in ocean.frames(range(40), ("height",), reuse=True)}) <= 3  # one out, one ahead
+
+
+def test_an_endless_sea_can_be_left_at_any_time():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    taken = []
+
+    def times():
+        while True:
+            taken.append(float(len(taken)))
+            yield taken[-1]
+
+    for frame in ocean.frames(times(), ("height",), ahead=2):
+        if frame.t == 5.0:
+            break
+    assert len(taken) <= 9  # no further ahead than it was told
+    assert ocean.frame(1.0).t == 1.0
+
+
+def test_a_bad_time_comes_up_in_its_turn():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    frames = ocean.frames([1.0, math.nan, 2.0])
+    assert next(frames).t == 1.0
+    with pytest.raises(fo.ParameterError, match="t must be"):
+        next(frames)
+    for bad in (-1, 1.5, True, 1000):
+        with pytest.raises(fo.ParameterError, match="ahead must be"):
+            ocean.frames([1.0], ahead=bad)
+    with pytest.raises(fo.ParameterError, match="needs an ocean that loops"):
+        next(ocean.loop_frames(3))
