@@ -431,11 +431,12 @@ def _remade(sea: Sea | None, seed: int | None, *made: Any) -> Ocean:
 
 def memory_needed(grid: Grid, dtype: str) -> float:
     """Bytes that an ocean and one frame of its eight fields take, with what it takes to seed it."""
-    half = grid.half_shape[0] * grid.half_shape[1]
-    full = grid.nx * grid.ny
-    seeding = 30.0 * 8 * half
-    working = (2 * 16 + 8 * 8) * half + 3.5 * COMPLEX_OF[dtype].itemsize * half
-    return float(max(seeding, working + 8.0 * full * np.dtype(dtype).itemsize))
+    half, number = grid.half_shape[0] * grid.half_shape[1], np.dtype(dtype).itemsize
+    waves = (2 * 16 + 4 * 8) * half  # amplitudes, variances, frequencies, cycles; in double precision
+    making = 9 * 8 * half  # what it takes to look at them all before they are used
+    turning = (6 * number + 8) * half  # as the first pass wants them
+    between, fields = 5 * 2 * number * half, 8 * number * grid.nx * grid.ny
+    return float(waves + max(making, turning + between + fields))
 
 
 def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float | None]:
