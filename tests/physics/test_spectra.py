@@ -20,6 +20,7 @@ from fftocean.physics.spectra import (
     FrequencySpectrum,
     PiersonMoskowitz,
     TabulatedSpectrum,
+    _shape_integral,
     kitaigorodskii,
 )
 
@@ -443,3 +444,10 @@ def test_a_function_of_one_number_is_a_spectrum_too():
     assert bell(omega) == pytest.approx(np.exp(-((omega - 1.0) ** 2)), rel=1e-15)
     box = CustomSpectrum(lambda w: 1.0 if 0.6 < w < 2.0 else 0.0, peak=1.0)
     assert np.array_equal(box(omega), np.where((omega > 0.6) & (omega < 2.0), 1.0, 0.0))
+
+
+@pytest.mark.parametrize("gamma", [1.0, 1.5, 3.3, 7.0, 20.0])
+def test_the_peak_adds_what_the_quadrature_says(gamma):
+    """m0 of a JONSWAP sea by adaptive quadrature, good to 1e-11, against the integral that its constructors use."""
+    sea = JONSWAP(peak=0.7, alpha=0.01, gamma=gamma)
+    assert moment(sea, 0) == pytest.approx(_shape_integral(gamma) * 0.01 * GRAVITY**2 / 0.7**4, rel=1e-11)
