@@ -9,12 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fftocean import gerstner as gerstner
+    from fftocean import kinematics as kinematics
     from fftocean import plots as plots
     from fftocean import readers as readers
     from fftocean import science as science
     from fftocean.bake.baker import bake as bake
+    from fftocean.bake.check import Finding as Finding
+    from fftocean.bake.check import check as check
     from fftocean.bake.job import Job as Job
+    from fftocean.bake.load import Bake as Bake
+    from fftocean.bake.load import load as load
+    from fftocean.bake.repair import repair as repair
+    from fftocean.cascade import Cascade as Cascade
     from fftocean.errors import FFTOceanError as FFTOceanError
+    from fftocean.errors import CacheWarning as CacheWarning
     from fftocean.errors import FieldError as FieldError
     from fftocean.errors import FolderInUseError as FolderInUseError
     from fftocean.errors import IntegrityError as IntegrityError
@@ -23,6 +31,8 @@ if TYPE_CHECKING:
     from fftocean.errors import ParameterError as ParameterError
     from fftocean.errors import ReaderError as ReaderError
     from fftocean.errors import SeaWarning as SeaWarning
+    from fftocean.eulerian import Eulerian as Eulerian
+    from fftocean.foam import Foam as Foam
     from fftocean.ocean import Frame as Frame
     from fftocean.ocean import Ocean as Ocean
     from fftocean.physics import dispersion as dispersion
@@ -58,6 +68,8 @@ if TYPE_CHECKING:
     from fftocean.products import normals as normals
     from fftocean.proof import Check as Check
     from fftocean.proof import verify as verify
+    from fftocean.query import Answer as Answer
+    from fftocean.query import Query as Query
     from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
@@ -65,8 +77,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _ROOMS = {
+    "fftocean.bake.check": ("Finding", "check"),
     "fftocean.bake.job": ("Job",),
+    "fftocean.bake.load": ("Bake", "load"),
+    "fftocean.bake.repair": ("repair",),
+    "fftocean.cascade": ("Cascade",),
     "fftocean.errors": (
+        "CacheWarning",
         "FFTOceanError",
         "FieldError",
         "FolderInUseError",
@@ -77,6 +94,8 @@ _ROOMS = {
         "ReaderError",
         "SeaWarning",
     ),
+    "fftocean.eulerian": ("Eulerian",),
+    "fftocean.foam": ("Foam",),
     "fftocean.ocean": ("Frame", "Ocean"),
     "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
@@ -94,13 +113,16 @@ _ROOMS = {
     "fftocean.physics.wind_wavenumber": ("Elfouhaily", "Phillips"),
     "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
+    "fftocean.query": ("Answer", "Query"),
     "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
 }
 _MODULES = {
     "bake": "fftocean.bake",
     "dispersion": "fftocean.physics.dispersion",
+    "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
+    "kinematics": "fftocean.kinematics",
     "moments": "fftocean.physics.moments",
     "plots": "fftocean.plots",
     "presets": "fftocean.physics.presets",

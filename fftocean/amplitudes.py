@@ -1,10 +1,12 @@
 """h0(k): the variance of each wavenumber cell times chance, frozen."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from fftocean import noise
 from fftocean.arrays import Complex, Integer, Real
@@ -15,6 +17,12 @@ from fftocean.physics import dispersion, moments
 from fftocean.physics.sea import Sea, WaveSystem
 
 Draw = Literal["gaussian", "fixed"]
+
+Band = tuple[float, float]
+"""Wavenumbers from the first up to, but without, the second [rad/m]."""
+
+WHOLE: Band = (0.0, math.inf)
+"""All that a tile can hold."""
 
 
 class Modes(NamedTuple):
@@ -44,6 +52,7 @@ class Amplitudes:
     variance_forward: Real  # E_k, the expected a^2/2 of the wave at +k [m^2]
     variance_backward: Real  # of the wave at -k [m^2]
     draw: Literal["gaussian", "fixed", "given"]
+    band: Band = WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     omega: Real = field(init=False)  # as the dispersion relation has it, before any loop [rad/s]
     cycles: Integer | None = field(init=False)  # whole turns in a loop
 
@@ -83,7 +92,9 @@ class Amplitudes:
         )
 
 
-def seed_amplitudes(sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None = None, draw: Draw = "gaussian") -> Amplitudes:
+def seed_amplitudes(
+    sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None = None, draw: Draw = "gaussian", band: Band = WHOLE
+) -> Amplitudes:
     """
     Realise a sea on a grid:  h0 = 1/2 (xi_r + i xi_i) sqrt(E_k).
 
@@ -94,6 +105,8 @@ def seed_amplitudes(sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None =
         loop: period after which the tile repeats [s].
         draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from draw to draw; "fixed" for random
             phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over the waves is the same in every draw.
+        band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever the band; one whose cell is cut
+            by an edge keeps its phase, and carries the energy of its part (see `share_below`).
 
     Raises:
         ParameterError: a value out of range, or a sea whose density is not finite and >= 0.
@@ -103,21 +116,28 @@ def seed_amplitudes(sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None =
     seed = SEED.check_whole("seed", seed)
     if draw not in ("gaussian", "fixed"):
         raise ParameterError(f"amplitudes must be 'gaussian' or 'fixed', got {draw!r}")
-    rows, columns = np.nonzero(grid.active)
-    mx, my = grid.mx[columns], grid.my[rows]
 
     def realise(mx: Integer, my: Integer) -> tuple[Real, Complex]:
         variance = cell_variance(sea, mx, my, grid.dkx, grid.dky)
+        if band != WHOLE:
+            low, high = (share_below(edge, sea, mx, my, grid.dkx, grid.dky) for edge in band)
+            variance *= np.maximum(high - low, 0.0)
         chance = noise.complex_normals(seed, mx, my) if draw == "gaussian" else np.sqrt(2.0) * noise.unit_phasors(seed, mx, my)
         return variance, 0.5 * np.sqrt(variance) * chance
 
-    ahead, h0 = realise(mx, my)
-    astern, h0_opposite = realise(-mx, -my)
     forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
-    forward[rows, columns], backward[rows, columns] = h0, np.conj(h0_opposite)
-    variance_forward[rows, columns], variance_backward[rows, columns] = ahead, astern
-    return Amplitudes(grid, sea.depth, sea.surface_tension, loop, forward, backward, variance_forward, variance_backward, draw)
+    at_a_time = max(1, _BLOCK // grid.ny)  # columns: what is made on the way is several times as much as what is kept
+    for first in range(0, grid.half_shape[1], at_a_time):
+        rows, columns = np.nonzero(grid.active[:, first : first + at_a_time])
+        columns += first
+        touched = _touched(grid.mx[columns], grid.my[rows], grid, band)
+        cells = rows[touched], columns[touched]
+        mx, my = grid.mx[cells[1]], grid.my[cells[0]]
+        variance_forward[cells], forward[cells] = realise(mx, my)
+        variance_backward[cells], h0 = realise(-mx, -my)
+        backward[cells] = np.conj(h0)
+    return Amplitudes(grid, sea.depth, sea.surface_tension, loop, forward, backward, variance_forward, variance_backward, draw, band)
 
 
 def place_modes(
@@ -188,6 +208,96 @@ def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) ->
     if not np.all((total >= 0.0) & (total < np.inf)):
         raise ParameterError("the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not")
     return total
+
+
+def share_below(edge: float, sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:
+    """
+    Return how much of the variance in the cells around (mx dkx, my dky) lies below |k| = edge, (m,), from 0 to 1.
+
+    A band holds the share below its upper edge less that below its lower one: bands that adjoin share out a cell without remainder.
+    A cut cell is integrated in polar coordinates, where the edge is a straight line: between the directions of its corners and of the
+    points where the edge enters and leaves it, all is smooth, and 8 x 8 Gauss points are good to round-off on a smooth spectrum.
+    Where a spectrum has no energy at these points, the whole cell belongs to the side on which its centre lies.
+
+    Args:
+        edge: wavenumber [rad/m], 0 and inf included.
+        sea: whose energy to weigh a cell's parts with.
+        mx, my: integer wavenumbers, (m,), never both 0.
+        dkx, dky: cell sizes [rad/m].
+
+    Pinned by tests/test_cascade.py: a flat spectrum, where shares are areas; shares of all bands add up to 1.
+    """
+    nearest, farthest = _distances(mx, my, dkx, dky)
+    share = (farthest <= edge).astype(np.float64)
+    cut = np.flatnonzero((nearest < edge) & (edge < farthest))
+    below, above = np.zeros(cut.size), np.zeros(cut.size)
+    for start in range(0, cut.size, _CUT_CELLS):
+        part = slice(start, start + _CUT_CELLS)
+        cells = cut[part]
+        centre = np.stack([mx[cells] * dkx, my[cells] * dky])
+        theta, weight, first, last = _rays(centre, 0.5 * dkx, 0.5 * dky, edge)
+        middle = np.clip(edge, first, last)
+        below[part] = _along_rays(sea, theta, weight, first, middle)
+        above[part] = _along_rays(sea, theta, weight, middle, last)
+    total = below + above
+    at_centre = np.hypot(mx[cut] * dkx, my[cut] * dky) < edge
+    share[cut] = np.divide(below, total, out=at_centre.astype(np.float64), where=(total > 0.0) & (total < np.inf))
+    return share
+
+
+_CUT_CELLS = 512
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+def _distances(mx: Integer, my: Integer, dkx: float, dky: float) -> tuple[Real, Real]:
+    """|k| of the nearest and of the farthest point of each cell."""
+    ax, ay = np.abs(mx), np.abs(my)
+    nearest = np.hypot(np.maximum(ax - 0.5, 0.0) * dkx, np.maximum(ay - 0.5, 0.0) * dky)
+    return nearest, np.hypot((ax + 0.5) * dkx, (ay + 0.5) * dky)
+
+
+def _touched(mx: Integer, my: Integer, grid: Grid, band: Band) -> npt.NDArray[np.bool_]:
+    """Which cells have a part in a band."""
+    nearest, farthest = _distances(mx, my, grid.dkx, grid.dky)
+    touched: npt.NDArray[np.bool_] = (farthest > band[0]) & (nearest < band[1])
+    return touched
+
+
+def _rays(centre: Real, half_x: float, half_y: float, edge: float) -> tuple[Real, Real, Real, Real]:
+    """
+    Cover cells with rays from k = 0: directions and weights, and from where to where on each the cell lies; each (cells, rays).
+
+    `centre` is (2, cells); a cell does not contain k = 0. Rays stand at Gauss points between the directions in which something breaks.
+    """
+    heading = np.arctan2(centre[1], centre[0])
+    sides = [(centre[0] - half_x, centre[0] + half_x), (centre[1] - half_y, centre[1] + half_y)]
+    points = [(x, y) for x in sides[0] for y in sides[1]]
+    for axis in (0, 1):  # where the circle |k| = edge meets the lines through the sides
+        for side in sides[axis]:
+            across = np.sqrt(np.maximum(edge**2 - side**2, 0.0))
+            points += [(side, sign * across) if axis == 0 else (sign * across, side) for sign in (-1.0, 1.0)]
+    turned = np.stack([np.arctan2(y, x) for x, y in points]) - heading
+    turned = np.remainder(turned + np.pi, 2.0 * np.pi) - np.pi
+    breaks = np.sort(np.clip(turned, np.min(turned[:4], axis=0), np.max(turned[:4], axis=0)), axis=0).T
+    width = 0.5 * np.diff(breaks, axis=1)
+    theta = (breaks[:, :-1, None] + width[:, :, None] * (1.0 + _NODES)).reshape(heading.size, -1) + heading[:, None]
+    weight = (width[:, :, None] * _WEIGHTS).reshape(theta.shape)
+    first, last = np.zeros(theta.shape), np.full(theta.shape, np.inf)
+    for (low, high), along in zip(sides, (np.cos(theta), np.sin(theta)), strict=True):
+        with np.errstate(divide="ignore"):
+            ends = low[:, None] / along, high[:, None] / along
+        first, last = np.maximum(first, np.minimum(*ends)), np.minimum(last, np.maximum(*ends))
+    return theta, weight, first, np.maximum(first, last)
+
+
+def _along_rays(sea: Sea, theta: Real, weight: Real, first: Real, last: Real) -> Real:
+    """The sea's variance along rays, from `first` to `last` on each, summed cell by cell, (cells,)."""
+    half = 0.5 * (last - first)
+    k = first[:, :, None] + half[:, :, None] * (1.0 + _NODES)
+    kx, ky = k * np.cos(theta)[:, :, None], k * np.sin(theta)[:, :, None]
+    density = sum((wavenumber_density(sea, system, kx, ky) for system in sea.systems), np.zeros(k.shape))
+    variance: Real = np.einsum("crn,crn,n,cr,cr->c", density, k, _WEIGHTS, half, weight)
+    return variance
 
 
 _FINENESS = 8.0  # midpoints across the narrowest feature: 0.3 standard deviations of a Gaussian apart

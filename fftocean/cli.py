@@ -1,7 +1,8 @@
-"""The command line: `fftocean bake | info | verify | plot | presets`. The only room that prints."""
+"""The command line: `fftocean bake | check | info | verify | bench | plot | presets`. The only room that prints."""
 
 import argparse
 import contextlib
+import json
 import math
 import os
 import signal
@@ -9,7 +10,7 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -19,15 +20,19 @@ from fftocean.errors import FFTOceanError, OutputError, SeaWarning
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from fftocean.bake.check import Finding
     from fftocean.bake.job import Job
 
 EPILOG = """\
 exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity, 6 folder in use, 130 interrupted
 """
 EXAMPLES = {
-    "bake": "fftocean bake -o sea\nfftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22",
+    "bake": "fftocean bake -o sea\nfftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22\n"
+    "fftocean bake gale.toml -o part --frames 0:64:2 --downsample 2 --dry-run",
+    "check": "fftocean check sea\nfftocean check sea --repair",
     "info": "fftocean info\nfftocean info gale.toml --size 800",
     "verify": "fftocean verify\nfftocean verify gale.toml --n 128",
+    "bench": "fftocean bench\nfftocean bench --seconds 30 --n 256 512 -o here.png --json here.json",
     "plot": "fftocean plot\nfftocean plot gale.toml -o gale.png",
     "presets": "fftocean presets",
 }
@@ -108,33 +113,85 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"fftocean {fftocean.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, run, summary in (
-        ("bake", _bake, "write a looping sequence of maps, a manifest and a contact sheet"),
-        ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes"),
-        ("verify", _verify, "prove the tile: FFT against the direct sum, seam, loop, Parseval, energy"),
-        ("plot", _plot, "draw the sea that is ordered, and what the tile delivers of it"),
-        ("presets", _presets, "list the Beaufort scale and the sea states, with the height each promises and delivers"),
+    for name, run, summary, add_flags in (
+        ("bake", _bake, "write a looping sequence of maps, a manifest and a contact sheet", _add_bake_flags),
+        ("check", _check, "find any frame that is missing, cut, changed or swapped, and any map that is not water", _add_check_flags),
+        ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes", _add_job_flags),
+        ("verify", _verify, "prove the tile: FFT against the direct sum, seam, loop, Parseval, energy", _add_verify_flags),
+        (
+            "bench",
+            _bench,
+            "measure what a frame costs here, against the textbook, the direct sum and two threads (two minutes)",
+            _add_bench_flags,
+        ),
+        ("plot", _plot, "draw the sea that is ordered, and what the tile delivers of it", _add_plot_flags),
+        ("presets", _presets, "list the Beaufort scale and the sea states, with the height each promises and delivers", lambda _: None),
     ):
         examples = "\n".join("  " + line for line in EXAMPLES[name].splitlines())
         command = commands.add_parser(
             name, help=summary, description=summary, epilog=f"example:\n{examples}\n\n{EPILOG}", formatter_class=raw
         )
         command.set_defaults(run=run)
-        if name == "presets":
-            continue
-        command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
-        _add_job_flags(command)
-        if name == "bake":
-            command.add_argument("-o", "--output", type=_path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
-            command.add_argument("--overwrite", action="store_true", help="bake over another job's folder")
-            command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
-        if name == "plot":
-            help_ = "picture to write, .png, .svg or .pdf (default: sea.png)"
-            command.add_argument("-o", "--output", type=_path, default=Path("sea.png"), metavar="FILE", help=help_)
-        if name == "verify":
-            command.add_argument("--t", type=float, default=3.7, metavar="T", help="time to look at [s] (default: 3.7)")
-            command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
+        add_flags(command)
     return parser
+
+
+def _add_bake_flags(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", type=_path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
+    command.add_argument("--overwrite", action="store_true", help="bake over another job's folder; the same job's bake goes on without it")
+    command.add_argument(
+        "--downsample", type=_whole, default=1, metavar="K", help="a K-th of the samples a side: the same waves, but for those too short"
+    )
+    command.add_argument("--dry-run", action="store_true", help="say what would be written, and write nothing")
+    _add_work_flags(command)
+    command.add_argument("--json", action="store_true", help="what happens as lines of JSON on stdout: start, survey, frame, done, error")
+    command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
+    _add_job_flags(command)
+
+
+def _add_check_flags(command: argparse.ArgumentParser) -> None:
+    command.add_argument("folder", metavar="DIR", type=_path, help="a folder that was baked")
+    command.add_argument("--repair", action="store_true", help="write again what is wrong, with the same bytes")
+    command.add_argument("--job", metavar="JOB.toml", type=_path, help="for --repair: the job file beside which the measured spectra lie")
+    _add_work_flags(command)
+    command.add_argument("--json", action="store_true", help="what is found as lines of JSON on stdout: finding, frame, done, error")
+    command.add_argument("--quiet", action="store_true", help="no progress bar; nothing printed where nothing is wrong")
+
+
+def _add_work_flags(command: argparse.ArgumentParser) -> None:
+    help_ = "serial, processes, dask, a scheduler's tcp://..., or auto: processes where that is faster (default: auto)"
+    command.add_argument("--executor", default="auto", metavar="NAME", help=help_)
+    command.add_argument("--workers", type=_whole, metavar="N", help="how many of them (default: one for each processor)")
+
+
+def _add_verify_flags(command: argparse.ArgumentParser) -> None:
+    _add_job_flags(command)
+    command.add_argument("--t", type=float, default=3.7, metavar="T", help="time to look at [s] (default: 3.7)")
+    command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
+
+
+def _add_bench_flags(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--seconds", type=float, default=120.0, metavar="S", help="time to take, about [s] (default: 120)")
+    command.add_argument("--n", type=int, nargs="+", metavar="N", help="samples a side to measure (default: 128 256 512 1024)")
+    command.add_argument(
+        "-o", "--output", type=_path, default=Path("bench.png"), metavar="FILE", help="picture to write (default: bench.png)"
+    )
+    command.add_argument("--no-picture", action="store_true", help="write none")
+    command.add_argument("--json", type=_path, metavar="FILE", help="the figures as JSON")
+    command.add_argument("--quiet", action="store_true", help="no progress bar")
+
+
+def _add_plot_flags(command: argparse.ArgumentParser) -> None:
+    _add_job_flags(command)
+    help_ = "picture to write, .png, .svg or .pdf (default: sea.png)"
+    command.add_argument("-o", "--output", type=_path, default=Path("sea.png"), metavar="FILE", help=help_)
+
+
+def _whole(text: str) -> int:
+    """A whole number, at least 1."""
+    if not (text.isascii() and text.isdigit() and int(text[:9]) > 0 and len(text) < 10):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 on, got {text!r:.40}")
+    return int(text)
 
 
 def _path(text: str) -> Path:
@@ -145,15 +202,23 @@ def _path(text: str) -> Path:
 
 
 def _add_job_flags(command: argparse.ArgumentParser) -> None:
-    """Flags for the keys that have one, and --set for all."""
+    """The job file, flags for the keys that have one, and --set for all."""
     from fftocean.bake.parameters import PARAMETERS
 
+    command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
     group = command.add_argument_group("keys of the job (flags override the file)")
     for p in PARAMETERS:
-        if p.flag:
+        if p.flag and p.switch:
+            group.add_argument(
+                f"--{p.flag}", action=argparse.BooleanOptionalAction, help=f"{p.help} (default: {'yes' if p.default else 'no'})"
+            )
+        elif p.flag:
             unit = f" [{p.unit}]" if p.unit else ""
             default = ",".join(p.default) if p.many else f"{p.default:g}" if isinstance(p.default, float) else p.default
-            group.add_argument(f"--{p.flag}", metavar=p.flag.upper(), help=f"{p.help}{unit} (default: {default})".replace("%", "%%"))
+            choices = f": {', '.join(p.choices)}" if p.choices else ""
+            group.add_argument(
+                f"--{p.flag}", metavar=p.flag.upper(), help=f"{p.help}{choices}{unit} (default: {default})".replace("%", "%%")
+            )
     group.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="any key of a job file, such as sea.wind.speed=12")
 
 
@@ -165,8 +230,8 @@ def _job(options: argparse.Namespace) -> "Job":
     job = Job.default() if options.job is None else Job.read(options.job)
     changes = dict(parse_setting(text) for text in options.set)
     for p in PARAMETERS:
-        if p.flag and (text := getattr(options, p.flag)) is not None:
-            changes[p.key] = parse_value(text)
+        if p.flag and (given := getattr(options, p.flag)) is not None:
+            changes[p.key] = given if p.switch else parse_value(given)
     for key, value in changes.items():
         if key in BY_KEY and BY_KEY[key].many and isinstance(value, str):
             changes[key] = [value]
@@ -174,27 +239,197 @@ def _job(options: argparse.Namespace) -> "Job":
 
 
 def _bake(options: argparse.Namespace) -> int:
+    from fftocean.bake.lock import require_free
+
+    require_free(options.output)  # before anything is loaded that takes time
+    subset = None
+    if options.frames is not None and ":" in options.frames:
+        subset, options.frames = options.frames, None
+    with _events(options.json) as tell:
+        job = _job(options)
+        if options.dry_run:
+            return _dry_run(options, job, subset)
+        return _bake_job(options, job, subset, tell)
+
+
+def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell: "Callable[[dict[str, Any]], None] | None") -> int:
+    """Bake, with a bar that shows how far it is and a summary of what it made."""
+    from fftocean.bake.baker import bake
+
+    start = time.perf_counter()
+    with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
+        at = {"done": 0, "frames": 0}
+
+        def listen(event: dict[str, Any]) -> None:
+            at.update(done=event.get("kept", event.get("done", 0)), frames=event["frames"]) if event["event"] in (
+                "start",
+                "frame",
+            ) else None
+            if event["event"] == "survey":
+                show(event["done"], event["total"], f"surveying {event['what']}")
+            elif at["frames"]:
+                show(at["done"], at["frames"], "baking")
+            if tell:
+                tell(event)
+
+        try:
+            manifest = bake(
+                job,
+                options.output,
+                overwrite=options.overwrite,
+                frames=subset,
+                downsample=options.downsample,
+                executor=options.executor,
+                workers=options.workers,
+                listen=listen,
+            )
+        except (KeyboardInterrupt, SystemExit):
+            if at["frames"]:
+                print(f"note: {at['done']} of {at['frames']} frames are finished; the same command goes on from there", file=sys.stderr)
+            raise
+    if not (options.quiet or options.json):
+        _sum_up(options, manifest, time.perf_counter() - start)
+    return 0
+
+
+def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: float) -> None:
+    """What was made, in three lines, and what to look at."""
+    from fftocean.bake.layout import SHEET
+
+    statistics = manifest["statistics"]
+    _advise(statistics)
+    maps = sum(len(row["files"]) for row in manifest["frames"])
+    print(f"Hs {statistics['ordered']['hs']:.3g} m ordered, {statistics['hs']:.3g} m delivered; Tp {statistics['ordered']['tp']:.3g} s")
+    nx, ny = manifest["ocean"]["n"]
+    print(f"{maps} maps of {nx} x {ny} in {seconds:.1f} s: {_plain(options.output)}")
+    print(_blending(manifest["blend"]))
+    print(f"look at {_plain(options.output / (SHEET if 'preview' in manifest else ''))}")
+
+
+def _blending(blend: dict[str, Any]) -> str:
+    """What players that blend two frames lose, in a line."""
+    rate, enough = blend["frames_per_second"], blend["enough"]
+    kept = f"{100.0 * blend['height']:.0f} % of the waves' height, {100.0 * blend['slopes']:.0f} % of their slopes"
+    more = f"; {enough['slopes']['frames']} frames would keep 97 %" if blend["slopes"] < enough["amplitude"] else ""
+    return f"blending frames at {rate:.3g} a second keeps {kept}{more}"
+
+
+def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int:
+    """Say what a bake would write."""
+    from dataclasses import asdict
+
+    from fftocean.bake.estimate import estimate
+
+    e = estimate(job, frames=subset, downsample=options.downsample, executor=options.executor, workers=options.workers)
+    if options.json:
+        _print_event({"event": "estimate", "folder": str(options.output), **asdict(e)})
+        return 0
+    who = f"{e.workers} {e.executor}" if e.executor != "serial" else "one process"
+    print(f"would write {e.files} files, about {e.bytes / 1e6:.3g} MB, for {e.frames} frames to {_plain(options.output)}")
+    print(f"about {e.seconds:.0f} s here, by {who}, with {e.memory / 2**20:.0f} MiB of memory each")
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    from fftocean.bake.check import check
+    from fftocean.bake.job import Job
+
+    with _events(options.json) as tell:
+        with _bar("checking", "maps", shown=not (options.quiet or options.json)) as show:
+            findings = check(options.folder, progress=lambda done, total: show(done, total, "checking"))
+        _report(findings, options, tell)
+        if findings and options.repair:
+            from fftocean.bake.repair import repair
+
+            again: list[int] = []
+
+            def listen(event: dict[str, Any]) -> None:
+                if event["event"] == "frame":
+                    again.append(event["frame"])
+                if tell:
+                    tell(event)
+
+            job = None if options.job is None else Job.read(options.job)
+            repair(options.folder, job, executor=options.executor, workers=options.workers, listen=listen)
+            if not options.json:
+                print(f"repaired: {len(again)} frames were written again")
+            findings = check(options.folder)
+            _report(findings, options, tell)
+        if tell:
+            tell({"event": "done", "findings": len(findings)})
+    return 5 if findings else 0
+
+
+def _report(findings: "Sequence[Finding]", options: argparse.Namespace, tell: "Callable[[dict[str, Any]], None] | None") -> None:
+    """What was found, for people or for programs."""
+    if tell:
+        from dataclasses import asdict
+
+        for finding in findings:
+            tell({"event": "finding", **asdict(finding)})
+        return
+    if not findings:
+        if not options.quiet:
+            print(f"all is well: {_plain(options.folder)}")
+        return
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False)
+    for heading in ("what", "file", "frame", ""):
+        table.add_column(heading, justify="right" if heading == "frame" else "left", overflow="fold")
+    for f in findings:
+        table.add_row(f.kind, Text(_plain(f.path)), "" if f.frame is None else str(f.frame), Text(_plain(f.detail)))
+    _console().print(table)
+    print(f"{len(findings)} {'thing is' if len(findings) == 1 else 'things are'} wrong: {_plain(options.folder)}")
+
+
+def _bench(options: argparse.Namespace) -> int:
+    from fftocean.bench import main as bench
+
+    status = _console(stderr=True)
+    shown = status.is_terminal and sys.stderr.isatty() and not options.quiet
+    picture = None if options.no_picture else options.output
+    code: int = bench(
+        _console(), seconds=options.seconds, sizes=options.n or None, picture=picture, json=options.json, status=status if shown else None
+    )
+    return code
+
+
+@contextlib.contextmanager
+def _events(wanted: bool) -> "Iterator[Callable[[dict[str, Any]], None] | None]":
+    """Lines of JSON on stdout, the last of them the error where there is one; None where people are to read it."""
+    if not wanted:
+        yield None
+        return
+    try:
+        yield _print_event
+    except FFTOceanError as error:
+        _print_event({"event": "error", "message": str(error), "exit_code": error.exit_code})
+        raise
+    except KeyboardInterrupt:
+        _print_event({"event": "error", "message": "interrupted", "exit_code": 130})
+        raise
+    except SystemExit as leaving:
+        _print_event({"event": "error", "message": "terminated", "exit_code": leaving.code})
+        raise
+
+
+def _print_event(event: dict[str, Any]) -> None:
+    print(json.dumps(event, ensure_ascii=True, allow_nan=False), flush=True)
+
+
+@contextlib.contextmanager
+def _bar(title: str, things: str, *, shown: bool) -> "Iterator[Callable[[int, int, str], None]]":
+    """A progress bar with its ETA on a terminal, and nothing anywhere else; called with (done, total, what)."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    from fftocean.bake.baker import PREVIEW_FILE, bake
-
-    job = _job(options)
     console = _console(stderr=True)
-    shown = console.is_terminal and sys.stderr.isatty() and not options.quiet  # colours may be forced on a file, a bar may not
-    start = time.perf_counter()
-    columns = (TextColumn("baking"), BarColumn(), MofNCompleteColumn(), TextColumn("frames"), TimeRemainingColumn())
+    shown = shown and console.is_terminal and sys.stderr.isatty()  # colours may be forced on a file, a bar may not
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn(things), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not shown, transient=True) as bar:
-        task = bar.add_task("frames", total=job.frames)
-        manifest = bake(job, options.output, overwrite=options.overwrite, progress=lambda done, _: bar.update(task, completed=done))
-    if not options.quiet:
-        files = sum(len(row["files"]) for row in manifest["frames"])
-        statistics = manifest["statistics"]
-        _advise(manifest["statistics"])
-        print(f"Hs {statistics['ordered']['hs']:.3g} m ordered, {statistics['hs']:.3g} m delivered; Tp {statistics['ordered']['tp']:.3g} s")
-        nx, ny = manifest["ocean"]["n"]
-        print(f"{files} maps of {nx} x {ny} in {time.perf_counter() - start:.1f} s: {_plain(options.output)}")
-        print(f"look at {_plain(options.output / PREVIEW_FILE)}")
-    return 0
+        task = bar.add_task(title, total=None)
+        yield lambda done, total, what: bar.update(task, completed=done, total=total, description=what)
 
 
 def _advise(statistics: dict[str, Any]) -> None:
@@ -218,14 +453,15 @@ def _info(options: argparse.Namespace) -> int:
     from rich.text import Text
 
     from fftocean import dispersion
-    from fftocean.bake.maps import MAPS
+    from fftocean.bake import blend
+    from fftocean.bake.baker import scene_for
+    from fftocean.bake.estimate import estimate
     from fftocean.bake.parameters import PARAMETERS
-    from fftocean.export import exr
-    from fftocean.ocean import memory_needed
     from fftocean.statistics import measure
 
     job = _job(options)
-    ocean = job.ocean()
+    scene = scene_for(job, 1)
+    ocean = scene.ocean
     statistics, grid = measure(ocean), ocean.grid
     console = _console()
     table = Table(title=Text(f"Job: {_plain(job.source)}"), title_justify="left", show_header=False, box=None, pad_edge=False)
@@ -260,15 +496,11 @@ def _info(options: argparse.Namespace) -> int:
         better = f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %" if e.better_period != e.period else ""
         table.add_row("loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}")
     table.add_row("FFT library", ocean.backend)
-    needs = tuple(dict.fromkeys([*(need for name in job.maps for need in MAPS[name].needs), "height", "jacobian"]))
-    frame = ocean.loop_frame(0, job.frames, needs)
-    start = time.perf_counter()
-    frame = ocean.loop_frame(min(1, job.frames - 1), job.frames, needs, out=frame)
-    sizes = [len(exr.encode_half(*MAPS[name].channels(frame))) for name in job.maps]
-    seconds = (time.perf_counter() - start) * job.frames + 3.0
-    table.add_row("files", f"{len(job.maps) * job.frames} EXR + manifest and preview, about {sum(sizes) * job.frames / 1e6:.0f} MB")
-    table.add_row("memory", f"about {memory_needed(grid, ocean.dtype) / 2**20:.0f} MiB")
-    table.add_row("time to bake", f"about {seconds:.0f} s here")
+    cost = estimate(job, scene=scene)
+    table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")
+    table.add_row("memory", f"about {cost.memory / 2**20:.0f} MiB, in each of {cost.workers} at work")
+    table.add_row("time to bake", f"about {cost.seconds:.0f} s here")
+    table.add_row("between frames", blend.sentence(blend.loss(ocean, job.frames)))
     console.print(table)
     _advise(asdict(statistics))
     return 0

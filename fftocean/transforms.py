@@ -188,16 +188,16 @@ def _mkl() -> ctypes.CDLL | None:
 
 
 def _pyfftw() -> ModuleType | None:
-    """pyfftw if it is there; dask, which it would import for an interface that is not used here (6 s), is kept out meanwhile."""
+    """pyfftw if it is there; dask.array, which it would import for an interface that is not used here (6 s), is kept out meanwhile."""
     if "pyfftw" in sys.modules:
         return sys.modules["pyfftw"]
-    hide = "dask" not in sys.modules
+    hide = "dask.array" not in sys.modules
     if hide:
-        sys.modules["dask"] = None  # type: ignore[assignment]
+        sys.modules["dask.array"] = None  # type: ignore[assignment]
     try:
         return importlib.import_module("pyfftw")
     except ImportError:
         return None
     finally:
         if hide:
-            del sys.modules["dask"]
+            del sys.modules["dask.array"]

@@ -16,8 +16,8 @@ FLOORS = {
     2: ["amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["synthesis", "ocean", "gerstner"],
-    5: ["cascade"],
-    6: ["products", "foam", "eulerian", "mips", "query", "statistics"],
+    5: ["cascade", "trains"],
+    6: ["products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"],
     7: ["bake", "proof"],
     8: ["viewer", "plots", "science", "bench"],
     9: ["cli", "__main__"],
@@ -37,6 +37,8 @@ STAIRS = [
     ],
     [["wisdom"], ["transforms"]],
     [["synthesis"], ["ocean"]],
+    [["cascade"], ["trains"]],
+    [["plots"], ["bench.pictures"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {module: (stair, step) for stair, steps in enumerate(STAIRS) for step, modules in enumerate(steps) for module in modules}

@@ -149,12 +149,12 @@ def test_a_cache_that_cannot_be_written_stops_nothing(tmp_path, monkeypatch):
 
 
 def test_pyfftw_is_imported_without_dask(monkeypatch):
-    """dask, if it is not there yet, is neither imported on the way nor left blocked behind."""
-    monkeypatch.delitem(sys.modules, "dask", raising=False)
+    """dask.array, if it is not there yet, is neither imported on the way nor left blocked behind."""
+    monkeypatch.delitem(sys.modules, "dask.array", raising=False)
     monkeypatch.delitem(sys.modules, "pyfftw", raising=False)
     seen = []
     real = transforms.importlib.import_module
-    monkeypatch.setattr(transforms.importlib, "import_module", lambda _: seen.append("dask" in sys.modules) or real("numpy"))
+    monkeypatch.setattr(transforms.importlib, "import_module", lambda _: seen.append("dask.array" in sys.modules) or real("numpy"))
     transforms._pyfftw()
     assert seen == [True]
-    assert "dask" not in sys.modules
+    assert "dask.array" not in sys.modules

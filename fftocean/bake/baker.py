@@ -1,172 +1,216 @@
-"""Turning a job into a folder: frame by frame, the manifest last."""
+"""
+Turning a job into a folder that can be trusted: claim it, survey the loop, write the frames, and the manifest last of all.
 
-import os
-from collections.abc import Callable
-from dataclasses import asdict
+Each thing that is finished is on the disk before the journal says so, and only what the journal says and the disk bears out is
+taken over by the next run. So a bake can be stopped at any moment, and goes on with the same command to the same bytes.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-import fftocean
-from fftocean.bake import preview
-from fftocean.bake.files import as_json, make_folder, read_json, remove, write_whole
-from fftocean.bake.job import Job, finite_or_word
+from fftocean import foam
+from fftocean.arrays import available_memory
+from fftocean.bake import blend, layout, pictures
+from fftocean.bake.claim import claim, discard_work, header_of, require_claimable
+from fftocean.bake.containers import assemble, intact, unpack
+from fftocean.bake.crews import check_executor, cores, crew_of
+from fftocean.bake.executors import Crew
+from fftocean.bake.files import as_json, make_folder, sweep, write_whole
+from fftocean.bake.frames import Scene, leave, seat
+from fftocean.bake.job import Job
+from fftocean.bake.journal import Journal, entries_of
+from fftocean.bake.ledger import Ledger, Listen, Progress
+from fftocean.bake.lock import locked, require_free
+from fftocean.bake.manifest import compose, read_manifest
 from fftocean.bake.maps import MAPS
-from fftocean.bake.parameters import PARAMETERS
-from fftocean.errors import JobError, OutputError
-from fftocean.export import exr
-from fftocean.ocean import Ocean
-from fftocean.statistics import Statistics, measure
+from fftocean.bake.order import Entry, Order, frames_of, tasks_of
+from fftocean.bake.survey import survey
+from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
+from fftocean.export import formats
+from fftocean.ocean import memory_needed
+from fftocean.statistics import measure
 
-JOB_FILE, MANIFEST_FILE, PREVIEW_FILE = "job.json", "manifest.json", "preview.png"
-Progress = Callable[[int, int], None]
+SMALL = 2e7
+"""Samples of a bake, all frames and maps, that one process has written before others would have started."""
 
 
-def bake(job: Job, folder: str | Path = "out", *, overwrite: bool = False, progress: Progress | None = None) -> dict[str, Any]:
+def bake(
+    job: Job,
+    folder: str | Path = "out",
+    *,
+    overwrite: bool = False,
+    frames: str | None = None,
+    downsample: int = 1,
+    executor: str = "auto",
+    workers: int | None = None,
+    progress: Progress | None = None,
+    listen: Listen | None = None,
+) -> dict[str, Any]:
     """
-    Bake a job: one EXR file a map and frame, a contact sheet, and a manifest that is written last.
+    Bake a job: a file a map and frame, or a container a map, something to look at, and a manifest that is written last.
 
-    A folder without `manifest.json` is not a finished bake. Baking the same job into its folder again gives the same bytes.
+    A folder without `manifest.json` is not a finished bake. The same bake into its folder again goes on where it was stopped: frames
+    that are there, and are what they were when they were written, are kept; the bytes are those of a bake that was never stopped.
 
     Args:
         job: what to bake.
         folder: where to; made if it is not there.
         overwrite: bake over another job's folder, whose frames are removed first.
+        frames: a part of the loop, `start:stop:step` as Python slices; None is all of it.
+        downsample: how many times fewer samples a side: the same waves, but for those too short (see `Job.downsampled`).
+        executor: "serial", "processes", "dask" for a cluster of this machine's own, "tcp://..." for a scheduler's, or "auto": processes,
+            unless the bake is so small that one would be done before others had started.
+        workers: how many; None is one for each processor that this process may use.
         progress: called with (frames done, frames in all).
+        listen: called with what happens, as plain data: {"event": "start" | "survey" | "frame" | "done", ...}.
 
     Returns:
         The manifest, as plain data.
 
     Raises:
         OutputError: a file cannot be written, or the folder holds another job.
+        FolderInUseError: another process bakes into the folder.
         JobError: the job asks for more than can be.
     """
     if not isinstance(job, Job):
         raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
+    check_executor(executor, workers)
     folder = Path(folder)
-    ocean = job.ocean()
+    require_free(folder)
+    chosen, scene = frames_of(frames, job.frames), scene_for(job, downsample)
+    header = header_of(job, frames=chosen, downsample=downsample, backend=scene.ocean.backend)
     make_folder(folder)
-    _claim(folder, job, overwrite)
-    for name in job.maps:
-        make_folder(folder / name)
-    needs = tuple(
-        dict.fromkeys([*(need for name in job.maps for need in MAPS[name].needs), "height", "displace_x", "displace_y", "jacobian"])
-    )
-    ranges: dict[str, list[float]] = {name: [np.inf, -np.inf] for name in job.maps}
-    extremes = {"min_jacobian": np.inf, "max_height": 0.0, "max_horizontal": 0.0}
-    rows = []
-    frame = None
-    for j in range(job.frames):
-        frame = ocean.loop_frame(j, job.frames, needs, out=frame)
-        row: dict[str, Any] = {"frame": j, "t": frame.t, "files": {}}
-        for name in job.maps:
-            channels = MAPS[name].channels(frame)
-            file = f"{name}/{j:04d}.exr"
-            try:
-                data = exr.encode_half(*channels)
-            except OutputError as error:
-                raise OutputError(f"{folder / file} could not be encoded: {error}") from None
-            row["files"][name] = {"path": file, "sha256": write_whole(folder / file, data)}
-            ranges[name] = [  # of what is stored: a half may lie beyond the value that it was rounded from
-                min(ranges[name][0], *(float(np.float16(c.min())) for c in channels)),
-                max(ranges[name][1], *(float(np.float16(c.max())) for c in channels)),
-            ]
-        rows.append(row)
-        horizontal = frame.choppiness * float(np.max(np.hypot(frame.displace_x, frame.displace_y)))
-        extremes["min_jacobian"] = min(extremes["min_jacobian"], float(frame.jacobian.min()))
-        extremes["max_height"] = max(extremes["max_height"], float(np.max(np.abs(frame.height))))
-        extremes["max_horizontal"] = max(extremes["max_horizontal"], horizontal)
-        if progress:
-            progress(j + 1, job.frames)
-    statistics = measure(ocean)
-    picture = preview.contact_sheet(ocean, job.frames, _caption(statistics, job))
-    manifest = {
-        **_header(job),
-        "ocean": _tile(ocean),
-        "statistics": asdict(statistics),  # ordered beside delivered
-        "conventions": {
-            "axes": "x east, y north, z up, right-handed",
-            "rows": "row 0 of a picture is the north edge",
-            "columns": "column 0 is the west edge",
-            "normal_green": "up (toward row 0)",
-            "samples": "texel (i, j) is the value at x = i lx/nx; sample textures at u = i/nx + 1/(2 nx)",
-            "lookup": "lagrangian: a map is indexed by the undisplaced position",
-        },
-        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes},
-        "maps": {name: {**MAPS[name].describe(), "format": "exr half zip", "range": ranges[name]} for name in job.maps},
-        "preview": {"path": PREVIEW_FILE, "sha256": write_whole(folder / PREVIEW_FILE, picture)},
-        "frames": rows,
-    }
-    write_whole(folder / MANIFEST_FILE, as_json(manifest))
+    with locked(folder) as hold:
+        order = Order(job, downsample, header, chosen, str(folder), hold.token)
+        seat(order.claim, scene)
+        try:
+            known = _known(folder, order, scene, overwrite)
+            make_folder(folder / layout.WORK_FOLDER)
+            with Journal(folder / layout.JOURNAL, order.claim, known) as journal:
+                claim(folder, header, overwrite=overwrite)
+                ledger = Ledger(folder, journal, known, progress, listen)
+                rows, containers = _kept(order, scene, ledger)
+                todo = [j for j in chosen if j not in rows]
+                crew = crew_of(*crew_for(executor, workers, scene, len(todo)), hold.descriptor)
+                ledger.say("start", folder=str(folder), frames=len(chosen), kept=len(rows), executor=crew.name, workers=crew.workers)
+                if rows:
+                    ledger.progress(len(rows), len(chosen))
+                if todo:
+                    with crew:
+                        order = survey(crew, order, scene, ledger)
+                        _write(crew, order, todo, rows, ledger)
+                manifest = _finish(order, scene, [rows[j] for j in chosen], containers, ledger)
+            with suppress(OutputError):  # the bake is done; what is left of its work is litter
+                discard_work(folder)
+        except BaseException:
+            for room in layout.rooms(folder):
+                sweep(room)
+            raise
+        finally:
+            leave()
+    if listen:
+        listen({"event": "done", "manifest": str(folder / layout.MANIFEST_FILE), "frames": len(chosen)})
     return manifest
 
 
-def _header(job: Job) -> dict[str, Any]:
-    """What says which bake this is."""
-    units = {p.key: p.unit for p in PARAMETERS if p.unit}
-    return {"tool": "fftocean", "version": fftocean.__version__, "job": job.describe(), "units": units}
-
-
-def _claim(folder: Path, job: Job, overwrite: bool) -> None:
+def scene_for(job: Job, downsample: int) -> Scene:
     """
-    Mark the folder as this job's, before the first frame; refuse another job's, naming the keys that differ.
-
-    The manifest goes first of all: from then on the folder is no finished bake, whatever happens.
-    """
-    header, path = _header(job), folder / JOB_FILE
-    if not overwrite:
-        _require_same_job(folder, header["job"])
-    remove(folder / MANIFEST_FILE)
-    rooms = [folder / name for name in MAPS if not (folder / name).is_symlink()]  # nothing is removed through a link
-    for room in (folder, *rooms):
-        for torn in room.glob(".*.[0-9]*.tmp"):  # of a process that was killed while it wrote
-            remove(torn)
-    for room in rooms if overwrite else ():
-        for stale in room.glob("[0-9]*.exr"):
-            remove(stale)
-    write_whole(path, as_json(header))
-
-
-def _require_same_job(folder: Path, new: dict[str, Any]) -> None:
-    """
-    Refuse a folder that holds anything but a bake of this job.
+    Set up a job's water, and find out before anything is written whether its format can hold its maps.
 
     Raises:
-        OutputError: another job is marked there, or none and yet files that this one would replace.
+        JobError: the job asks for more than can be.
     """
-    if not os.path.lexists(folder / JOB_FILE):
-        for name in (MANIFEST_FILE, PREVIEW_FILE):
-            if os.path.lexists(folder / name):
-                raise OutputError(f"{folder} holds a {name} and is no bake, for want of {JOB_FILE}; choose another folder, or --overwrite")
-        return
-    before = read_json(folder / JOB_FILE)
-    old = before.get("job") if isinstance(before, dict) else None
-    old = old if isinstance(old, dict) else {}
-    differing = sorted(key for key in {*old, *new} if old.get(key) != new.get(key))
-    if differing:
-        changes = "; ".join(f"{key}: {old.get(key, 'not set')} there, {new.get(key, 'not set')} here" for key in differing[:6])
-        raise OutputError(f"{folder} holds the bake of another job ({changes:.400}); choose another folder, or --overwrite")
+    scene = Scene(job.downsampled(downsample))
+    for name in scene.job.maps:
+        shape = (scene.job.frames, *scene.ocean.grid.shape, len(MAPS[name].names))
+        try:
+            formats.require(scene.form.name, shape, scene.levels)
+        except ParameterError as error:
+            raise JobError(f"{job.source}: bake.format {scene.form.name!r} cannot hold the map {name!r}: {error}") from None
+    return scene
 
 
-def _tile(ocean: Ocean) -> dict[str, Any]:
-    """The tile in numbers."""
-    grid = ocean.grid
-    return {
-        "n": [grid.nx, grid.ny],
-        "size": [grid.lx, grid.ly],
-        "depth": finite_or_word(ocean.depth),
-        "loop": ocean.loop,
-        "choppiness": ocean.choppiness,
-        "fft": ocean.backend,
-    }
+def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[Entry]:
+    """
+    What an earlier run says that it has finished: a manifest's rows, or a journal's lines.
+
+    Raises:
+        OutputError: the folder holds another bake, and is not to be overwritten.
+    """
+    if overwrite:
+        discard_work(folder)
+        return []
+    require_claimable(folder, order.header)
+    try:
+        manifest = read_manifest(folder)
+    except IntegrityError:
+        return entries_of(folder / layout.JOURNAL, order.claim)
+    if any(manifest.get(key) != value for key, value in order.header.items()):
+        return []
+    scaled = {name: [m["scaled"]["low"], m["scaled"]["high"]] for name, m in manifest["maps"].items() if "scaled" in m}
+    known: list[Entry] = [{"ranges": scaled}] if scaled else []
+    if scene.form.scope == "sequence":
+        if intact(folder, manifest):
+            known.append({"containers": manifest["containers"]})
+        else:
+            unpack(folder, scene, manifest)
+    return [*known, *({"row": row} for row in manifest["frames"])]
 
 
-def _caption(statistics: Statistics, job: Job) -> str:
-    """One line for the contact sheet."""
-    ordered = statistics.ordered
-    assert ordered is not None  # a job has a sea
-    g = job.settings
-    size = "x".join(f"{v:g}" for v in g["ocean.size"]) if isinstance(g["ocean.size"], tuple) else f"{g['ocean.size']:g}"
-    sea = f"Hs {ordered.hs:.2f} m ordered, {statistics.hs:.2f} m delivered   Tp {ordered.tp:.1f} s"
-    return f"{sea}   tile {size} m   loop {g['ocean.loop']:g} s"
+def _kept(order: Order, scene: Scene, ledger: Ledger) -> tuple[dict[int, dict[str, Any]], dict[str, Any]]:
+    """The frames of earlier runs that the disk bears out, by their number, and the containers that they stand in already."""
+    containers: dict[str, Any] = next(iter(ledger.claimed("containers")), {})
+    places = {j: place for place, j in enumerate(order.frames)}
+
+    def borne_out(row: Mapping[str, Any]) -> bool:
+        files = [(layout.frame_file(scene.form, name, row["frame"], places[row["frame"]]), row["files"][name]) for name in scene.job.maps]
+        return all(ledger.holds(path, entry["sha256"]) for path, entry in files)
+
+    rows = {row["frame"]: row for row in ledger.claimed("row") if row["frame"] in places}
+    return {j: row for j, row in rows.items() if containers or borne_out(row)}, containers
+
+
+def crew_for(executor: str, workers: int | None, scene: Scene, todo: int) -> tuple[str, int]:
+    """Who does it, and how many: no more workers than frames, nor than there is memory for."""
+    grid = scene.ocean.grid
+    most = available_memory() / memory_needed(grid, scene.ocean.dtype)
+    hands = max(1, min(workers or cores(), todo, int(min(most, 1024))))
+    if executor == "auto":
+        samples = float(grid.nx * grid.ny) * todo * len(scene.job.maps)
+        executor = "processes" if hands > 1 and samples > SMALL else "serial"
+    return executor, 1 if executor == "serial" else hands
+
+
+def _write(crew: Crew, order: Order, todo: Sequence[int], rows: dict[int, dict[str, Any]], ledger: Ledger) -> None:
+    """Have frames written; each that is finished goes into the journal, and into `rows`."""
+    total = len(order.frames)
+    size = foam.SPAN if "foam" in order.job.maps else max(1, min(foam.SPAN, math.ceil(len(todo) / (4 * crew.workers))))
+    with closing(crew.run(order, tasks_of("frame", todo, size))) as entries:
+        for entry in entries:
+            row = entry["row"]
+            if row["frame"] in rows:
+                continue  # of a task that was done twice
+            ledger.add(entry)
+            rows[row["frame"]] = row
+            ledger.progress(len(rows), total)
+            ledger.say("frame", frame=row["frame"], t=row["t"], done=len(rows), frames=total)
+
+
+def _finish(order: Order, scene: Scene, rows: list[dict[str, Any]], containers: dict[str, Any], ledger: Ledger) -> dict[str, Any]:
+    """Containers, pictures, and the manifest."""
+    containers = containers or assemble(ledger.folder, order, scene, rows)
+    statistics = measure(scene.ocean)
+    manifest = compose(
+        order,
+        scene,
+        rows,
+        statistics=statistics,
+        blend=blend.describe(scene.ocean, max(1, round(scene.job.frames / order.step))),
+        containers=containers,
+        pictures=pictures.draw(ledger.folder, scene, statistics),
+    )
+    write_whole(ledger.folder / layout.MANIFEST_FILE, as_json(manifest))
+    return manifest

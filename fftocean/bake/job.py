@@ -1,5 +1,7 @@
 """A job: a sea, a tile of it, and what to write. Read from TOML, checked key by key, frozen."""
 
+import glob
+import hashlib
 import json
 import math
 import tomllib
@@ -10,7 +12,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from fftocean.bake.parameters import BY_KEY, PARAMETERS, WIND, Parameter
+from fftocean.bake.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.bake.systems import systems_of, unknown_key
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.ocean import Ocean
@@ -168,6 +170,97 @@ class Job:
         """What to write."""
         return tuple(self.settings["bake.maps"])
 
+    @property
+    def format(self) -> str:
+        """Of the files."""
+        return str(self.settings["bake.format"])
+
+    @property
+    def engine(self) -> str:
+        """Whose conventions the files have."""
+        return str(self.settings["bake.engine"])
+
+    @property
+    def lookup(self) -> str:
+        """Whether maps are indexed by the undisplaced position, or by place."""
+        return str(self.settings["bake.lookup"])
+
+    @property
+    def mips(self) -> bool:
+        """Whether smaller levels are written too."""
+        return bool(self.settings["bake.mips"])
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """What to look at."""
+        return tuple(self.settings["bake.pictures"])
+
+    @property
+    def foam(self) -> dict[str, float]:
+        """How water foams: tau, threshold and strength."""
+        return {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
+
+    def downsampled(self, factor: int) -> "Job":
+        """
+        Return the job with `factor` times fewer samples a side: the same waves, but for those too short for the coarser grid.
+
+        Its samples lie on every `factor`-th of this job's. Height and displacement there are this job's, low-passed; nothing is aliased.
+
+        Raises:
+            JobError: `factor` does not divide the samples.
+        """
+        n = self.settings["ocean.n"]
+        sides = n if isinstance(n, tuple) else (n,)
+        if isinstance(factor, bool) or not isinstance(factor, int) or factor < 1 or any(side % factor for side in sides):
+            raise JobError(f"downsample must be a whole number that divides ocean.n = {', '.join(map(str, sides))}, got {factor!r:.40}")
+        return (
+            self
+            if factor == 1
+            else self.replaced({"ocean.n": tuple(side // factor for side in sides) if isinstance(n, tuple) else n // factor})
+        )
+
+    def inputs(self) -> dict[str, str]:
+        """
+        Return the SHA-256 of each measured file, by the name that the job gives it, with those that belong to it.
+
+        Raises:
+            ReaderError: one cannot be read.
+        """
+        folder, found = Path(self.source).parent, {}
+        for table in self.systems:
+            if "measured" in table:
+                name = table["measured"]["file"]
+                for path in measured_files(folder / name):
+                    digest = hashlib.sha256()
+                    try:
+                        with path.open("rb") as file:
+                            while part := file.read(2**20):
+                                digest.update(part)
+                    except OSError as error:
+                        raise ReaderError(f"{path.name} cannot be read: {error.strerror or error}") from error
+                    found[name if path == folder / name else f"{name} ({path.name})"] = digest.hexdigest()
+        return found
+
+    @classmethod
+    def from_description(cls, described: Mapping[str, Any], *, source: str = "job") -> "Job":
+        """
+        Return the job that `describe` has described.
+
+        Raises:
+            JobError: it is none.
+        """
+        tree: dict[str, Any] = {}
+        for key, value in described.items():
+            *tables, name = str(key).split(".")
+            inner = tree
+            for table in tables:
+                inner = inner.setdefault(table, {})
+                if not isinstance(inner, dict):
+                    raise JobError(f"{source}: {key!r:.80} is no key of a job")
+            number = key in BY_KEY and BY_KEY[key].quantity is not None
+            inner[name] = float(value) if number and isinstance(value, str) and value in ("inf", "-inf") else value
+        return cls.from_tree(tree, source=source)
+
     def describe(self) -> dict[str, Any]:
         """The whole job as plain data for a manifest: every key, with `inf` as a word, as JSON has no such number."""
         shown = {p.key: self.settings[p.key] for p in PARAMETERS if self.wind or p not in WIND}
@@ -175,6 +268,12 @@ class Job:
             json.dumps({**shown, "sea.systems": list(self.systems)}, default=str).replace("Infinity", '"inf"')
         )
         return tree
+
+
+def measured_files(path: Path) -> list[Path]:
+    """A measured file, and those of directions that an NDBC buoy has beside it."""
+    stem = path.name.removesuffix(".gz").rpartition(".")[0] or path.name
+    return [path, *sorted(other for other in path.parent.glob(glob.escape(stem) + ".sw*") if other != path)]
 
 
 def _brings_wind(given: Mapping[str, Any], source: str) -> bool:

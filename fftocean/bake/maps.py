@@ -1,50 +1,134 @@
-"""From a frame to the pictures that are written: which field goes into which channel, and in what unit."""
+"""From a frame to the pictures that are written: which field goes into which channel, in what unit, and what smaller levels hold."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
 
+import numpy as np
+
+from fftocean import mips
 from fftocean.arrays import Real
-from fftocean.ocean import Frame
+from fftocean.export.profiles import Kind
+from fftocean.ocean import Frame, Ocean
+
+GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What there is of the water at one moment."""
+
+    frame: Frame
+    foam: Real | None  # coverage, (ny, nx), 0..1
+    unresolved: Real | None  # slope covariance of the waves too short for the tile, (3,)
 
 
 @dataclass(frozen=True, slots=True)
 class Map:
-    """A picture of the sea: the fields it needs, its three channels, and what they mean."""
+    """
+    A picture of the sea, in our own frame: row 0 south, x east, y north, z up, SI.
 
-    needs: tuple[str, ...]
-    channels: Callable[[Frame], tuple[Real, Real, Real]]
-    meaning: tuple[str, str, str]
+    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its coverage, (ny, nx) in 0..1; and,
+    where slope covariance is, that of the waves too short for the tile, from `unresolved`. A frame of `Eulerian` has the same names.
+    """
+
+    needs: tuple[str, ...]  # fields of a frame
+    kind: Kind  # how the channels turn with an engine's axes
+    names: tuple[str, ...]  # of the channels
     unit: str
+    caption: str
+    draw: Callable[[Moment], Iterable[Real]]  # the channels, each (ny, nx)
+    needs_levels: tuple[str, ...] = ()  # further fields, for levels
+    draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
 
-    def describe(self) -> dict[str, Any]:
-        """For the manifest."""
-        return {"channels": dict(zip("RGB", self.meaning, strict=True)), "unit": self.unit}
+    def channels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
+        """Return the picture, (ny, nx, channels), float32, C-contiguous."""
+        return _stacked(self.draw(Moment(frame, foam, unresolved)))
+
+    def levels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
+        """Return the picture and its smaller levels down to one texel, each (rows, columns, channels), float32, C-contiguous."""
+        moment = Moment(frame, foam, unresolved)
+        levels = self.draw_levels(moment) if self.draw_levels else mips.chain(_stacked(self.draw(moment)))
+        return [np.ascontiguousarray(level, dtype=np.float32) for level in levels]
+
+
+def _foam(moment: Moment) -> Real:
+    assert moment.foam is not None  # whoever asks for the map brings the foam
+    return moment.foam
+
+
+def _unresolved(moment: Moment) -> list[Real]:
+    """Three channels of one value each."""
+    values = np.zeros(3) if moment.unresolved is None else moment.unresolved
+    return [np.full(moment.frame.grid.shape, value) for value in values]
 
 
 MAPS: dict[str, Map] = {
     "height": Map(
-        ("height",),
-        lambda f: (f.height, f.height, f.height),
-        ("height", "height", "height"),
-        "m",
+        ("height",), "height", ("height",), "m", "height of the water",
+        lambda m: (m.frame.height,),
     ),
     "displacement": Map(
-        ("displace_x", "displace_y", "height"),
-        lambda f: (f.displace_x * f.choppiness, f.displace_y * f.choppiness, f.height),
-        ("x, choppiness applied", "y, choppiness applied", "height"),
-        "m",
+        ("displace_x", "displace_y", "height"), "vector", ("x, choppiness applied", "y, choppiness applied", "height"), "m",
+        "from where the water is at rest to where it is",
+        lambda m: (m.frame.displace_x * m.frame.choppiness, m.frame.displace_y * m.frame.choppiness, m.frame.height),
     ),
     "normal": Map(
-        ("normal",),
-        lambda f: (f.normal[..., 0], f.normal[..., 1], f.normal[..., 2]),
-        ("x", "y", "z of the displaced surface at the undisplaced position, signed"),
-        "1",
+        ("normal",), "normal", ("x", "y", "z"), "1",
+        "unit normal of the displaced surface, signed; of smaller levels, that of the mean slope",
+        lambda m: np.moveaxis(m.frame.normal, -1, 0),
+        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m), m.frame.choppiness),
+    ),
+    "derivative": Map(
+        ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
+        ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
+        "what cascades add up before the normal is made: about (-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
+        lambda m: (m.frame.slope_x, m.frame.slope_y, m.frame.stretch_xx * m.frame.choppiness, m.frame.stretch_yy * m.frame.choppiness),
     ),
     "jacobian": Map(
-        ("jacobian",),
-        lambda f: (f.jacobian, f.jacobian, f.jacobian),
-        ("jacobian", "jacobian", "jacobian"),
-        "1",
+        ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
+        lambda m: (m.frame.jacobian,),
     ),
-}
+    "foam": Map(
+        (), "scalar", ("coverage",), "1", "part of the water that is covered with foam, 0 to 1",
+        lambda m: (_foam(m),),
+    ),
+    "velocity": Map(
+        ("velocity_x", "velocity_y", "velocity_z"), "vector", ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
+        "velocity of the water at the surface",
+        lambda m: (m.frame.velocity_x * m.frame.choppiness, m.frame.velocity_y * m.frame.choppiness, m.frame.velocity_z),
+    ),
+    "slope_covariance": Map(
+        (), "covariance", ("slope_x slope_x", "slope_x slope_y", "slope_y slope_y"), "1",
+        "covariance, within a texel, of the derivative map's two slopes; level 0 holds the waves too short for the tile",
+        _unresolved,
+        ("slope_x", "slope_y"), lambda m: mips.slope_covariances(m.frame.slope_x, m.frame.slope_y, m.unresolved),
+    ),
+}  # fmt: skip
+"""
+Every map that can be baked. By lookup:
+
+"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it is now. "eulerian": about the water
+that is NOW at x, y, and the surface is a plain height field over x and y: displacement is (0, 0, height) and the stretches of the
+derivative map are 0, so that what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of it.
+Normals are the surface's own, jacobian, foam and velocity those of the water that is there.
+"""
+
+
+def needed(names: Iterable[str], *, mips: bool = False) -> tuple[str, ...]:
+    """Return the fields to ask of a frame for some maps, with their levels or without."""
+    return tuple(dict.fromkeys(need for name in names for need in (*MAPS[name].needs, *(MAPS[name].needs_levels if mips else ()))))
+
+
+def unresolved(ocean: Ocean) -> Real:
+    """Return the slope covariance of the waves too short for the tile, (3,), xx, xy, yy; see `mips.unresolved_slopes`."""
+    return mips.unresolved_slopes(ocean)
+
+
+def _geometry(moment: Moment) -> tuple[Real, Real, Real, Real, Real]:
+    frame = moment.frame
+    return frame.slope_x, frame.slope_y, frame.stretch_xx, frame.stretch_xy, frame.stretch_yy
+
+
+def _stacked(channels: Iterable[Real]) -> Real:
+    """Channels side by side, float32."""
+    return np.stack([channel.astype(np.float32, copy=False) for channel in channels], axis=-1)

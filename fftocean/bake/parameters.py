@@ -12,7 +12,16 @@ from fftocean import limits
 from fftocean.errors import JobError, ParameterError
 from fftocean.limits import Count, Quantity
 
-MAPS = ("height", "displacement", "normal", "jacobian")
+MAPS = ("height", "displacement", "normal", "derivative", "jacobian", "foam", "velocity", "slope_covariance")
+FORMATS = ("exr", "exr-float", "exr-atlas", "png16", "r16", "npz", "bin", "ktx2", "zarr")
+ENGINES = ("canonical", "blender", "unity", "unreal", "godot", "bevy", "gltf", "three", "three-exr", "babylon", "houdini")
+PICTURES = ("sheet", "animation", "tiling")
+# the words stand here and not in the rooms that know them, so that the command line's help loads none of those; a test compares
+
+
+FOAM_TAU = Quantity("s", 1e-3, 1e6)
+FOAM_THRESHOLD = Quantity("", -10.0, 1.0)
+FOAM_STRENGTH = Quantity("1/s", 0.0, 1e6)
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +34,7 @@ class Parameter:
     quantity: Quantity | None = None  # for numbers
     choices: tuple[str, ...] = ()  # for words
     many: bool = False  # a list of choices
+    switch: bool = False  # true or false
     pair: bool = False  # one number or two, (x, y)
     flag: str | None = None  # the command line's short way to it
 
@@ -36,6 +46,8 @@ class Parameter:
     @property
     def rule(self) -> str:
         """What the value may be, in words."""
+        if self.switch:
+            return "true or false"
         if self.quantity is None:
             return f"{'some' if self.many else 'one'} of {', '.join(self.choices)}"
         whole = "a whole number " if isinstance(self.quantity, Count) else ""
@@ -66,7 +78,11 @@ class Parameter:
             return self.quantity.check_whole(self.key, value)
         if self.quantity is not None:
             return self.quantity.check(self.key, value)
-        if value not in self.choices:
+        if self.switch:
+            if not isinstance(value, bool):
+                raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
+            return value
+        if not isinstance(value, str) or value not in self.choices:
             raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
         return value
 
@@ -93,6 +109,22 @@ TILE = (
 OUTPUT = (
     Parameter("bake.frames", 240, "frames in the loop", limits.FRAMES, flag="frames"),
     Parameter("bake.maps", MAPS[:3], "what to write", choices=MAPS, many=True, flag="maps"),
+    Parameter("bake.format", "exr", "of the files", choices=FORMATS, flag="format"),
+    Parameter("bake.engine", "canonical", "whose axes, rows, unit and green sign", choices=ENGINES, flag="engine"),
+    Parameter(
+        "bake.lookup",
+        "lagrangian",
+        "maps by undisplaced position, or eulerian: by place",
+        choices=("lagrangian", "eulerian"),
+        flag="lookup",
+    ),
+    Parameter("bake.mips", False, "smaller levels of each map too, where the format has room for them", switch=True, flag="mips"),
+    Parameter("bake.pictures", ("sheet",), "what to look at beside the maps", choices=PICTURES, many=True),
 )
-PARAMETERS = (*WIND, *WATER, *TILE, *OUTPUT)
+FOAM = (
+    Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", FOAM_TAU),
+    Parameter("bake.foam.threshold", 0.72, "squeeze below which water foams: 1 is still water, 0 a folding crest", FOAM_THRESHOLD),
+    Parameter("bake.foam.strength", 60.0, "foam made per unit of squeeze below the threshold", FOAM_STRENGTH),
+)
+PARAMETERS = (*WIND, *WATER, *TILE, *OUTPUT, *FOAM)
 BY_KEY = {p.key: p for p in PARAMETERS}

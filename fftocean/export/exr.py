@@ -1,52 +1,98 @@
 """
-OpenEXR in the one profile that opens everywhere: single part, scanline, ZIP, channels R, G, B, half precision.
+OpenEXR in the one profile that opens everywhere: single part, scanline, ZIP, channels named R, G, B (, A), half or single precision.
 
-Row 0 of a picture is its top, the north of the tile; our arrays begin in the south. The flip happens here.
+OpenEXR compresses without the GIL, so that threads can encode side by side; ZIP is nine tenths of the time.
 """
 
 import io
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fftocean.arrays import Real
-from fftocean.errors import OutputError
+from fftocean.errors import IntegrityError, OutputError
 
 HALF_MAX = 65504.0
+
+
+def encode(pixels: Real, *, periodic: bool = True) -> bytes:
+    """
+    Encode pixels as they shall stand in the file, row 0 on top, marked as data, not colour.
+
+    Args:
+        pixels: (rows, columns, 1, 3 or 4), float16 or float32, every value finite. One channel is written as R, G and B alike.
+        periodic: mark it as repeating without a seam.
+    """
+    import OpenEXR
+
+    # OpenEXR writes wrong pixels from any array that is not C-contiguous, and does not say so
+    pixels = np.ascontiguousarray(pixels)
+    one = pixels.shape[2] == 1
+    channels = dict.fromkeys("RGB", np.ascontiguousarray(pixels[..., 0])) if one else {"RGBA"[: pixels.shape[2]]: pixels}
+    header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, "colorInteropID": "data"}
+    if periodic:
+        header["wrapmodes"] = "periodic,periodic"
+    stream = io.BytesIO()
+    OpenEXR.File(header, channels, 1).write(stream)
+    return stream.getvalue()
+
+
+def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
+    """
+    Return the pixels of a file as they stand in it, (rows, columns, 3 or 4), in the precision they are stored in.
+
+    Args:
+        data: the file.
+        shape: what (rows, columns) must be; asked before any pixel is read.
+
+    Raises:
+        IntegrityError: the file is cut or bent, or another shape, or no such file as `encode` writes.
+    """
+    import OpenEXR
+
+    try:
+        if shape is not None:
+            low, high = OpenEXR.File(io.BytesIO(data), header_only=True).header()["dataWindow"]
+            found = int(high[1]) - int(low[1]) + 1, int(high[0]) - int(low[0]) + 1
+            if found != tuple(shape):
+                raise IntegrityError(f"an EXR picture must be {shape[0]} rows of {shape[1]}, got {found[0]} of {found[1]}")
+        channels = OpenEXR.File(io.BytesIO(data), separate_channels=True).channels()
+        planes = [channels[name].pixels for name in ("RGBA" if len(channels) == 4 else "RGB")]
+        if len(channels) != len(planes) or len({plane.dtype for plane in planes}) != 1:
+            raise IntegrityError(f"an EXR picture must have channels R, G, B (, A) of one type, got {', '.join(channels)}")
+        return np.stack(planes, axis=-1)
+    except IntegrityError:
+        raise
+    except Exception as error:  # whatever a library may do with a file that is not one
+        raise IntegrityError(f"an EXR picture cannot be read: {f'{error}'.strip():.200}") from None
 
 
 def encode_half(red: Real, green: Real, blue: Real) -> bytes:
     """
     Encode three channels, each (ny, nx), row 0 south, as a half-float EXR file, row 0 north.
 
-    Values are rounded to the nearest half, ties to even; data is marked as data, not colour, and as periodic.
+    Values are rounded to the nearest half, ties to even.
 
     Raises:
         OutputError: a value is not finite or too large for a half, which would be clipped silently.
     """
-    import OpenEXR
-
-    channels = {}
+    halves = []
     for name, values in (("R", red), ("G", green), ("B", blue)):
         extreme = float(np.max(np.abs(values), initial=0.0))
         if not extreme <= HALF_MAX:
             raise OutputError(f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, got {extreme:g}")
-        # OpenEXR writes wrong pixels from any array that is not C-contiguous, and does not say so
-        channels[name] = np.ascontiguousarray(values[::-1], dtype=np.float16)
-    header = {
-        "compression": OpenEXR.ZIP_COMPRESSION,
-        "type": OpenEXR.scanlineimage,
-        "wrapmodes": "periodic,periodic",
-        "colorInteropID": "data",
-    }
-    stream = io.BytesIO()
-    OpenEXR.File(header, channels, 1).write(stream)
-    return stream.getvalue()
+        halves.append(values[::-1].astype(np.float16))
+    return encode(np.stack(halves, axis=-1))
 
 
 def decode(data: bytes) -> tuple[Real, Real, Real]:
-    """Return the three channels of an EXR file, row 0 south again, in the precision they are stored in."""
-    import OpenEXR
+    """
+    Return the three channels of an EXR file, row 0 south again, in the precision they are stored in.
 
-    channels = OpenEXR.File(io.BytesIO(data), separate_channels=True).channels()
-    red, green, blue = (np.ascontiguousarray(channels[name].pixels[::-1]) for name in ("R", "G", "B"))
+    Raises:
+        IntegrityError: the file is cut or bent.
+    """
+    pixels = read(data)[::-1]
+    red, green, blue = (np.ascontiguousarray(pixels[..., c]) for c in range(3))
     return red, green, blue

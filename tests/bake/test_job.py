@@ -15,14 +15,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import fftocean as fo
+from fftocean import foam
 from fftocean.bake import job as job_room
 from fftocean.bake.job import Job, parse_setting, parse_value
 from fftocean.bake.maps import MAPS
-from fftocean.bake.parameters import BY_KEY, PARAMETERS
+from fftocean.bake.parameters import BY_KEY, FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, PARAMETERS
 from fftocean.bake.systems import SPREADINGS as SPREADING_KINDS
 from fftocean.bake.systems import spectra_in
 from fftocean.errors import JobError, ParameterError, ReaderError
+from fftocean.export.formats import FORMATS
+from fftocean.export.profiles import PROFILES
 from fftocean.fields import FIELDS
+from fftocean.foam import Foam
 
 pytestmark = [pytest.mark.nojit, pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")]
 
@@ -90,6 +94,14 @@ VERDICTS = {
     "ocean.amplitudes":      "r   r   r  r r   r    r     r",
     "bake.frames":           "r   r   r  r r   r    r     r",
     "bake.maps":             "r   r   r  r r   r    r     r",
+    "bake.format":           "r   r   r  r r   r    r     r",
+    "bake.engine":           "r   r   r  r r   r    r     r",
+    "bake.lookup":           "r   r   r  r r   r    r     r",
+    "bake.mips":             "r   r   r  r r   a    r     r",
+    "bake.pictures":         "r   r   r  r r   r    r     r",
+    "bake.foam.tau":         "r   r   r  r r   r    r     r",
+    "bake.foam.threshold":   "r   r   a  a r   r    r     a",
+    "bake.foam.strength":    "r   r   r  a r   r    r     a",
 }  # fmt: skip
 
 
@@ -192,6 +204,14 @@ def test_every_default_keeps_its_own_rule():
         assert p.rule
     assert len(BY_KEY) == len(PARAMETERS)
     assert set(BY_KEY["bake.maps"].choices) == set(MAPS)
+    assert set(BY_KEY["bake.format"].choices) == set(FORMATS)
+    assert set(BY_KEY["bake.engine"].choices) == set(PROFILES)
+
+
+def test_foam_is_that_of_the_library():
+    """The same defaults and the same rules, though the table of keys stands apart from what they mean."""
+    assert Foam(**Job.default().foam) == Foam()
+    assert (FOAM_TAU, FOAM_THRESHOLD, FOAM_STRENGTH) == (foam.TAU, foam.THRESHOLD, foam.STRENGTH)
 
 
 def test_the_embedded_job_is_the_one_in_the_package():

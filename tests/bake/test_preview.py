@@ -1,6 +1,7 @@
-"""The picture on top of a bake: it opens, it shows the sea that was baked, north up, and it is the same picture every time."""
+"""The pictures beside a bake: they open, they show the sea that was baked, north up, and they are the same every time."""
 
 import io
+import itertools
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from PIL import Image
 
 import fftocean as fo
 from fftocean.bake import preview
+from fftocean.ocean import Frame
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 FIELDS = ("height", "displace_x", "displace_y", "normal")
@@ -150,12 +152,27 @@ def test_waves_are_seen_below_the_horizon():
     assert np.abs(rough - calm)[17:].max(axis=(1, 2)).min() > 1e-3  # in every row of water
 
 
-def test_bilinear_sampling_is_exact_between_samples_and_round_the_seam():
+def test_the_view_shows_the_water_where_it_was_displaced_to():
+    """Pushed sideways by a quarter of a wave, heights and normals as before: the picture of the waves that run across is another."""
+    still = fo.Ocean.from_modes([(1, 1, 0.5, 0.0)], n=32, size=60.0, loop=8.0, choppiness=1.0).loop_frame(0, 1, FIELDS)
+    fields = {name: still[name] for name in FIELDS}
+    pushed = {**fields, "displace_x": np.full_like(still.displace_x, 15.0), "displace_y": np.zeros_like(still.displace_y)}
+    rolled = {**fields, "displace_x": np.zeros_like(still.displace_x), "displace_y": np.zeros_like(still.displace_y)}
+    for name in ("height", "normal"):
+        rolled[name] = np.roll(still[name], 8, axis=1)  # a quarter of the tile east, by moving the samples
+    pictures = [preview.perspective(Frame(0.0, still.grid, 1.0, arrays), 48, 40) for arrays in (pushed, rolled, fields)]
+    assert np.allclose(pictures[0], pictures[1], atol=1e-6)  # float32
+    assert not np.allclose(pictures[0], pictures[2], atol=1e-2)
+
+
+def test_sampling_between_samples_and_round_the_seam():
     """A field that is a plane within the tile: halfway between two samples lies their mean, past the edge the other side follows."""
     frame = fo.Ocean.from_modes([], n=(4, 2), size=(8.0, 6.0), loop=1.0).loop_frame(0, 1, FIELDS)
-    field = np.arange(8.0).reshape(2, 4)
-    x, y = np.array([0.0, 1.0, 7.0, 8.0, -1.0, 2.0]), np.array([0.0, 0.0, 0.0, 6.0, 0.0, 1.5])
-    assert preview._sampled(field, x, y, frame) == pytest.approx([0.0, 0.5, 1.5, 0.0, 1.5, 3.0])
+    field = np.stack([np.arange(8.0).reshape(2, 4), np.ones((2, 4))], axis=-1)
+    x, y = np.array([[0.0, 1.0, 7.0], [8.0, -1.0, 2.0]]), np.array([[0.0, 0.0, 0.0], [6.0, 0.0, 1.5]])
+    sampled = preview._sampled(field, x, y, frame)
+    assert sampled[..., 0] == pytest.approx(np.array([[0.0, 0.5, 1.5], [0.0, 1.5, 3.0]]))
+    assert np.all(sampled[..., 1] == 1.0)
 
 
 def test_the_developed_picture_is_srgb():
@@ -166,3 +183,117 @@ def test_the_developed_picture_is_srgb():
     assert shown[-1] == 255
     exposed = 1.0 - np.exp(-0.19)
     assert shown[3] == round(255 * (1.055 * exposed ** (1 / 2.4) - 0.055))
+
+
+# The loop in motion
+
+
+@pytest.fixture
+def short_film(monkeypatch):
+    monkeypatch.setattr(preview, "FILM", (64, 32))
+    monkeypatch.setattr(preview, "FILM_FRAMES", 6)
+
+
+def film(data):
+    """An animated WebP: its pictures, and how long each is shown [ms]."""
+    image = Image.open(io.BytesIO(data))
+    assert image.format == "WEBP"
+    assert image.info["loop"] == 0  # for ever
+    pictures, lasting = [], []
+    for i in range(image.n_frames):
+        image.seek(i)
+        pictures.append(np.asarray(image.convert("RGB")).astype(int))
+        lasting.append(image.info["duration"])
+    return pictures, lasting
+
+
+@pytest.mark.usefixtures("short_film")
+@pytest.mark.parametrize(("frames", "shown"), [(2, [0, 1]), (6, [0, 1, 2, 3, 4, 5]), (7, [0, 2, 4, 6]), (24, [0, 4, 8, 12, 16, 20])])
+def test_the_film_runs_through_the_loop_in_its_own_time(frames, shown, monkeypatch):
+    """Its pictures are the frames in perspective, of a lossy coder: 4 of 255 on average; together they last as long as the loop."""
+    asked = []
+    real = fo.Ocean.loop_frame
+    monkeypatch.setattr(fo.Ocean, "loop_frame", lambda self, j, *a: asked.append(j) or real(self, j, *a))
+    sea = ocean(ocean__loop=2.0)
+    pictures, lasting = film(preview.animation(sea, frames))
+    assert asked == shown
+    assert len(pictures) == len(shown)
+    assert sum(lasting) == 2000
+    for j, picture, duration in zip(shown, pictures, lasting, strict=True):
+        drawn = preview._developed(preview.perspective(real(sea, j, frames, FIELDS), *preview.FILM))
+        assert np.mean(np.abs(picture - drawn)) < 4.0
+        assert abs(duration - 2000.0 * (min(j + shown[1], frames) - j) / frames) <= 1.0
+    assert min(np.mean(np.abs(a - b)) for a, b in itertools.pairwise(pictures)) > 0.5  # it moves
+
+
+def test_the_film_is_small_and_looks_like_the_sea():
+    """Three frames at full size: bounded as promised, sky above water, and nothing of the coder's blocks in the sky."""
+    data = preview.animation(ocean(ocean__n=64), 3)
+    assert len(data) < 3 * 1e6 / preview.FILM_FRAMES
+    pictures, _ = film(data)
+    assert pictures[0].shape == (preview.FILM[1], preview.FILM[0], 3)
+    sky, water = pictures[0][: preview.FILM[1] // 4], pictures[0][preview.FILM[1] // 2 :]
+    assert np.mean(sky) > np.mean(water) + 10.0
+    assert water.std() > 10.0
+    assert np.max(np.std(sky.mean(axis=-1), axis=1)) < 3.0
+
+
+@pytest.mark.usefixtures("short_film")
+def test_films_of_strange_loops_can_be_watched():
+    """From 20 ms to 2 s a picture, whatever the loop; the same bytes each time."""
+    for loop, frames, each in ((1e-2, 2, 20), (1e9, 3, 2000), (3.0, 1, 2000)):
+        sea = ocean(ocean__loop=loop)
+        data = preview.animation(sea, frames)
+        assert data == preview.animation(sea, frames)
+        image = Image.open(io.BytesIO(data))
+        image.load()
+        assert image.n_frames == frames
+        if frames > 1:  # a single picture stands still
+            assert set(film(data)[1]) == {each}
+
+
+def test_a_pillow_without_webp_is_named(monkeypatch):
+    from PIL import features
+
+    monkeypatch.setattr(features, "check", lambda _: False)
+    with pytest.raises(fo.OutputError, match="needs a Pillow that can write WebP"):
+        preview.animation(ocean(ocean__n=4), 2)
+
+
+# Four tiles side by side
+
+
+@pytest.mark.parametrize(("size", "shape"), [(100.0, (80, 80)), ((50.0, 100.0), (80, 40)), ((100.0, 20.0), (16, 80))])
+def test_the_tiling_shows_the_tile_four_times(size, shape, monkeypatch):
+    """Each quarter is the tile from above, frame 0, to the byte that resizing rounds away; where they meet there is no other step."""
+    monkeypatch.setattr(preview, "TILE", 40)
+    sheet = pixels(preview.tiling(ocean(ocean__size=size), 24))
+    m = preview.MARGIN
+    assert sheet.shape == (shape[0] + 2 * m, shape[1] + 2 * m, 3)
+    tiles = sheet[m:-m, m:-m].astype(int)
+    rows, columns = shape[0] // 2, shape[1] // 2
+    # the middle of each quarter: at the rim of the whole the resizing kernel is cut off
+    inner = np.s_[rows // 4 : -(rows // 4), columns // 4 : -(columns // 4)]
+    quarters = [tiles[a : a + rows, b : b + columns][inner] for a in (0, rows) for b in (0, columns)]
+    assert all(np.max(np.abs(quarter - quarters[0])) <= 1 for quarter in quarters)
+    assert quarters[0].std() > 2.0
+    across = np.mean(np.abs(np.diff(tiles, axis=1)), axis=(0, 2))
+    along = np.mean(np.abs(np.diff(tiles, axis=0)), axis=(1, 2))
+    assert across[columns - 1] < 2.0 * np.median(across)
+    assert along[rows - 1] < 2.0 * np.median(along)
+    marked = np.any(sheet != np.array(preview.BACKGROUND), axis=-1)
+    assert marked[:m].any(axis=0).nonzero()[0] == pytest.approx(m + columns, abs=1)
+    assert marked[:, :m].any(axis=1).nonzero()[0] == pytest.approx(m + rows, abs=1)
+
+
+def test_a_seam_would_be_seen(monkeypatch):
+    """Light that grows across the tile and so does not repeat: the step at the seam stands out from all others."""
+    monkeypatch.setattr(preview, "TILE", 64)
+    real = preview.from_above
+    ramp = np.linspace(0.0, 0.05, 32)[None, :, None]
+    monkeypatch.setattr(preview, "from_above", lambda frame: real(frame) + ramp)
+    flat = fo.Ocean.from_modes([(1, 0, 0.01, 0.0)], n=32, size=50.0, loop=8.0)
+    tiles = pixels(preview.tiling(flat, 4))[preview.MARGIN : -preview.MARGIN, preview.MARGIN : -preview.MARGIN].astype(int)
+    across = np.mean(np.abs(np.diff(tiles, axis=1)), axis=(0, 2))
+    assert np.argmax(across) in (62, 63, 64)
+    assert np.max(across) > 5.0 * np.median(across)

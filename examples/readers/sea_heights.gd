@@ -1,0 +1,37 @@
+# Heights of a baked sea in Godot 4: `fftocean bake sea.toml -o sea --engine godot --maps height --format bin --lookup eulerian`
+#     var sea := SeaHeights.new("res://sea/height.json")
+#     var y := sea.at(boat.position.x, boat.position.z, Time.get_ticks_msec() / 1000.0)
+# In an export preset, list *.bin and *.json as files to include.
+class_name SeaHeights
+extends RefCounted
+
+var s: Dictionary
+var heights: PackedFloat32Array # [frame, row, column], metres
+
+
+func _init(json: String) -> void:
+	s = JSON.parse_string(FileAccess.get_file_as_string(json))
+	var bytes := FileAccess.get_file_as_bytes(json.get_base_dir().path_join(s["file"]))
+	heights.resize(int(s["frames"]) * int(s["rows"]) * int(s["columns"]))
+	assert(bytes.size() == 8 * heights.size(), "%s must have %d bytes" % [s["file"], 8 * heights.size()])
+	for i in heights.size():
+		heights[i] = bytes.decode_half(8 * i) # R of RGBA
+
+
+# Bilinear between samples, linear between frames; the sea repeats in x, z and t.
+func at(x: float, z: float, t: float) -> float:
+	var frames := int(s["frames"])
+	var rows := int(s["rows"])
+	var columns := int(s["columns"])
+	var place := [t / s["loop"] * frames, s["row_origin"] + s["row_sign"] * z / s["size"][1] * rows, x / s["size"][0] * columns]
+	var sum := 0.0
+	for corner in 8:
+		var weight := 1.0
+		var index := [0, 0, 0]
+		for axis in 3:
+			var bit := (corner >> axis) & 1
+			var part: float = place[axis] - floor(place[axis])
+			weight *= part if bit == 1 else 1.0 - part
+			index[axis] = posmod(int(floor(place[axis])) + bit, [frames, rows, columns][axis])
+		sum += weight * heights[(index[0] * rows + index[1]) * columns + index[2]]
+	return sum

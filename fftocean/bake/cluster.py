@@ -1,0 +1,152 @@
+"""A bake on a Dask cluster: one of this machine's own, or that of a scheduler, whose workers see the same folder."""
+
+import contextlib
+import queue
+import sys
+import time
+import uuid
+from collections.abc import Generator, Sequence
+from dataclasses import replace
+from importlib import util
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from fftocean.bake.executors import ATTEMPTS, ONE_THREAD
+from fftocean.bake.files import as_json
+from fftocean.bake.order import Entry, Order, Task
+from fftocean.errors import FFTOceanError, JobError, OutputError
+
+PATIENCE = 10.0  # [s] for a scheduler to answer
+
+
+def require_dask() -> None:
+    """
+    Refuse to go on without Dask.
+
+    Raises:
+        JobError: it is not installed.
+    """
+    if util.find_spec("distributed") is None:
+        raise JobError("executor dask must have the extra 'dist' installed (pip install 'fftocean[dist]'), and has not")
+
+
+class Cluster:
+    """
+    Workers of a Dask cluster. Tasks that were finished may run again, and those of a worker that died do.
+
+    What is sent is the order and the frames' numbers; what comes back is what the manifest says of them. The files go straight to the
+    folder, which all workers must see under the same name.
+    """
+
+    name = "dask"
+
+    def __init__(self, address: str | None, workers: int) -> None:
+        self.workers = workers
+        self._address = address
+        self._open = contextlib.ExitStack()
+        self._client: Any = None
+
+    def __enter__(self) -> "Cluster":
+        import dask
+        import distributed
+
+        client: Any = distributed.Client
+        cluster: Any = distributed.LocalCluster
+        try:
+            settings = {
+                "distributed.nanny.pre-spawn-environ": ONE_THREAD,
+                "distributed.scheduler.allowed-failures": ATTEMPTS - 1,
+                "distributed.admin.log-format": "%(message)s",
+                "logging": {"distributed": "critical"},
+            }
+            self._open.enter_context(dask.config.set(settings))
+            address: Any = self._address
+            if address is None:
+                address = self._open.enter_context(
+                    cluster(n_workers=self.workers, threads_per_worker=1, dashboard_address=None, silence_logs=50, memory_limit=0)
+                )
+            self._client = self._open.enter_context(client(address, timeout=PATIENCE, set_as_default=False))
+            self._client.wait_for_workers(1, timeout=3 * PATIENCE)
+            self.workers = len(self._client.scheduler_info(n_workers=-1)["workers"])
+        except (OSError, TimeoutError, ValueError) as error:
+            self._open.close()
+            raise OutputError(f"{self._address or 'a local Dask cluster'} could not be reached: {error!s:.200}") from error
+        except BaseException:
+            self._open.close()
+            raise
+        return self
+
+    def run(self, order: Order, tasks: Sequence[Task]) -> Generator[Entry, None, None]:
+        """All tasks are handed over; a frame is told of when it is finished, and again with its task, in case the first word was lost."""
+        order = replace(order, folder=str(Path(order.folder).absolute()))  # where its workers are, another one is the current folder
+        news: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
+        topic = f"fftocean-{uuid.uuid4().hex}"
+        self._client.subscribe_topic(topic, lambda event: news.put(("entry", event[1]["entry"])))
+        futures = [
+            self._client.submit(_rendered, order, task, topic, key=f"{topic}-{i}", pure=False, retries=0) for i, task in enumerate(tasks)
+        ]
+        try:
+            for future in futures:
+                future.add_done_callback(lambda done: news.put(("done", done)))
+            left, told = len(futures), set()
+            while left:
+                try:
+                    word, value = news.get(timeout=0.5)
+                except queue.Empty:
+                    continue
+                left -= word == "done"
+                for entry in _result(value) if word == "done" else [value]:
+                    if (what := as_json(entry)) not in told:
+                        told.add(what)
+                        yield entry
+        finally:
+            self._client.cancel(futures)
+            with contextlib.suppress(Exception):
+                self._client.unsubscribe_topic(topic)
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        if self._address is not None:  # those workers are not ours to stop: let what they are at end
+            deadline = time.monotonic() + PATIENCE
+            with contextlib.suppress(Exception):
+                while any(self._client.processing().values()) and time.monotonic() < deadline:
+                    time.sleep(0.05)
+        self._open.close()
+
+
+def _result(future: Any) -> list[Entry]:
+    """What a finished task brought."""
+    import distributed
+
+    try:
+        entries: list[Entry] = future.result()
+    except FFTOceanError:
+        raise
+    except distributed.scheduler.KilledWorker as error:
+        raise OutputError(f"some frames could not be baked: {ATTEMPTS} Dask workers died of them") from error
+    return entries
+
+
+def _rendered(order: Order, task: Task, topic: str) -> list[Entry]:
+    """Runs on a worker: do a task, and tell of each frame as it is finished."""
+    import distributed
+
+    _keep_dask_out_of_pyfftw()
+    from fftocean.bake.frames import work
+
+    worker, entries = distributed.get_worker(), []
+    for entry in work(order, task):
+        worker.log_event(topic, {"entry": entry})
+        entries.append(entry)
+    return entries
+
+
+def _keep_dask_out_of_pyfftw() -> None:
+    """Where dask is installed, pyfftw imports all of dask.array, for an interface that is not used here; that takes seconds."""
+    if "pyfftw" not in sys.modules and "dask.array" not in sys.modules:
+        sys.modules["dask.array"] = None  # type: ignore[assignment]
+        try:
+            with contextlib.suppress(ImportError):
+                import pyfftw  # noqa: F401
+        finally:
+            del sys.modules["dask.array"]

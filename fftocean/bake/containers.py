@@ -1,0 +1,101 @@
+"""Frames into containers, and back out of them: for the formats in which a file holds a whole sequence, and for what stands beside them."""
+
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from fftocean.bake import layout
+from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
+from fftocean.bake.frames import Scene
+from fftocean.bake.maps import MAPS
+from fftocean.bake.order import Order
+from fftocean.errors import FFTOceanError, IntegrityError
+from fftocean.export import formats, profiles
+
+INSEPARABLE = ("exr-atlas",)
+"""Containers whose frames cannot be told apart once they are bent: their rows are compressed across all frames."""
+
+FREE = (".import",)
+"""Sidecars that engines rewrite: what they become is not ours to judge."""
+
+
+def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, list[dict[str, Any]]]:
+    """
+    Write each map's container, or what stands beside its files; return them by map, with sizes and checksums.
+
+    Raises:
+        OutputError: a file cannot be written.
+        IntegrityError: a part is not any more what it was when it was written.
+    """
+    loop, whole = scene.job.settings["ocean.loop"], len(rows) == scene.job.frames
+    loop = loop if whole else loop * order.step * len(rows) / scene.job.frames  # what the frames that are there take to play
+    written: dict[str, list[dict[str, Any]]] = {}
+    for name in scene.job.maps:
+        m = MAPS[name]
+        low, high = order.ranges.get(name, (None, None))
+        files = formats.assemble(
+            scene.form.name,
+            _parts(folder, scene, name, rows) if scene.form.scope == "sequence" else (),
+            stem=name,
+            shape=(len(rows), *scene.ocean.grid.shape, len(m.names)),
+            profile=scene.profile,
+            names=profiles.meaning(scene.profile, m.kind, m.names),
+            unit=profiles.unit_in(scene.profile, m.kind, m.unit),
+            size=(scene.ocean.grid.lx, scene.ocean.grid.ly),
+            loop=loop,
+            lo=low,
+            hi=high,
+            levels=scene.levels,
+        )
+        entries = [
+            {"path": path, "bytes": len(data), "sha256": write_whole(make_rooms(folder, path), data)}
+            for path, data in sorted(files.items())
+        ]
+        if entries:
+            written[name] = entries
+    return written
+
+
+def _parts(folder: Path, scene: Scene, name: str, rows: Sequence[Mapping[str, Any]]) -> Iterator[bytes]:
+    """Each frame's payload, read back and held against what was written."""
+    for place, row in enumerate(rows):
+        file = layout.frame_file(scene.form, name, row["frame"], place)
+        data = read_whole(folder / file)
+        if data is None or digest(data) != row["files"][name]["sha256"]:
+            raise IntegrityError(f"{folder / file} is not what was written there; bake again")
+        yield data
+
+
+def intact(folder: Path, manifest: Mapping[str, Any]) -> bool:
+    """Whether every container of a finished bake is there and is what it was."""
+    return all(
+        (data := read_whole(folder / entry["path"])) is not None and digest(data) == entry["sha256"]
+        for entries in manifest.get("containers", {}).values()
+        for entry in entries
+        if not entry["path"].endswith(FREE)
+    )
+
+
+def unpack(folder: Path, scene: Scene, manifest: Mapping[str, Any]) -> None:
+    """Put the parts of a finished bake's containers back where they were before, those that are still what they were."""
+    for name in scene.job.maps if scene.form.name not in INSEPARABLE else ():
+        data = read_whole(folder / layout.container(scene.form, name))
+        if data is None:
+            continue
+        with contextlib.suppress(FFTOceanError):  # cut or bent, so that no part can be told from the others
+            parts = payloads_in(scene, name, data, len(manifest["frames"]))
+            for place, (row, part) in enumerate(zip(manifest["frames"], parts, strict=True)):
+                if digest(part) == row["files"][name]["sha256"]:
+                    write_whole(make_rooms(folder, layout.frame_file(scene.form, name, row["frame"], place)), part)
+
+
+def payloads_in(scene: Scene, name: str, data: bytes, count: int) -> list[bytes]:
+    """
+    Return each frame's payload out of a container.
+
+    Raises:
+        IntegrityError: it is cut or bent.
+    """
+    shape = (count, *scene.ocean.grid.shape, len(MAPS[name].names))
+    return list(formats.payloads(scene.form.name, data, shape=shape, levels=scene.levels))

@@ -1,0 +1,53 @@
+"""Who is asked to bake: executors by their names, and how many of them this machine has room for."""
+
+import contextlib
+import os
+from pathlib import Path
+
+from fftocean.bake import cluster
+from fftocean.bake.executors import Crew, Processes, Serial
+from fftocean.errors import JobError
+
+EXECUTORS = ("auto", "serial", "processes", "dask")
+
+
+def check_executor(name: str, workers: int | None) -> None:
+    """
+    Refuse an executor that there is not.
+
+    Raises:
+        JobError: the name is unknown, the number is none, or Dask is not installed.
+    """
+    if name not in EXECUTORS and "://" not in name:
+        raise JobError(
+            f"executor must be one of {', '.join(EXECUTORS)}, or a scheduler's address such as tcp://host:8786, got {name!r:.80}"
+        )
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024):
+        raise JobError(f"workers must be a whole number between 1 and 1024, got {workers!r:.40}")
+    if name == "dask" or "://" in name:
+        cluster.require_dask()
+
+
+def crew_of(name: str, workers: int, lock: int) -> Crew:
+    """
+    Return the crew of that name, to be used as a context.
+
+    Args:
+        name: one of `EXECUTORS` but "auto", or a scheduler's address.
+        workers: how many; those of a scheduler are what they are.
+        lock: the descriptor of the folder's lock, which workers on this machine hold with us.
+    """
+    if name == "serial":
+        return Serial()
+    if name == "processes":
+        return Processes(workers, lock)
+    return cluster.Cluster(None if name == "dask" else name, workers)
+
+
+def cores() -> int:
+    """How many processors this process may use: its affinity, or its control group's share, whichever is less."""
+    count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    with contextlib.suppress(OSError, ValueError):
+        quota, period = Path("/sys/fs/cgroup/cpu.max").read_text().split()
+        count = min(count, max(1, round(int(quota) / int(period))))
+    return count

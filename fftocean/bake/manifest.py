@@ -1,0 +1,118 @@
+"""The manifest: what a finished bake says of itself, written last, with a check over every one of its own bytes."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from fftocean.bake.claim import checked, read_checked
+from fftocean.bake.frames import Scene
+from fftocean.bake.layout import MANIFEST_FILE
+from fftocean.bake.maps import MAPS
+from fftocean.bake.order import Order
+from fftocean.export import profiles
+from fftocean.ocean import Ocean
+from fftocean.statistics import Statistics
+
+
+def compose(
+    order: Order,
+    scene: Scene,
+    rows: Sequence[Mapping[str, Any]],
+    *,
+    statistics: Statistics,
+    blend: Mapping[str, Any],
+    containers: Mapping[str, Any],
+    pictures: Mapping[str, Any],
+) -> dict[str, Any]:
+    """
+    Return the manifest of a bake as plain data.
+
+    Args:
+        order: what was asked.
+        scene: the water.
+        rows: one a frame, in order, as the workers gave them.
+        statistics: ordered beside delivered.
+        blend: what linear blending between two frames loses.
+        containers: the files that hold several frames, and those beside them, by map.
+        pictures: what there is to look at, by name.
+    """
+    job = scene.job
+    shape = scene.ocean.grid.shape
+    entries = {}
+    for name in job.maps:
+        m = MAPS[name]
+        ranges = merged([row["files"][name]["range"] for row in rows])
+        meaning = profiles.meaning(scene.profile, m.kind, m.names)
+        low, high = order.ranges.get(name, (None, None))
+        entries[name] = {
+            "channels": {letter: "1" if c is None else meaning[c] for letter, c in scene.form.letters(len(meaning)).items()},
+            "unit": profiles.unit_in(scene.profile, m.kind, m.unit),
+            "caption": m.caption,
+            "kind": m.kind,
+            "format": scene.form.name,
+            "stored": scene.form.stored,
+            "range": [min(low for low, _ in ranges), max(high for _, high in ranges)],
+            "channel_ranges": ranges,
+            **({} if low is None else {"scaled": {"low": low, "high": high}}),
+            "shape": [*shape, len(m.names)],
+            "levels": scene.levels,
+        }
+    manifest = {
+        **order.header,
+        "ocean": _tile(scene.ocean),
+        "statistics": asdict(statistics),  # ordered beside delivered
+        "conventions": {**scene.profile.describe(raw=scene.form.raw), "lookup": _LOOKUP[job.lookup]},
+        "blend": dict(blend),
+        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes_over(rows)},
+        "maps": entries,
+        **({"containers": dict(containers)} if containers else {}),
+        **pictures,
+        "frames": list(rows),
+    }
+    return checked(manifest)
+
+
+_LOOKUP = {
+    "lagrangian": "lagrangian: a map is indexed by the undisplaced position",
+    "eulerian": "eulerian: a map is indexed by the place in the world; what is displaced by it is a height field",
+}
+
+
+def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
+    """The least and greatest of each channel over many frames."""
+    return [[min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)] for c in range(len(ranges[0]))]
+
+
+def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The extremes of the whole sequence."""
+    return {
+        "min_jacobian": min(row["extremes"]["min_jacobian"] for row in rows),
+        "max_height": max(row["extremes"]["max_height"] for row in rows),
+        "max_horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
+    }
+
+
+def _tile(ocean: Ocean) -> dict[str, Any]:
+    """The tile in numbers."""
+    grid = ocean.grid
+    return {
+        "n": [grid.nx, grid.ny],
+        "size": [grid.lx, grid.ly],
+        "depth": ocean.depth if math.isfinite(ocean.depth) else str(ocean.depth),
+        "loop": ocean.loop,
+        "choppiness": ocean.choppiness,
+        "fft": ocean.backend,
+    }
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """
+    Read the manifest of a finished bake.
+
+    Raises:
+        OutputError: it cannot be read.
+        IntegrityError: there is none, or it is not, to the byte, what a bake wrote.
+    """
+    return read_checked(folder / MANIFEST_FILE)

@@ -1,0 +1,288 @@
+"""One sea over several tiles: each a size and a band of wavenumbers of its own, so that no wave is missing and none is there twice."""
+
+import math
+import struct
+import warnings
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from fftocean.amplitudes import WHOLE, Band, Draw, Modes, seed_amplitudes
+from fftocean.arrays import COMPLEX_OF, require_memory
+from fftocean.errors import ParameterError, SeaWarning
+from fftocean.fields import EIGHT
+from fftocean.grid import Grid
+from fftocean.limits import LOOP, SEED, Quantity
+from fftocean.noise import philox
+from fftocean.ocean import Frame, Ocean, _remade, memory_needed
+from fftocean.physics import dispersion
+from fftocean.physics.sea import Sea
+
+Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
+"""n, or (nx, ny), and size, or (lx, ly) [m]."""
+
+EDGE = Quantity("rad/m", 0.0, math.inf)
+
+
+class Cascade:
+    """
+    Several periodic tiles that add up to one sea: long waves on a large tile, ripples on small ones.
+
+    The water at parameters (x0, y0) is the sum over the tiles: height = sum of heights, and the surface is at
+    (x0, y0) + choppiness sum of displacements. Each wavenumber |k| belongs to one tile; a cell that an edge between two bands cuts
+    is shared out by energy. Where nothing is given, the edge between two tiles is the geometric mean of the finest that the large
+    one and the coarsest that the small one can hold: as many samples to the shortest wave of the one as waves across the other,
+    within a factor 3.
+
+    Chance: the largest tile has `seed` itself, so it shows the waves of the `Ocean` that has its n, size and seed; each further one has
+    a seed of its own, made of `seed` and its size (`cascade.oceans[i].seed`). So a tile's waves depend neither on the other tiles
+    below the first, nor on n, nor on where the bands are cut.
+
+    Args:
+        sea: what is ordered.
+        tiles: (n, size) of each, as in `Ocean`, from the largest to the smallest. Sizes that are no multiples of one another repeat
+            together only after a very long way.
+        bands: (lowest, highest) |k| of each tile [rad/m], each starting where the one before ends; None for automatic ones.
+        seed: which of all the seas that it could be.
+        loop: the period after which all tiles repeat [s], or one for each; None lets the water run free.
+        choppiness, dtype, amplitudes, backend, planning, threads: as in `Ocean`.
+
+    Threads may share a cascade as they may share an `Ocean`.
+
+    Raises:
+        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers out or are beyond their tile.
+    """
+
+    def __init__(
+        self,
+        sea: Sea,
+        tiles: Iterable[Tile],
+        *,
+        bands: Sequence[Band] | None = None,
+        seed: int = 0,
+        loop: float | Sequence[float] | None = None,
+        choppiness: float = 1.0,
+        dtype: str = "float32",
+        amplitudes: Draw = "gaussian",
+        backend: str = "auto",
+        planning: str = "estimate",
+        threads: int = 1,
+    ) -> None:
+        if not isinstance(sea, Sea):
+            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+        grids = _grids(tiles)
+        shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
+        loops = _loops(loop, len(grids))
+        seed = SEED.check_whole("seed", seed)
+        name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
+        if name not in COMPLEX_OF:
+            raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
+        require_memory(f"a cascade of {len(grids)} tiles", sum(memory_needed(grid, name) for grid in grids))
+        _warn_of_short_loops(sea, shared, loops)
+        oceans = []
+        for index, (grid, band, period) in enumerate(zip(grids, shared, loops, strict=True)):
+            own = seed if index == 0 else tile_seed(seed, grid.lx, grid.ly)
+            drawn = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
+            oceans.append(_remade(sea, own, drawn, choppiness, name, backend, planning, threads))
+        self._set_up(sea, seed, tuple(oceans))
+
+    def _set_up(self, sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> None:
+        self.sea, self.seed, self.oceans = sea, seed, oceans
+        self._recipe = (sea, seed, oceans)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set up once, as an ocean is."""
+        if hasattr(self, "_recipe"):
+            raise AttributeError(f"a cascade is frozen: make another with the {name} that you want")
+        super().__setattr__(name, value)
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        """Pickle and copy as the tiles that it has."""
+        return _rebuilt, self._recipe
+
+    def __len__(self) -> int:
+        """How many tiles there are."""
+        return len(self.oceans)
+
+    @property
+    def bands(self) -> tuple[Band, ...]:
+        """The wavenumbers |k| of each tile, from the first up to the second [rad/m]."""
+        return tuple(ocean.amplitudes.band for ocean in self.oceans)
+
+    @property
+    def choppiness(self) -> float:
+        """Factor on the horizontal displacement [-]."""
+        return self.oceans[0].choppiness
+
+    @property
+    def depth(self) -> float:
+        """Still-water depth [m]."""
+        return self.oceans[0].depth
+
+    @property
+    def dtype(self) -> str:
+        """Of the fields: "float32" or "float64"."""
+        return self.oceans[0].dtype
+
+    @property
+    def loops(self) -> tuple[float | None, ...]:
+        """The period of each tile [s]."""
+        return tuple(ocean.loop for ocean in self.oceans)
+
+    @property
+    def loop(self) -> float | None:
+        """The period that all tiles have in common [s], or None."""
+        return self.loops[0] if len(set(self.loops)) == 1 else None
+
+    @property
+    def variance(self) -> float:
+        """m0 that the tiles hold together, on average over seeds [m^2]."""
+        return sum(ocean.amplitudes.variance for ocean in self.oceans)
+
+    def modes(self) -> Modes:
+        """Return every wave of every tile, as `Ocean.modes`, the largest tile's first."""
+        each = [ocean.modes() for ocean in self.oceans]
+        return Modes(*(np.concatenate(column) for column in zip(*each, strict=True)))
+
+    def frame(self, t: float, fields: Sequence[str] = EIGHT) -> tuple[Frame, ...]:
+        """
+        Return each tile's frame at time t, the largest's first; arguments and errors as in `Ocean.frame`.
+
+        Linear fields add up over tiles: heights, displacements, slopes, stretches and velocities. Normals and Jacobians do not.
+        """
+        return tuple(ocean.frame(t, fields) for ocean in self.oceans)
+
+    def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT) -> tuple[Frame, ...]:
+        """
+        Return each tile's j-th of `count` equally spaced frames of the common loop.
+
+        Raises:
+            ParameterError: the tiles have no period in common, and as `Ocean.loop_frame`.
+        """
+        if self.loop is None:
+            raise ParameterError(f"loop_frame needs one period for all tiles, got {self.loops}")
+        return tuple(ocean.loop_frame(j, count, fields) for ocean in self.oceans)
+
+    def __repr__(self) -> str:
+        tiles = ", ".join(
+            f"{o.grid.nx} x {o.grid.ny} over {o.grid.lx:g} x {o.grid.ly:g} m for {low:.3g} to {high:.3g} rad/m"
+            for o, (low, high) in zip(self.oceans, self.bands, strict=True)
+        )
+        return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
+
+
+def _rebuilt(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
+    """A cascade of tiles that there are, without seeding them again."""
+    cascade = Cascade.__new__(Cascade)
+    cascade._set_up(sea, seed, oceans)
+    return cascade
+
+
+def reach_of(grid: Grid) -> tuple[float, float]:
+    """Between which |k| a tile has every wave, whatever its direction [rad/m]: around its missing cell at k = 0, within its rectangle."""
+    reach_x, reach_y = grid.reach
+    return 0.5 * math.hypot(grid.dkx, grid.dky), min((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky)
+
+
+def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
+    """
+    Return the band of each tile: from 0 to inf, cut between each two at the geometric mean of what both can hold.
+
+    Raises:
+        ParameterError: between two tiles lie wavenumbers that neither can hold.
+    """
+    cuts = []
+    for i, (large, small) in enumerate(pairwise(grids)):
+        finest, coarsest = reach_of(large)[1], reach_of(small)[0]
+        if not coarsest <= finest:
+            raise ParameterError(
+                f"tiles must overlap in wavenumbers: tile {i} holds every wave up to {finest:.4g} rad/m, "
+                f"tile {i + 1} only from {coarsest:.4g} on; give tile {i} more samples or tile {i + 1} a larger size"
+            )
+        cuts.append(math.sqrt(coarsest * finest))
+    for i, (low, high) in enumerate(pairwise(cuts)):
+        if not low < high:
+            raise ParameterError(f"tile {i + 1} must be finer than tile {i} and coarser than tile {i + 2}: nothing is left for it to hold")
+    return tuple(pairwise([WHOLE[0], *cuts, WHOLE[1]]))
+
+
+def tile_seed(seed: int, lx: float, ly: float) -> int:
+    """The seed of a smaller tile: a hash of the cascade's and of the tile's size, by the generator that draws the waves."""
+    counter = tuple(np.array(word, dtype=np.uint64) for word in struct.unpack("<4I", struct.pack("<2d", lx, ly)))
+    first, second, *_ = philox((counter[0], counter[1], counter[2], counter[3]), (seed & 0xFFFFFFFF, seed >> 32))
+    return int(first) << 32 | int(second)
+
+
+def _grids(tiles: Iterable[Tile]) -> list[Grid]:
+    """Check the list of tiles."""
+    try:
+        pairs = [(n, size) for n, size in tiles]
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"tiles must be a list of (n, size), got {tiles!r:.80}") from error
+    if not pairs:
+        raise ParameterError("tiles must be at least one (n, size), got none")
+    grids = [Grid.of(n, size) for n, size in pairs]
+    for i, (large, small) in enumerate(pairwise(grids)):
+        if not (small.lx < large.lx and small.ly < large.ly):
+            raise ParameterError(
+                f"tiles must go from the largest to the smallest, got {large.lx:g} x {large.ly:g} m before {small.lx:g} x {small.ly:g} m"
+            )
+        for along, ratio in (("x", large.lx / small.lx), ("y", large.ly / small.ly)):
+            if abs(ratio - round(ratio)) < 1e-9 * ratio:
+                warnings.warn(
+                    f"tile {i} is exactly {round(ratio)} times as wide as tile {i + 1} along {along}: together they repeat no later than "
+                    "the larger one alone; choose sizes whose ratio is not whole",
+                    SeaWarning,
+                    stacklevel=3,
+                )
+                break
+    return grids
+
+
+def _checked_bands(bands: Sequence[Band], grids: Sequence[Grid]) -> tuple[Band, ...]:
+    """Check given bands: each goes on where the last ended, and lies where its tile has every wave."""
+    try:
+        pairs = [(low, high) for low, high in bands]
+    except (TypeError, ValueError) as error:
+        raise ParameterError(f"bands must be a list of (lowest, highest) wavenumber, got {bands!r:.80}") from error
+    if len(pairs) != len(grids):
+        raise ParameterError(f"bands must be one for each of the {len(grids)} tiles, got {len(pairs)}")
+    checked = [(EDGE.check("a band's lowest |k|", low), EDGE.check("a band's highest |k|", high)) for low, high in pairs]
+    for i, (low, high) in enumerate(checked):
+        coarsest, finest = reach_of(grids[i])
+        if not low < high:
+            raise ParameterError(f"bands must rise, got {low:g} to {high:g} rad/m for tile {i}")
+        if i > 0 and low != checked[i - 1][1]:
+            raise ParameterError(f"bands must adjoin: tile {i - 1} ends at {checked[i - 1][1]!r} rad/m, tile {i} starts at {low!r}")
+        if i > 0 and low < coarsest:
+            raise ParameterError(f"the band of tile {i} must start at {coarsest:.4g} rad/m, its longest waves, or above, got {low:g}")
+        if i < len(grids) - 1 and high > finest:
+            raise ParameterError(f"the band of tile {i} must end at {finest:.4g} rad/m, its shortest waves, or below, got {high:g}")
+    return tuple(checked)
+
+
+def _loops(loop: float | Sequence[float] | None, count: int) -> list[float | None]:
+    """One period for each tile."""
+    if not isinstance(loop, (tuple, list)):
+        return [None if loop is None else LOOP.check("loop", loop)] * count
+    if len(loop) != count:
+        raise ParameterError(f"loop must be one period, or one for each of the {count} tiles, got {len(loop)}")
+    return [None if period is None else LOOP.check("loop", period) for period in loop]
+
+
+def _warn_of_short_loops(sea: Sea, bands: Sequence[Band], loops: Sequence[float | None]) -> None:
+    """A loop should hold four periods of the waves that matter in its band: the sea's peak, or the longest there if they are shorter."""
+    for i, ((low, _), loop) in enumerate(zip(bands, loops, strict=True)):
+        if loop is None:
+            continue
+        slowest = float(dispersion.angular_frequency(low, sea.depth, sea.surface_tension))
+        period = min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
+        if loop < 4.0 * period:
+            warnings.warn(
+                f"a loop of {loop:g} s is less than four periods of the long waves of tile {i} ({4.0 * period:.1f} s): "
+                "they run visibly too fast or too slow",
+                SeaWarning,
+                stacklevel=3,
+            )

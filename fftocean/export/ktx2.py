@@ -1,0 +1,116 @@
+"""
+KTX 2.0: the frames of a loop as one texture array of half-float RGBA, as a graphics card takes it, with mip levels on request.
+
+Levels stand in the file from the smallest to the largest, and in each all frames; a frame's own bytes are its levels, largest first.
+"""
+
+import struct
+from collections.abc import Iterable
+from fractions import Fraction
+
+import fftocean
+from fftocean.errors import IntegrityError
+
+IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
+RGBA16F = 97  # VK_FORMAT_R16G16B16A16_SFLOAT
+TEXEL = 8  # bytes; and levels begin at multiples of it
+HEADER = "<9I4I2Q"  # format, type size, width, height, depth, layers, faces, levels, scheme; where DFD, key/values, global data are
+
+
+def level_sizes(rows: int, columns: int, levels: int) -> list[tuple[int, int]]:
+    """(rows, columns) of each mip level, largest first: halved and rounded down, as Vulkan has it, and never below 1."""
+    return [(max(1, rows >> level), max(1, columns >> level)) for level in range(levels)]
+
+
+def pack(
+    frames: Iterable[tuple[int, bytes]], count: int, rows: int, columns: int, levels: int, *, loop: float, row0_on_top: bool
+) -> memoryview:
+    """
+    Put the frames of a loop into one file.
+
+    Args:
+        frames: each with its number: its levels, largest first, each (rows, columns, 4) little-endian halves.
+        count, rows, columns, levels: how many there are.
+        loop: what the frames take to play through [s].
+        row0_on_top: whether a viewer should show row 0 on top.
+
+    Source: the KTX File Format Specification 2.0.4, and the Khronos Data Format Specification 1.4 for the descriptor.
+    Pinned by tests/export/test_ktx2.py, against a reader written from those texts.
+    """
+    descriptor, values = _descriptor(), _key_values(count, loop, row0_on_top)
+    first = 12 + struct.calcsize(HEADER) + 24 * levels
+    sizes = [r * c * TEXEL for r, c in level_sizes(rows, columns, levels)]
+    at = first + len(descriptor) + len(values)
+    offsets = [0] * levels
+    for level in reversed(range(levels)):  # the smallest first, so that a streaming reader has something to show
+        offsets[level] = at = -(-at // TEXEL) * TEXEL
+        at += count * sizes[level]
+    out = bytearray(at)
+    places = (first, len(descriptor), first + len(descriptor), len(values), 0, 0)
+    out[:12] = IDENTIFIER
+    struct.pack_into(HEADER, out, 12, RGBA16F, 2, columns, rows, 0, count, 1, levels, 0, *places)
+    for level, (offset, size) in enumerate(zip(offsets, sizes, strict=True)):
+        struct.pack_into("<3Q", out, first - 24 * (levels - level), offset, count * size, count * size)
+    out[first : first + len(descriptor) + len(values)] = descriptor + values
+    for i, frame in frames:
+        start = 0
+        for offset, size in zip(offsets, sizes, strict=True):
+            out[offset + i * size : offset + (i + 1) * size] = frame[start : start + size]
+            start += size
+    return memoryview(out)
+
+
+def unpack(data: bytes | memoryview, count: int, rows: int, columns: int, levels: int) -> list[bytes]:
+    """
+    Return the bytes of each frame, its levels largest first, of a file that `pack` wrote.
+
+    Raises:
+        IntegrityError: the file is cut or bent, or holds another texture.
+    """
+    data = memoryview(data)
+    try:
+        found = struct.unpack_from(HEADER, data, 12)
+        if data[:12] != IDENTIFIER or found[:9] != (RGBA16F, 2, columns, rows, 0, count, 1, levels, 0):
+            raise IntegrityError(f"a KTX2 file must hold {count} layers of {columns} x {rows} halves, {levels} levels, got {found[:9]}")
+        first = 12 + struct.calcsize(HEADER)
+        index = [struct.unpack_from("<3Q", data, first + 24 * level) for level in range(levels)]
+        sizes = [r * c * TEXEL for r, c in level_sizes(rows, columns, levels)]
+        end = max(offset + length for offset, length, _ in index)
+        lengths_right = all(length == plain == count * size for (_, length, plain), size in zip(index, sizes, strict=True))
+        overlap = any(low[0] + low[1] > high[0] for low, high in zip(index[1:], index[:-1], strict=True))
+        if end != len(data) or not lengths_right or overlap or index[-1][0] < first + 24 * levels:
+            raise IntegrityError(f"a KTX2 file of {levels} levels must end with them, at byte {end}, got {len(data)} bytes")
+        if bytes(data[found[9] : found[9] + found[10]]) != _descriptor():
+            raise IntegrityError("a KTX2 file of ours must describe its texels as four half floats")
+    except struct.error as error:
+        raise IntegrityError(f"a KTX2 file is cut: {error}") from None
+    return [
+        b"".join(data[offset + i * size : offset + (i + 1) * size] for (offset, _, _), size in zip(index, sizes, strict=True))
+        for i in range(count)
+    ]
+
+
+def _descriptor() -> bytes:
+    """What a texel is: four signed half floats, R, G, B, A, linear, of no colour space."""
+    model, primaries, linear, straight_alpha = 1, 0, 1, 0  # RGBSDA; unspecified, for it is no colour
+    block = struct.pack("<2I4B4B8B", 0, (24 + 16 * 4) << 16 | 2, model, primaries, linear, straight_alpha, 0, 0, 0, 0, TEXEL, *[0] * 7)
+    for i, channel in enumerate((0, 1, 2, 15)):  # R, G, B, A
+        lower, upper = 0xBF800000, 0x3F800000  # -1.0 and 1.0: what is black and what is full, for those who must show it
+        block += struct.pack("<HBB4BII", 16 * i, 15, 0xC0 | channel, 0, 0, 0, 0, lower, upper)  # 0xC0: float, signed
+    return struct.pack("<I", 4 + len(block)) + block
+
+
+def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
+    """How long a frame lasts, which way is up, and who wrote it: in the order of the keys."""
+    exact = Fraction(loop).limit_denominator(1000)
+    animation = struct.pack("<3I", exact.numerator, exact.denominator * count, 0)  # frame time, in units of 1 / the second; for ever
+    entries = (
+        (b"KTXanimData", animation),
+        (b"KTXorientation", b"rd\0" if row0_on_top else b"ru\0"),
+        (b"KTXwriter", f"fftocean {fftocean.__version__}".encode() + b"\0"),
+    )
+    out = b""
+    for key, value in entries:
+        entry = key + b"\0" + value
+        out += struct.pack("<I", len(entry)) + entry + bytes(-len(entry) % 4)
+    return out

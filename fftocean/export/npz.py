@@ -1,0 +1,48 @@
+"""One frame as a NumPy archive with one array, `pixels`, and without a clock: what `np.load` reads."""
+
+import io
+import zipfile
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.errors import IntegrityError
+
+MEMBER = "pixels.npy"
+
+
+def encode(pixels: npt.NDArray[np.float32]) -> bytes:
+    """Return (rows, columns, channels) of float32 as an archive: stored, for floats hardly compress, with the checksum that ZIP has."""
+    array, archive = io.BytesIO(), io.BytesIO()
+    np.lib.format.write_array(array, pixels.astype("<f4", copy=False), version=(1, 0))
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as file:
+        file.writestr(zipfile.ZipInfo(MEMBER, (1980, 1, 1, 0, 0, 0)), array.getvalue())
+    return archive.getvalue()
+
+
+def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[np.float32]:
+    """
+    Return the pixels of an archive that `encode` made.
+
+    Args:
+        data: the file.
+        shape: what the array must be.
+
+    Raises:
+        IntegrityError: the file is cut or bent, another shape, or another's.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as file:
+            (member,) = file.infolist()
+            if member.filename != MEMBER or member.compress_type != zipfile.ZIP_STORED:
+                raise IntegrityError(f"an NPZ file of ours must hold {MEMBER}, stored, got {member.filename:.60}")
+            content = file.read(member)  # asks its checksum
+        pixels = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)
+    except IntegrityError:
+        raise
+    except Exception as error:  # whatever a library may do with a file that is not one
+        raise IntegrityError(f"an NPZ file cannot be read: {error!s:.200}") from None
+    if pixels.dtype != np.float32 or pixels.ndim != 3 or (shape is not None and pixels.shape != tuple(shape)):
+        wanted = tuple(shape) if shape else "(rows, columns, channels)"
+        raise IntegrityError(f"an NPZ file must hold float32 of shape {wanted}, got {pixels.dtype} of {pixels.shape}")
+    return np.asarray(pixels, dtype=np.float32)

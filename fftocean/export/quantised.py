@@ -1,0 +1,56 @@
+"""Sixteen-bit steps: values scaled to a range that holds for the whole sequence, and back. Nothing is clipped."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.arrays import Real
+from fftocean.errors import OutputError, ParameterError
+
+Limit = float | Sequence[float] | None
+"""One end of the range: of the whole map, or of each of its channels."""
+
+LARGEST = 65535
+
+
+def limits(lo: Limit, hi: Limit, channels: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """
+    Return the two ends of the range, each for every channel.
+
+    Raises:
+        ParameterError: an end is missing, not finite, or they are the wrong way round.
+    """
+    if lo is None or hi is None:
+        raise ParameterError("a scaled format needs the range of the whole sequence: give lo and hi")
+    low, high = np.broadcast_to(np.asarray(lo, float), channels), np.broadcast_to(np.asarray(hi, float), channels)
+    if not (np.all(np.isfinite(high - low)) and np.all(low <= high)):
+        raise ParameterError(f"the range must be finite, lo <= hi, got {lo} to {hi}")
+    return low, high
+
+
+def to_steps(pixels: Real, lo: Limit, hi: Limit) -> npt.NDArray[np.uint16]:
+    """
+    Return the nearest of 65536 steps from lo to hi; the first one where the two are the same.
+
+    Raises:
+        OutputError: a value lies outside the range, or is no number.
+        ParameterError: the range is none.
+    """
+    low, high = limits(lo, hi, pixels.shape[2])
+    smallest, largest = pixels.min(axis=(0, 1)), pixels.max(axis=(0, 1))
+    if not (np.all(smallest >= low) and np.all(largest <= high)):  # so put that a NaN is outside
+        raise OutputError(f"values must lie between {low.tolist()} and {high.tolist()}, got {smallest.tolist()} to {largest.tolist()}")
+    per_unit = np.divide(LARGEST, high - low, out=np.zeros_like(low), where=high > low)
+    return np.rint((pixels - low) * per_unit).astype(np.uint16)
+
+
+def from_steps(steps: npt.NDArray[np.uint16], lo: Limit, hi: Limit) -> npt.NDArray[np.float32]:
+    """
+    Return the values that steps stand for.
+
+    Raises:
+        ParameterError: the range is none.
+    """
+    low, high = limits(lo, hi, steps.shape[2])
+    return (low + steps * ((high - low) / LARGEST)).astype(np.float32)

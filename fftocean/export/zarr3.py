@@ -1,0 +1,60 @@
+"""
+Zarr version 3: a map as one array (frame, row, column, channel) of float32, one chunk a frame, each with its CRC-32C.
+
+An absent chunk reads as the fill value, which for a sea would be a flat one: it is NaN here, so that no reader takes it for water.
+"""
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.errors import IntegrityError
+from fftocean.export.crc32c import checksum
+
+CHUNK = "c/{frame}/0/0/0"
+
+
+def encode_chunk(pixels: npt.NDArray[np.float32]) -> bytes:
+    """
+    Return a frame's chunk: its floats, little-endian, and their checksum.
+
+    Source: the Zarr core protocol 3.1; the codecs bytes 1.0 and crc32c 1.0.
+    Pinned by tests/export/test_zarr3.py: the zarr library reads it.
+    """
+    content = pixels.astype("<f4", copy=False).tobytes()
+    return content + struct.pack("<I", checksum(content))
+
+
+def decode_chunk(data: bytes, shape: tuple[int, int, int]) -> npt.NDArray[np.float32]:
+    """
+    Return a frame of a given shape out of its chunk.
+
+    Raises:
+        IntegrityError: the chunk is cut or bent.
+    """
+    size = 4 * int(np.prod(shape))
+    if len(data) != size + 4:
+        raise IntegrityError(f"a Zarr chunk of shape {tuple(shape)} must have {size + 4} bytes, got {len(data)}")
+    if struct.unpack("<I", data[size:])[0] != checksum(data[:size]):
+        raise IntegrityError("a Zarr chunk must have the checksum that it ends with, and has another")
+    return np.frombuffer(data, dtype="<f4", count=size // 4).reshape(shape).astype(np.float32)
+
+
+def metadata(shape: tuple[int, int, int, int], attributes: dict[str, Any]) -> bytes:
+    """The array's zarr.json."""
+    tree = {
+        "zarr_format": 3,
+        "node_type": "array",
+        "shape": list(shape),
+        "data_type": "float32",
+        "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [1, *shape[1:]]}},
+        "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+        "fill_value": "NaN",
+        "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}, {"name": "crc32c"}],
+        "dimension_names": ["frame", "row", "column", "channel"],
+        "attributes": attributes,
+    }
+    return (json.dumps(tree, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()

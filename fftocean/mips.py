@@ -1,0 +1,122 @@
+"""
+Mip chains: each level the box means of the one before, for any number of samples, down to one.
+
+Level l has max(1, n >> l) samples a side, as GPUs count them. Means are kept on every level: of a height, of foam. What a mean loses
+is kept beside it: the covariance of the slopes within each texel, so that distant water, whose waves are smaller than a texel,
+keeps its roughness (LEAN mapping: Olano & Baker 2010). Over any level
+
+    variance of the mean slopes + mean of the covariances = variance of all slopes.
+"""
+
+import numpy as np
+
+from fftocean.amplitudes import wavenumber_density
+from fftocean.arrays import Real
+from fftocean.grid import Grid
+from fftocean.kernels import mips as kernel
+from fftocean.ocean import Ocean
+from fftocean.physics.sea import Sea
+
+SHORTEST = 0.0173
+"""Where gravity waves end: the wave of least speed, of 363 rad/m in clean water [m]  (Lamb 1932, art. 267)."""
+
+
+def chain(texels: Real) -> list[Real]:
+    """Return the levels of a picture (ny, nx, channels), itself the first; float64 inside, each in the picture's own precision."""
+    return [texels, *(level.astype(texels.dtype) for level in _chain(texels)[1:])]
+
+
+def slope_covariances(slope_x: Real, slope_y: Real, unresolved: Real | None = None) -> list[Real]:
+    """
+    Return the covariance of the slopes within each texel of each level, (rows, columns, 3): xx, xy, yy [-].
+
+    A texel of level 0 is one sample: what it holds within are the waves that the tile does not.
+
+    Args:
+        slope_x, slope_y: (ny, nx) each.
+        unresolved: the covariance of the slopes of waves that are not in the tile, (3,), the same everywhere; None for none.
+    """
+    x: Real = slope_x.astype(np.float64)
+    y: Real = slope_y.astype(np.float64)
+    levels = _chain(np.stack([x, y, x * x, x * y, y * y], axis=-1))
+    beyond = np.zeros(3) if unresolved is None else np.asarray(unresolved, dtype=np.float64)
+    within = []
+    for level in levels:
+        x, y = np.moveaxis(level[..., :2], -1, 0)
+        covariance = level[..., 2:] - np.stack([x * x, x * y, y * y], axis=-1)
+        covariance[..., ::2] = np.maximum(covariance[..., ::2], 0.0)  # where all slopes are equal, roundings are left
+        within.append((covariance + beyond).astype(slope_x.dtype))
+    return within
+
+
+def normals(normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppiness: float) -> list[Real]:
+    """
+    Return the levels of a normal map, (rows, columns, 3): the normal of the mean plane of the water in each texel.
+
+    Not the mean of the normals, which are of length 1 each, but that of the cross products of the tangents, whose length is the
+    area: what they add up to is square to the rim of the patch, and its slope is the mean slope, weighted with the area seen from
+    above. The last level of a periodic tile is up.
+
+    Args:
+        normal: level 0, which is returned as it is.
+        geometry: slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, each (ny, nx).
+        choppiness: factor on the stretches.
+    """
+    sx, sy, xx, xy, yy = (field.astype(np.float64) for field in geometry)
+    a, b, d = 1.0 + choppiness * xx, choppiness * xy, 1.0 + choppiness * yy
+    levels = _chain(np.stack([b * sy - sx * d, sx * b - a * sy, a * d - b * b], axis=-1))
+    return [normal, *(_unit(level).astype(normal.dtype) for level in levels[1:])]
+
+
+def unresolved_slopes(ocean: Ocean, shortest: float = SHORTEST) -> Real:
+    """
+    Return the slope covariance of the waves of an ocean's sea that are too short for its tile: (3,), xx, xy, yy [-].
+
+    They are those beyond the tile's rectangle of wavenumbers, down to `shortest` [m]: the tail of the sea's own spectrum, which
+    for the spectra here falls as k^-3, so that each octave of waves is as rough as the next. An ocean of given waves has none; nor
+    has a tile of a cascade whose band ends, as the next tile holds them.
+    """
+    if ocean.sea is None or np.isfinite(ocean.amplitudes.band[1]):
+        return np.zeros(3)
+    return beyond(ocean.sea, ocean.grid, shortest)
+
+
+def beyond(sea: Sea, grid: Grid, shortest: float) -> Real:
+    """The integral of (kx kx, kx ky, ky ky) S(k) over wavenumbers beyond a tile's, up to 2 pi / shortest: rays of Simpson's rule."""
+    highest = 2.0 * np.pi / shortest
+    reach_x, reach_y = grid.reach
+    total = np.zeros(3)
+    for system in sea.systems:
+        # the system's own direction among them, so that the narrowest swell is hit
+        theta = np.radians(system.direction % 360.0) + np.arange(_RAYS) * (2.0 * np.pi / _RAYS)
+        cosine, sine = np.cos(theta), np.sin(theta)
+        with np.errstate(divide="ignore"):  # along an axis the other edge is never met
+            edge = np.minimum((reach_x + 0.5) * grid.dkx / np.abs(cosine), (reach_y + 0.5) * grid.dky / np.abs(sine))
+        octaves = np.log(np.maximum(highest / edge, 1.0))
+        k = edge * np.exp(octaves * np.linspace(0.0, 1.0, _STEPS + 1)[:, None])
+        weight = np.array([1.0, *[4.0, 2.0] * (_STEPS // 2 - 1), 4.0, 1.0])[:, None] * octaves / (3.0 * _STEPS)
+        # k^2 S(k) k dk = k^4 S(k) d ln k
+        rough = np.sum(weight * k**4 * wavenumber_density(sea, system, k * cosine, k * sine), axis=0) * (2.0 * np.pi / _RAYS)
+        total += [np.sum(rough * cosine**2), np.sum(rough * cosine * sine), np.sum(rough * sine**2)]
+    return total
+
+
+_RAYS, _STEPS = 720, 64
+
+
+def _chain(texels: Real) -> list[Real]:
+    """The levels in float64."""
+    levels: list[Real] = [np.ascontiguousarray(texels, dtype=np.float64)]
+    while max(levels[-1].shape[:2]) > 1:
+        rows, columns, channels = levels[-1].shape
+        half = np.empty((max(1, rows // 2), max(1, columns // 2), channels))
+        kernel.halve(levels[-1], half)
+        levels.append(half)
+    return levels
+
+
+def _unit(vectors: Real) -> Real:
+    """The same vectors at length 1; up where there is none."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    unit: Real = np.where(length > 0.0, vectors / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])
+    return unit
