@@ -1,102 +1,191 @@
 """
-How long does a full frame take, against the textbook's eight complex transforms and against the direct sum?
+What does a frame cost, and against what?
 
-A full frame is height, two displacements, Jacobian and unit normals of the displaced surface, float32, one thread. The
-contenders run in turn, warmed up, and the medians' ratios are what counts: absolute times depend on what else the machine does.
+A full frame is height, two displacements, Jacobian and unit normals of the displaced surface, float32. At each n four races are run,
+in each of which the contenders take turns:
 
-    python benchmarks/frame.py [--n 256 512] [--seconds 10] [--json FILE]
+  others     every FFT library's full frame, one thread, against NumPy as the textbooks write it (eight complex128 ifft2), against its eight
+             ifft2 alone, against NumPy and SciPy with care (complex64 halves, irfft2), and against the floor: eight bare real transforms
+             (c2r) of the same library, planned with MEASURE all at once or one by one, whichever is faster, and one copy of what
+             they make
+  fields     full, the eight linear fields, height only, and the full frame in float64
+  planning   MEASURE against ESTIMATE
+  threads    one against two, and against all cores (by the clock on the wall; the other races count CPU time)
+
+    python benchmarks/frame.py [--n 256 512] [--seconds 10] [--json FILE] [--plot FILE]
 """
 
 import argparse
-import json
-import math
-import os
-import platform
-import statistics
-import time
-import warnings
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
+import script
 
-import fftocean as fo
-from fftocean.gerstner.compiled import eight_fields
+from fftocean.arrays import available_memory
+from fftocean.bench import machine
+from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
+from fftocean.bench.pictures import COLOURS, Line, bars, curves, duration, plain, sheet
+from fftocean.bench.quick import WITHIN, ocean
+from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
+from fftocean.errors import ParameterError
+from fftocean.fields import EIGHT
+from fftocean.plots import BLUE
 
-FULL = ("height", "displace_x", "displace_y", "normal", "jacobian")
-
-
-def textbook(ocean: fo.Ocean) -> Callable[[], object]:
-    """Eight complex128 ifft2 of filtered spectra, as tutorials do it; then normals and Jacobian in NumPy."""
-    n = ocean.grid.nx
-    k1 = 2 * np.pi * np.fft.fftfreq(n, ocean.grid.lx / n)
-    kx, ky = np.meshgrid(k1, k1)
-    k = np.hypot(kx, ky)
-    k[0, 0] = 1.0
-    rng = np.random.default_rng(0)
-    h0 = (rng.standard_normal((n, n)) + 1j * rng.standard_normal((n, n))) / k**2
-    h0_minus = np.conj(np.roll(h0[::-1, ::-1], 1, (0, 1)))
-    omega = np.sqrt(9.80665 * k)
-    filters = [1, 1j * kx / k, 1j * ky / k, 1j * kx, 1j * ky, -kx * kx / k, -kx * ky / k, -ky * ky / k]
-
-    def frame() -> object:
-        h = h0 * np.exp(-1j * omega * 3.7) + h0_minus * np.exp(1j * omega * 3.7)
-        fields = [np.fft.ifft2(f * h).real * n * n for f in filters]
-        _, _, _, sx, sy, xx, xy, yy = fields
-        normal = np.cross(np.stack([1 + xx, xy, sx], -1), np.stack([xy, 1 + yy, sy], -1))
-        return fields, normal / np.linalg.norm(normal, axis=-1, keepdims=True)
-
-    return frame
+ASKS = "What does a frame cost, and against what?"
+BYTES_A_POINT = 900.0  # that the largest race holds: the textbook's filters and intermediate fields, and the floors' buffers
 
 
-def alternate(contenders: dict[str, Callable[[], object]], seconds: float) -> dict[str, list[float]]:
-    """Time the contenders in turn until the time is up, at least three rounds; milliseconds."""
-    times: dict[str, list[float]] = {name: [] for name in contenders}
-    for run in contenders.values():
-        run()
-    end = time.perf_counter() + seconds
-    while time.perf_counter() < end or min(len(t) for t in times.values()) < 3:
-        for name, run in contenders.items():
-            start = time.perf_counter()
-            run()
-            times[name].append(1e3 * (time.perf_counter() - start))
-    return times
+def flags(parser: argparse.ArgumentParser) -> None:
+    script.sizes(parser, 128, 256, 512, 1024, 2048)
+    parser.add_argument("--seconds", type=float, default=20.0, help="per n, planning not counted (default: 20)")
+    parser.add_argument(
+        "--backends", nargs="+", default=list(machine.backends()), choices=machine.backends(), help="default: all that are here"
+    )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--n", type=int, nargs="+", default=[256, 512])
-    parser.add_argument("--seconds", type=float, default=10.0, help="per n (default: 10)")
-    parser.add_argument("--json", type=Path)
-    options = parser.parse_args()
-    machine = {"machine": platform.platform(), "cpus": os.cpu_count(), "python": platform.python_version(), "numpy": np.__version__}
-    print("  ".join(f"{k} {v}" for k, v in machine.items()))
-    sea = fo.Sea.from_wind(speed=10.0, fetch=100e3)
-    rows = []
+def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
+    """The four races at each n."""
+    readings: list[Reading] = []
     for n in options.n:
-        ocean = fo.Ocean(sea, n=n, size=300.0)
-        out = ocean.frame(0.0, FULL)
-        times = alternate({"fftocean": lambda o=ocean, f=out: o.frame(3.7, FULL, out=f), "textbook": textbook(ocean)}, options.seconds)
-        points = min(n * n, max(1, 4_000_000 // (n * n)))  # of the direct sum, which is then scaled to the whole tile
-        x, y = np.linspace(0.0, 300.0, points), np.zeros(points)
-        eight_fields(ocean, x[:2], y[:2], 0.0)
-        start = time.perf_counter()
-        eight_fields(ocean, x, y, 3.7)
-        direct = 1e3 * (time.perf_counter() - start) * n * n / points
-        for name, t in times.items():
-            q = statistics.quantiles(t, n=4)
-            rows.append({"n": n, "what": name, "median_ms": q[1], "quartiles_ms": [q[0], q[2]], "runs": len(t)})
-            print(f"n = {n:5d}  {name:9s} {q[1]:9.2f} ms  (quartiles {q[0]:.2f} to {q[2]:.2f}, {len(t)} runs)")
-        ours, theirs = (statistics.median(times[name]) for name in ("fftocean", "textbook"))
-        rows.append({"n": n, "what": "direct sum, compiled, scaled up", "median_ms": direct, "points": points})
-        print(f"n = {n:5d}  direct sum, compiled: {direct:.0f} ms (from {points} points)")
-        print(f"n = {n:5d}  textbook / fftocean = {theirs / ours:.1f}   direct sum / fftocean = {direct / ours:,.0f}")
-        assert math.isfinite(ours)
-    if options.json:
-        options.json.write_text(json.dumps({**machine, "rows": rows}, indent=2) + "\n")
+        if (free := available_memory()) < BYTES_A_POINT * n * n:
+            say(f"{n} x {n} is left out: its contenders need {BYTES_A_POINT * n * n / 2**30:.1f} GiB, {free / 2**30:.1f} are free")
+            continue
+        for share, title, the_race in (
+            (0.45, "others", others),
+            (0.2, "fields", fields),
+            (0.1, "planning", planning),
+            (0.25, "threads", threads),
+        ):
+            say(f"{n} x {n}, {title}")
+            readings += the_race(n, options.backends, share * options.seconds)
+    return readings
+
+
+def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
+    """Full frames of every library against other ways to make them, and against the bare transforms."""
+    entries, pairs, own = [], [], None
+    for backend in backends:
+        own = ocean(n, backend=backend)
+        at = conditions("others", n, backend)
+        full = Entry("full frame", Fast(own), at)
+        entries.append(full)
+        try:
+            bare = floor(n, backend)
+        except ParameterError:  # an ocean may find a library where the floor does not
+            continue
+        entries.append(Entry("floor", bare, {"n": n, "backend": backend, "how": bare.how}))
+        pairs.append(Pair("full frame / floor", full, entries[-1]))
+    assert own is not None
+    textbook, careful = Textbook(own), Careful(own)
+    require_same_water(own, {"textbook": textbook, "careful": careful}, within=WITHIN)
+    usual = [
+        Entry("textbook", textbook, {"n": n}),
+        Entry("textbook, its eight ifft2 alone", textbook.transforms(), {"n": n}),
+        Entry("careful", careful, {"n": n}),
+    ]
+    for full in [entry for entry in entries if entry.what == "full frame"]:
+        pairs += [Pair(f"{other.what} / full frame", other, full) for other in usual]
+    return race([*entries, *usual], pairs, clock="cpu", seconds=seconds)
+
+
+def fields(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
+    """What it costs to ask for less, or for more digits."""
+    own, double = ocean(n, backend=backends[0]), ocean(n, backend=backends[0], dtype="float64")
+    at = conditions("fields", n, backends[0])
+    full = Entry("full frame", Fast(own), at)
+    eight, height = Entry("eight linear fields", Fast(own, EIGHT), at), Entry("height only", Fast(own, ("height",)), at)
+    wide = Entry("full frame", Fast(double), {**at, "dtype": "float64"})
+    pairs = [
+        Pair("eight linear fields / full frame", eight, full),
+        Pair("height only / full frame", height, full),
+        Pair("float64 / float32", wide, full),
+    ]
+    return race([full, eight, height, wide], pairs, clock="cpu", seconds=seconds)
+
+
+def planning(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
+    """What measuring gains over estimating, where the library plans at all."""
+    backend = backends[0]
+    at = conditions("planning", n, backend)
+    full = Entry("full frame", Fast(ocean(n, backend=backend)), at)
+    quick = Entry("full frame", Fast(ocean(n, backend=backend, planning="estimate")), {**at, "planning": "estimate"})
+    return race([full, quick], [Pair("estimate / measure", quick, full)], clock="cpu", seconds=seconds)
+
+
+def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
+    """What more threads gain, by the clock on the wall."""
+    counts = sorted({2, machine.usable_cores()} - {1})
+    readings = []
+    for backend in backends:
+        entries = [
+            Entry(
+                "full frame",
+                Fast(ocean(n, backend=backend, threads=count)),
+                {**conditions("threads", n, backend), "threads": count},
+            )
+            for count in (1, *counts)
+        ]
+        pairs = [Pair("one thread / more", entries[0], more) for more in entries[1:]]
+        readings += race(entries, pairs, clock="wall", seconds=seconds / len(backends))
+    return readings
+
+
+def conditions(of: str, n: int, backend: str) -> dict[str, Condition]:
+    """Under which conditions a full frame runs in a race, unless it is about one of them."""
+    return {"race": of, "n": n, "backend": backend, "planning": "measure", "dtype": "float32", "threads": 1}
+
+
+def draw(result: Result, path: Path) -> None:
+    """Cost against n by all means, and beside it how many times as long each takes as we do."""
+    backends = result.settings["backends"]
+    shades = dict(zip(backends, (BLUE, "#00805d", "#56b4e9"), strict=False))
+    best = min(backends, key=lambda name: sum(r.median for r in mains(result, name)))
+    with sheet(path, ASKS, result, width=12.5, height=6.0) as figure:
+        left, right = figure.subplots(1, 2, width_ratios=(1.2, 1.0))
+        lines = []
+        for what, label, colour in (("textbook", "textbook NumPy", COLOURS["textbook"]), ("careful", "careful SciPy", COLOURS["careful"])):
+            lines.append(curve(label, result.all(what), colour))
+        for name in backends:
+            lines.append(curve(f"fftocean, {name}", mains(result, name), shades[name], width=2.6))
+            if bare := result.all("floor", backend=name):
+                lines.append(curve(f"bare transforms, {name}", bare, shades[name], style=":", marker=""))
+        curves(left, lines, xlabel="samples a side, n", ylabel="one full frame, one thread [ms]", sizes=result.settings["n"])
+        left.set_title("Cost against resolution")
+        measured = sorted(int(r.at["n"]) for r in mains(result, best))
+        n = 512 if 512 in measured else measured[-1]
+        ours = result.find("full frame", race="others", n=n, backend=best).median
+        rows = []
+        for label, what, at, colour in (
+            ("textbook NumPy", "textbook / full frame", {"backend": best}, COLOURS["textbook"]),
+            ("its eight ifft2 alone", "textbook, its eight ifft2 alone / full frame", {"backend": best}, COLOURS["textbook"]),
+            ("careful SciPy", "careful / full frame", {"backend": best}, COLOURS["careful"]),
+            ("ours in float64", "float64 / float32", {}, "#7fb8d8"),
+            ("ours", "", {}, BLUE),
+            ("eight linear fields", "eight linear fields / full frame", {}, "#7fb8d8"),
+            ("height only", "height only / full frame", {}, "#7fb8d8"),
+        ):
+            times = result.find(what, n=n, **at).median if what else 1.0
+            rows.append((label, times, f"{plain(round(times, 2))}" if what else f"1, {duration(ours)} with {best}", colour))
+        for r in result.all("one thread / more", n=n, backend=best):
+            rows.append((f"{r.at['threads']} threads", 1.0 / r.median, f"{1.0 / r.median:.2f} ({r.median:.2f} times as fast)", "#7fb8d8"))
+        bars(right, rows)
+        right.set_title(f"{n} x {n}: how many times as long as our full frame")
+
+
+def mains(result: Result, backend: str) -> list[Reading]:
+    """The full frames of the main race."""
+    return result.all("full frame", race="others", backend=backend)
+
+
+def curve(label: str, readings: Sequence[Reading], colour: str, **how: str | float) -> Line:
+    """A line through readings, by n, with their quartiles as a band."""
+    rows = sorted(readings, key=lambda r: r.at["n"])
+    return Line(label, [r.at["n"] for r in rows], [r.median for r in rows], colour, [r.low for r in rows], [r.high for r in rows], **how)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    return script.run("frame", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
 
 
 if __name__ == "__main__":
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", fo.SeaWarning)
-        main()
+    raise SystemExit(main())

@@ -1,0 +1,195 @@
+"""
+How fast is a bake, and where does its time go?
+
+The embedded default job is baked whole at each n: three maps (height, displacement, normal) as half-float EXR. Frames a second are those of
+the bake as a user runs it, in one process and in one for each core. Where the time goes is seen by Python's own profiler in one process:
+every function's own time goes to a room of the house by the file that it stands in, and that of the library functions to the room that
+called them. Compiled kernels are wrapped for it, so that each is seen under its own file. The profiler makes Python slower, not the rest:
+"Python" is an upper bound.
+
+    python benchmarks/bake.py [--n 256 512] [--frames 240] [--json FILE] [--plot FILE]
+"""
+
+import argparse
+import cProfile
+import importlib
+import pkgutil
+import pstats
+import tempfile
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import script
+
+import fftocean as fo
+from fftocean import kernels
+from fftocean.bench import machine
+from fftocean.bench.pictures import bars, sheet
+from fftocean.bench.results import Reading, Result
+from fftocean.bench.timing import summary
+from fftocean.plots import BLUE
+
+ASKS = "How fast is a bake, and where does its time go?"
+Function = tuple[str, int, str]  # file, line, name: as the profiler has it
+PACKAGE = Path(fo.__file__).resolve().parent
+
+# The first row that fits a function's place in the package, or a library function's name, says whose time it is.
+ROOMS = (
+    (
+        "simulation",
+        ("ocean.py:frame", "ocean.py:loop_frame", "ocean.py:_", "synthesis.py", "transforms.py", "kernels/passes", "kernels/surface"),
+    ),
+    ("encoder", ("export/", "kernels/half", "bake/frames.py:_halves")),
+    ("maps", ("bake/maps.py", "foam.py", "eulerian.py", "mips.py", "products.py", "kernels/")),
+    ("preview", ("bake/preview.py", "bake/pictures.py", "bake/blend.py")),
+    ("setting up", ("amplitudes.py", "noise.py", "physics/", "statistics.py", "grid.py", "limits.py", "ocean.py", "wisdom.py")),
+    ("checksums", ("~:sha256",)),
+    ("disk", ("~:posix.", "~:nt.", "~:_io.open", "~:_io.FileIO")),
+)
+OTHER = "Python"
+COLOURS = {"simulation": BLUE, "encoder": "#00805d", OTHER: "#c75000"}
+
+
+def flags(parser: argparse.ArgumentParser) -> None:
+    script.sizes(parser, 256, 512)
+    parser.add_argument("--frames", type=int, default=240, help="in the loop, all of which are baked (default: 240)")
+
+
+def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
+    """Three bakes for each n: in one process, in one for each core, and under the profiler."""
+    readings: list[Reading] = []
+    warnings.simplefilter("ignore", fo.SeaWarning)
+    with tempfile.TemporaryDirectory() as folder:
+        fo.bake(job(16, 2), Path(folder, "warm"), executor="serial")  # kernels
+        for n in options.n:
+            for executor, workers in (("serial", 1), ("processes", machine.usable_cores())):
+                say(f"{n} x {n}, {executor}, {workers} at work")
+                start = time.perf_counter()
+                fo.bake(job(n, options.frames), Path(folder, f"{n} {executor}"), executor=executor, workers=workers)
+                seconds = time.perf_counter() - start
+                at = {"n": n, "executor": executor, "workers": workers, "frames": options.frames}
+                readings.append(Reading.of("frames a second", "1/s", summary([options.frames / seconds]), at, clock="wall"))
+            say(f"{n} x {n}, under the profiler")
+            with kernels_seen():
+                profile = cProfile.Profile()
+                profile.runcall(fo.bake, job(n, options.frames), Path(folder, f"{n} profile"), executor="serial")
+            shares = rooms(pstats.Stats(profile).stats)  # type: ignore[attr-defined]
+            total = sum(shares.values())
+            at = {"n": n, "frames": options.frames}
+            for name, seconds in sorted(shares.items(), key=lambda item: -item[1]):
+                readings.append(Reading.single(name, "%", 100.0 * seconds / total, at, clock="wall"))
+            both = shares.get("simulation", 0.0) + shares.get("encoder", 0.0)
+            readings.append(Reading.single("simulation and encoder", "%", 100.0 * both / total, at, clock="wall"))
+    return readings
+
+
+def job(n: int, frames: int) -> fo.Job:
+    """The embedded default job, at another resolution."""
+    return fo.Job.default().replaced({"ocean.n": n, "bake.frames": frames})
+
+
+@contextmanager
+def kernels_seen() -> Iterator[None]:
+    """Let the profiler see compiled kernels, which it takes for lines of their callers: each as a function of its own file."""
+    changed: list[tuple[Any, str, Any]] = []
+    for info in pkgutil.iter_modules(kernels.__path__):
+        module = importlib.import_module(f"{kernels.__name__}.{info.name}")
+        for name, kernel in vars(module).items():
+            if type(kernel).__module__.startswith("numba") and callable(kernel):
+                changed.append((module, name, kernel))
+    try:
+        for module, name, kernel in changed:
+            setattr(module, name, seen(kernel, name, str(module.__file__)))
+        yield
+    finally:
+        for module, name, kernel in changed:
+            setattr(module, name, kernel)
+
+
+def seen(kernel: Callable[..., Any], name: str, file: str) -> Callable[..., Any]:
+    """A Python function of that name and file that calls the kernel."""
+    space: dict[str, Any] = {"kernel": kernel}
+    exec(compile(f"def {name}(*arguments):\n    return kernel(*arguments)\n", file, "exec"), space)
+    made: Callable[..., Any] = space[name]
+    return made
+
+
+def rooms(stats: Mapping[Function, tuple[int, int, float, float, Mapping[Function, tuple[int, int, float, float]]]]) -> dict[str, float]:
+    """
+    Sort a profile's seconds by room.
+
+    Args:
+        stats: for each function (calls, primitive calls, own time, time, callers), as `pstats.Stats` has it.
+    """
+    homes: dict[Function, str | None] = {}
+
+    def home(function: Function) -> str:
+        """Its own room, or that of the caller in whose service it spends most; a ring of libraries is Python's."""
+        if function not in homes:
+            homes[function] = OTHER  # while it is looked for
+            own = room_of(function)
+            if own is None:
+                callers = stats[function][4] if function in stats else {}
+                chief = max(callers, key=lambda caller: callers[caller][3], default=None)
+                own = OTHER if chief is None else home(chief)
+            homes[function] = own
+        return homes[function] or OTHER
+
+    found: dict[str, float] = {}
+    for function, (_, _, own_time, _, callers) in stats.items():
+        named = room_of(function)
+        rest = own_time
+        if named is None:
+            for caller, (_, _, spent, _) in callers.items():
+                found[home(caller)] = found.get(home(caller), 0.0) + spent
+                rest -= spent
+        name = named or home(function)
+        found[name] = found.get(name, 0.0) + max(rest, 0.0)
+    return found
+
+
+def room_of(function: Function) -> str | None:
+    """The room that a function names by where it stands; None for a library's, which works for whoever called it."""
+    file, _, name = function
+    if file == "~":
+        place = "~:" + name
+        for room, marks in ROOMS:
+            if any(mark.startswith("~:") and mark[2:] in name for mark in marks):
+                return room
+        return None
+    try:
+        place = f"{Path(file).resolve().relative_to(PACKAGE).as_posix()}:{name}"
+    except ValueError:
+        return None
+    for room, marks in ROOMS:
+        if place.startswith(marks):
+            return room
+    return OTHER
+
+
+def draw(result: Result, path: Path) -> None:
+    """Frames a second, and the rooms' shares at the largest n."""
+    n = max(result.settings["n"])
+    with sheet(path, ASKS, result, width=12.0, height=4.6) as figure:
+        left, right = figure.subplots(1, 2)
+        rows = []
+        for r in result.all("frames a second"):
+            who = "one process" if r.at["executor"] == "serial" else f"{r.at['workers']} processes"
+            rows.append((f"{r.at['n']} x {r.at['n']}, {who}", r.median, f"{r.median:.1f}", BLUE))
+        bars(left, rows)
+        left.set_title("Frames a second, three EXR maps each")
+        shares = [r for r in result.readings if r.unit == "%" and r.at["n"] == n and r.what != "simulation and encoder"]
+        bars(right, [(r.what, r.median, f"{r.median:.1f} %", COLOURS.get(r.what, "#56707a")) for r in shares])
+        right.set_title(f"Where the time of a bake of {n} x {n} goes")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    return script.run("bake", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

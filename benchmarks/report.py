@@ -1,0 +1,178 @@
+"""
+RESULTS.md from the JSON files: the goals row by row, then each question with its picture and its readings. Nothing is written by hand.
+
+    python benchmarks/report.py
+"""
+
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from fftocean.bench.pictures import plain
+from fftocean.bench.results import Condition, Reading, Result, read
+
+HERE = Path(__file__).resolve().parent
+RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
+QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake")
+SHOWN: Mapping[str, tuple[str, ...]] = {
+    "frame": (
+        "full frame",
+        "floor",
+        "textbook / full frame",
+        "textbook, its eight ifft2 alone / full frame",
+        "careful / full frame",
+        "full frame / floor",
+        "one thread / more",
+        "eight linear fields / full frame",
+        "height only / full frame",
+        "float64 / float32",
+        "estimate / measure",
+    ),
+    "direct_sum": ("direct sum / FFT", "crossover", "exponent", "misfit"),
+    "scaling": ("full frame", "full frame, a point and log2 N", "exponent of N, powers of two"),
+}
+BUSY_FROM = 1.1  # wall over CPU time of one thread
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """One line of the table of goals: a reading that must be at most, or at least, so much."""
+
+    what: str
+    sign: str  # "<=" or ">="
+    bound: float
+    question: str
+    reading: str
+    at: Mapping[str, Condition]
+    clock: str | None = None
+
+    def met(self, reading: Reading) -> bool:
+        holds: Callable[[float, float], bool] = {"<=": operator.le, ">=": operator.ge}[self.sign]
+        return holds(reading.median, self.bound)
+
+
+def goals() -> list[Goal]:
+    """All of them, in the order in which they are reported."""
+    found = []
+    for backend, bounds in (("pyfftw", {256: 9.0, 512: 9.0, 1024: 7.0}), ("mkl", {256: 18.0, 512: 18.0, 1024: 14.0})):
+        for n, bound in bounds.items():
+            what = f"textbook NumPy / full frame, {n} x {n}, {backend}"
+            found.append(Goal(what, ">=", bound, "frame", "textbook / full frame", {"n": n, "backend": backend}))
+    for backend in ("pyfftw", "mkl"):
+        for n in (256, 512, 1024):
+            what = f"full frame / eight raw c2r and a copy, {n} x {n}, {backend}"
+            found.append(Goal(what, "<=", 1.1, "frame", "full frame / floor", {"n": n, "backend": backend}))
+    for backend in ("pyfftw", "mkl"):
+        for n in (512, 1024, 2048):
+            what = f"one thread / two, {n} x {n}, {backend}"
+            found.append(Goal(what, ">=", 1.6, "frame", "one thread / more", {"n": n, "backend": backend, "threads": 2}))
+    for n in (256, 512, 1024):  # "about a third": of the eight transforms it needs one, and the same evolution
+        found.append(Goal(f"height only / full frame, {n} x {n}", "<=", 0.36, "frame", "height only / full frame", {"n": n}))
+    at: dict[str, Condition] = {"n": 128, "dtype": "float32"}
+    found.append(Goal("direct sum / FFT, eight fields, 128 x 128", ">=", 5000.0, "direct_sum", "direct sum / FFT", at))
+    found.append(Goal("peak memory above imports, full frames, 2048 x 2048", "<=", 400.0, "memory", "peak above imports", {"n": 2048}))
+    for what, bound, reading in (
+        ("`import fftocean`", 0.3, "import fftocean, above Python"),
+        ("`fftocean --help`, a whole process", 0.3, "fftocean --help"),
+        ("first frame after installation", 15.0, "first frame after installation"),
+        ("first frame in later processes", 1.5, "first frame in later processes"),
+    ):
+        found.append(Goal(what, "<=", bound, "startup", reading, {}, clock="wall"))
+    found.append(Goal("bake at 512, 3 maps: simulation and encoder", ">=", 70.0, "bake", "simulation and encoder", {"n": 512}))
+    found.append(Goal("bake at 512, 3 maps: Python's own share", "<=", 10.0, "bake", "Python", {"n": 512}))
+    return found
+
+
+def report(results: Mapping[str, Result]) -> str:
+    """The whole page."""
+    return (
+        "\n".join([*_head(results), *_goals(results), *(line for name in QUESTIONS if name in results for line in _section(results[name]))])
+        + "\n"
+    )
+
+
+def _head(results: Mapping[str, Result]) -> list[str]:
+    lines = [
+        "# What it costs",
+        "",
+        "Made by `python benchmarks/all.py` from the files in `results/`; nothing here is written by hand. Medians of alternating runs;",
+        "ratios are taken round by round, and their median and quartiles are shown. Times of one thread are CPU time, others by the",
+        "clock on the wall.",
+        "",
+    ]
+    if not results:
+        return [*lines, "Not measured yet."]
+    result = next(results[name] for name in QUESTIONS if name in results)
+    m = result.machine
+    caches = ", ".join(f"{level} {size}" for level, size in m["caches"].items())
+    versions = ", ".join(f"{name} {version}" for name, version in m["packages"].items())
+    libraries = ", ".join(f"{name}: {version}" for name, version in m["fft_libraries"].items())
+    lines += [
+        "| machine | |",
+        "|---|---|",
+        f"| processor | {m['cpu']}, {m['cores']} cores ({m['usable_cores']} usable), {' '.join(m['instructions'])} |",
+        f"| caches, memory | {caches}; {m['memory_gib']} GiB |",
+        f"| system | {m['os']}, {m['python']} |",
+        f"| packages | {versions} |",
+        f"| FFT libraries | {libraries}; by default {m['fft_default']} |",
+    ]
+    for name in QUESTIONS:
+        if name in results:
+            before, after = results[name].before, results[name].after
+            busy = [r.median for r in results[name].all("wall time / CPU time")]
+            word = f"; a second of one thread's work took {max(busy):.2f} s at worst" if busy and max(busy) > BUSY_FROM else ""
+            lines.append(f"| {name} | {before['utc']} UTC, load {before['load']} before, {after['load']} after{word} |")
+    return [*lines, ""]
+
+
+def _goals(results: Mapping[str, Result]) -> list[str]:
+    lines = ["## Goals", "", "| what | goal | measured | quartiles | |", "|---|---|---|---|---|"]
+    for goal in goals():
+        found = results[goal.question].all(goal.reading, clock=goal.clock, **goal.at) if goal.question in results else []
+        sign = {"<=": "at most", ">=": "at least"}[goal.sign]
+        if len(found) == 1:
+            r = found[0]
+            unit = unit_of(r)
+            cells = f"{sign} {plain(goal.bound)}{unit} | {number(r.median)}{unit} | {number(r.low)} to {number(r.high)} | "
+            lines.append(f"| {goal.what} | {cells}{'met' if goal.met(r) else '**not met**'} |")
+        else:
+            lines.append(f"| {goal.what} | {sign} {plain(goal.bound)} | not measured | | |")
+    return [*lines, ""]
+
+
+def _section(result: Result) -> list[str]:
+    name = result.question
+    lines = [f"## {name}: {result.asks}", "", f"![{result.asks}](results/{name}.png)", ""]
+    readings = [r for r in result.readings if name not in SHOWN or r.what.startswith(SHOWN[name])]
+    keys = list(dict.fromkeys(key for r in readings for key in r.at))
+    lines += [f"| {' | '.join(['what', *keys, 'median', 'quartiles', 'of', 'clock'])} |", "|---" * (len(keys) + 5) + "|"]
+    for r in readings:
+        conditions = [str(r.at.get(key, "")) for key in keys]
+        cells = [r.what, *conditions, f"{number(r.median)}{unit_of(r)}", f"{number(r.low)} to {number(r.high)}", str(r.count), r.clock]
+        lines.append(f"| {' | '.join(cells)} |")
+    settings = ", ".join(f"{key} {value}" for key, value in result.settings.items())
+    return [*lines, "", f"Settings: {settings}. Every reading: [results/{name}.json](results/{name}.json).", ""]
+
+
+def unit_of(reading: Reading) -> str:
+    return {"x": " x", "1": "", "n": ""}.get(reading.unit, f" {reading.unit}")
+
+
+def number(value: float) -> str:
+    """Three digits."""
+    return plain(float(f"{value:.3g}")) if abs(value) < 1000.0 else plain(value)
+
+
+def gather(folder: Path = RESULTS) -> dict[str, Result]:
+    """The results that are there, in the order of the questions."""
+    return {name: read(folder / f"{name}.json") for name in QUESTIONS if (folder / f"{name}.json").exists()}
+
+
+def main(_: Sequence[str] | None = None) -> int:
+    REPORT.write_text(report(gather()), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,354 @@
+"""The questions of benchmarks/, at sizes where they take no time: that each answers, and that the report is made of the answers alone."""
+
+import importlib
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fftocean.bench import machine
+from fftocean.bench.results import Reading, answer, read
+
+FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
+QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake")
+HELPERS = ("script", "fresh", "report", "all")
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.fixture
+def script(monkeypatch):
+    """Import a script of benchmarks/ as Python does when it is run from there; forget it afterwards."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+    before = set(sys.modules)
+    yield importlib.import_module
+    for name in {*QUESTIONS, *HELPERS} & (set(sys.modules) - before):
+        del sys.modules[name]
+
+
+def asked(script, name, tmp_path, *flags):
+    """Ask a question; its answer, and the bytes of its picture."""
+    files = tmp_path / f"{name}.json", tmp_path / f"{name}.png"
+    assert script(name).main([*flags, "--json", str(files[0]), "--plot", str(files[1])]) == 0
+    return read(files[0]), files[1].read_bytes()
+
+
+def test_frame_answers(script, tmp_path, capsys):
+    result, picture = asked(script, "frame", tmp_path, "--n", "16", "32", "--seconds", "0")
+    assert picture[:8] == PNG
+    for n in (16, 32):
+        for backend in machine.backends():
+            assert result.find("full frame", race="others", n=n, backend=backend).clock == "cpu"
+            assert result.find("textbook / full frame", n=n, backend=backend).unit == "x"
+            assert result.find("full frame / floor", n=n, backend=backend).median > 0.0
+        assert result.find("height only / full frame", n=n).at["race"] == "fields"
+        assert len(result.all("full frame", planning="estimate", n=n)) == 1
+        for r in result.all("one thread / more", n=n):
+            assert (r.clock, r.at["race"]) == ("wall", "threads")
+    out, err = capsys.readouterr()
+    assert "textbook / full frame" in out
+    assert re.search(r"frame: 32 x 32, threads\n", err)
+
+
+def test_frame_leaves_out_what_does_not_fit(script, monkeypatch, capsys):
+    frame = script("frame")
+    monkeypatch.setattr(frame, "available_memory", lambda: 1e5)
+    monkeypatch.setattr(frame, "others", lambda *_: pytest.fail("it measured"))
+    assert frame.main(["--n", "2048", "--seconds", "0"]) == 0
+    assert "2048 x 2048 is left out: its contenders need 3.5 GiB" in capsys.readouterr().err
+
+
+def test_direct_sum_answers(script, tmp_path):
+    flags = ("--n", "4", "6", "16", "20", "24", "--seconds", "0", "--limit", "1e5")
+    result, picture = asked(script, "direct_sum", tmp_path, *flags)
+    assert picture[:8] == PNG
+    assert [r.at["points"] == int(r.at["n"]) ** 2 for r in result.all("direct sum")] == [True, True, True, False, False]
+    for r in result.all("direct sum / FFT", dtype="float32"):
+        assert r.median > 0.0
+    assert result.find("exponent of N, direct sum").count == 3
+
+
+def costs(n, fft, direct):
+    """Readings as the question makes them, of costs that we choose [ms]."""
+    for i, size in enumerate(n):
+        for dtype in ("float32", "float64"):
+            yield Reading.single("FFT", "ms", fft[i], {"n": size, "dtype": dtype})
+            yield Reading.single("direct sum / FFT", "x", direct[i] / fft[i], {"n": size, "dtype": dtype})
+        yield Reading.single("direct sum", "ms", direct[i], {"n": size, "points": size**2, "waves": size**2})
+
+
+def test_direct_sum_concludes_from_synthetic_curves(script):
+    """The FFT at 0.1 ms + 2e-6 N log2 N, the sum at 1e-5 N^2: they cross where N^2 = 1e4, at n = 10 and a bit for the logarithm."""
+    n = np.array([4, 6, 8, 9, 10, 11, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512])
+    count = n.astype(float) ** 2
+    found = script("direct_sum").conclusions(list(costs([int(v) for v in n], 0.1 + 2e-6 * count * np.log2(count), 1e-5 * count**2)))
+    by = {(r.what, r.at.get("dtype")): r for r in found}
+    cross = by["crossover", "float32"]
+    assert (cross.low, cross.high) == (10.0, 11.0)
+    assert 10.0 < cross.median < 10.1
+    exponent = by["exponent of N, direct sum", None]
+    assert exponent.median == pytest.approx(2.0, abs=1e-12)
+    assert exponent.low <= exponent.median <= exponent.high
+    assert by["misfit of N^2, direct sum", None].median < 1e-9
+    assert by["misfit of N log N, FFT", "float64"].median < 1e-9
+    assert by["misfit of N^2, FFT", "float64"].median > 10.0
+    pure = script("direct_sum").conclusions(list(costs([int(v) for v in n], 1e-6 * count * np.log2(count), 1e-5 * count**2)))
+    divided = {(r.what, r.at.get("dtype")): r.median for r in pure}["exponent of N, FFT, the logarithm divided out", "float32"]
+    assert divided == pytest.approx(1.0, abs=1e-12)
+
+
+def test_scaling_answers(script, tmp_path):
+    result, picture = asked(script, "scaling", tmp_path, "--n", "16", "30", "31", "32", "33", "64", "--seconds", "0")
+    assert picture[:8] == PNG
+    for r in result.all("full frame"):
+        n = int(r.at["n"])
+        per = result.find("full frame, a point and log2 N", n=n)
+        assert per.median == pytest.approx(1e6 * r.median / (n * n * 2 * np.log2(n)), rel=1e-12)
+    assert result.find("exponent of N, powers of two").count == 3
+
+
+@pytest.mark.parametrize(
+    ("n", "kind"),
+    [
+        (1024, "a power of two"),
+        (360, "smooth"),
+        (343, "smooth"),
+        (257, "prime, or twice one"),
+        (514, "prime, or twice one"),
+        (143, "other"),
+    ],
+)
+def test_sizes_are_of_their_kind(script, n, kind):
+    assert script("scaling").kind(n) == kind
+
+
+def test_memory_answers(script, tmp_path):
+    result, picture = asked(script, "memory", tmp_path, "--n", "64", "--runs", "1")
+    assert picture[:8] == PNG
+    arrays = result.find("of it the frame's own arrays", n=64).median
+    assert arrays == 64 * 64 * 7 * 4 / 2**20  # height, two displacements, Jacobian, three of the normal
+    assert result.find("after the imports").median > 10.0  # NumPy alone takes more
+    assert result.find("peak above imports").median >= result.find("resident while streaming").median > 0.0
+
+
+def test_memory_counts_what_is_held(script):
+    """The child's own arithmetic, on a process that holds 64 MiB while the ocean is made and lets them go again."""
+    memory, fresh = script("memory"), script("fresh")
+    hoard = "make = lambda *a, **k: (bytearray(64 * 2**20), fo.Ocean(*a, **k))[1]\nmake.from_modes = fo.Ocean.from_modes"
+    child = memory.CHILD.replace(
+        "make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean", f"_ = fo.Sea.from_wind(speed=10.0, fetch=100e3), 0\n{hoard}"
+    )
+    assert child != memory.CHILD
+    plain, hoarding = (fresh.python("-c", text, "16", "height", "auto").said for text in (memory.CHILD, child))
+    assert hoarding["making"] - plain["making"] == pytest.approx(64.0, abs=4.0)  # pages that other allocations take or give back
+    assert abs(hoarding["resident"] - plain["resident"]) < 4.0
+
+
+def test_startup_answers(script, tmp_path, monkeypatch):
+    """Lives of processes that we choose: an idle one of 0.5 s, an import of 0.75 s, the first frame 9 s, later ones 2 s."""
+    fresh = script("fresh")
+    cold = []
+
+    def python(*arguments, cache=None):
+        if cache is not None:
+            cold.append((cache.is_dir(), cache))
+            return fresh.Run(9.0 if [c for _, c in cold].count(cache) == 1 else 2.0, 1.5, None)
+        wall = {"pass": 0.5, "import fftocean": 0.75, "--help": 1.0}[arguments[-1]]
+        return fresh.Run(wall, wall / 4.0, None)
+
+    monkeypatch.setattr(fresh, "python", python)
+    result, picture = asked(script, "startup", tmp_path, "--runs", "3", "--cold", "2")
+    assert picture[:8] == PNG
+    assert result.find("import fftocean, above Python", clock="cpu").median == 0.0625
+    medians = {r.what: r.median for r in result.readings if r.clock == "wall"}
+    assert medians["import fftocean, above Python"] == 0.25
+    assert medians["fftocean --help"] == 1.0
+    assert medians["first frame after installation"] == 9.0
+    assert medians["first frame in later processes"] == 2.0
+    assert all(is_folder for is_folder, _ in cold)
+    assert len({cache for _, cache in cold}) == 2  # each first one had an empty cache of its own
+
+
+def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path):
+    import fftocean
+
+    fresh = script("fresh")
+    program = "import fftocean, json, os; print(json.dumps([fftocean.__file__, os.environ['NUMBA_CACHE_DIR']]))"
+    run = fresh.python("-c", program, cache=tmp_path)
+    assert run.said == [fftocean.__file__, str(tmp_path)]
+    assert run.wall > 0.0
+    assert run.cpu > 0.0
+    assert fresh.python("-c", "print('no json')").said is None
+    with pytest.raises(RuntimeError, match=r"failed with 3: .*why"):
+        fresh.python("-c", "import sys; sys.exit(print('why', file=sys.stderr) or 3)")
+
+
+def test_a_profile_is_sorted_by_room(script):
+    """A profile made by hand: own times go to the room of the file; a library's to whoever called it; the system's to the disk."""
+    bake = script("bake")
+    at = lambda path, name: (str(bake.PACKAGE / path), 1, name)  # noqa: E731
+    baker, frame, encode, halves = (
+        at("bake/baker.py", "bake"),
+        at("ocean.py", "loop_frame"),
+        at("export/exr.py", "encode"),
+        at("bake/frames.py", "_halves"),
+    )
+    kernel, pack = at("kernels/passes.py", "pack"), at("kernels/half.py", "pack")
+    library, deep = ("/lib/json.py", 5, "dumps"), ("~", 0, "<built-in method deep>")
+    sync, digest, lost = (
+        ("~", 0, "<built-in method posix.fsync>"),
+        ("~", 0, "<built-in method _hashlib.openssl_sha256>"),
+        ("/lib/x.py", 1, "root"),
+    )
+
+    stats = {
+        baker: (1, 1, 1.0, 40.0, {}),
+        frame: (1, 1, 2.0, 2.0, {baker: (1, 1, 2.0, 2.0)}),
+        kernel: (1, 1, 4.0, 4.0, {frame: (1, 1, 4.0, 4.0)}),
+        encode: (1, 1, 8.0, 8.0, {baker: (1, 1, 8.0, 8.0)}),
+        pack: (1, 1, 0.5, 0.5, {halves: (1, 1, 0.5, 0.5)}),
+        halves: (1, 1, 0.25, 0.75, {baker: (1, 1, 0.25, 0.75)}),
+        library: (2, 2, 3.0, 3.5, {baker: (1, 1, 1.0, 1.0), encode: (1, 1, 2.0, 2.5)}),
+        deep: (1, 1, 0.5, 0.5, {library: (1, 1, 0.5, 0.5)}),
+        sync: (1, 1, 5.0, 5.0, {baker: (1, 1, 5.0, 5.0)}),
+        digest: (1, 1, 6.0, 6.0, {baker: (1, 1, 6.0, 6.0)}),
+        lost: (1, 1, 0.125, 0.125, {}),
+    }
+    rooms = bake.rooms(stats)
+    assert rooms == pytest.approx(
+        {
+            "simulation": 2.0 + 4.0,
+            "encoder": 8.0 + 0.5 + 0.25 + 2.0 + 0.5,  # json's callee works for json's chief caller
+            "Python": 1.0 + 1.0 + 0.125,
+            "disk": 5.0,
+            "checksums": 6.0,
+        }
+    )
+    assert sum(rooms.values()) == pytest.approx(sum(own for _, _, own, _, _ in stats.values()))
+
+
+def test_libraries_that_call_each_other_in_a_ring_are_sorted_too(script):
+    bake = script("bake")
+    a, b = ("/lib/a.py", 1, "a"), ("/lib/b.py", 1, "b")
+    stats = {a: (1, 1, 1.0, 2.0, {b: (1, 1, 1.0, 2.0)}), b: (1, 1, 2.0, 2.0, {a: (1, 1, 2.0, 2.0)})}
+    assert bake.rooms(stats) == pytest.approx({"Python": 3.0})
+
+
+def test_kernels_are_seen_by_the_profiler_and_put_back(script):
+    import cProfile
+    import pstats
+
+    from fftocean.kernels import surface
+
+    bake, before = script("bake"), surface.jacobian
+    fields = np.ones((4, 8, 8), dtype=np.float32)
+    surface.jacobian(*fields[:3], np.float32(1.0), fields[3])  # compiled
+    with bake.kernels_seen():
+        profile = cProfile.Profile()
+        profile.runcall(surface.jacobian, *fields[:3], np.float32(1.0), fields[3])
+    assert surface.jacobian is before
+    if os.environ.get("NUMBA_DISABLE_JIT") != "1":
+        assert any(Path(file).name == "surface.py" and name == "jacobian" for file, _, name in pstats.Stats(profile).stats)
+    assert np.all(fields[3] == 3.0)  # 2 x 2 - 1 x 1
+
+
+# The report
+
+
+def invented(question, *readings):
+    return answer(question, f"How is {question}?", readings, {"n": [64]}, {"utc": "2026-01-31 12:00", "load": 0.25})
+
+
+def test_each_goal_is_held_to_its_reading(script):
+    report = script("report")
+    at = {"n": 256, "backend": "pyfftw", "planning": "measure"}
+    results = {
+        "frame": invented(
+            "frame",
+            Reading("textbook / full frame", "x", 9.5, 9.0, 9.9, 20, "cpu", at),
+            Reading("textbook / full frame", "x", 8.5, 8.0, 8.9, 20, "cpu", {**at, "n": 512}),
+            Reading("full frame / floor", "x", 1.05, 1.0, 1.1, 20, "cpu", {"n": 256, "backend": "pyfftw"}),
+        ),
+        "memory": invented("memory", Reading("peak above imports", "MiB", 401.0, 400.0, 402.0, 3, "", {"n": 2048})),
+    }
+    lines = report.report(results).splitlines()
+
+    def row(words):
+        (line,) = (line for line in lines if line.startswith(f"| {words} |"))
+        return [cell.strip() for cell in line.strip("|").split("|")]
+
+    assert row("textbook NumPy / full frame, 256 x 256, pyfftw")[1:] == ["at least 9 x", "9.5 x", "9 to 9.9", "met"]
+    assert row("textbook NumPy / full frame, 512 x 512, pyfftw")[1:] == ["at least 9 x", "8.5 x", "8 to 8.9", "**not met**"]
+    assert row("full frame / eight raw c2r and a copy, 256 x 256, pyfftw")[-1] == "met"
+    assert row("peak memory above imports, full frames, 2048 x 2048")[1:] == ["at most 400 MiB", "401 MiB", "400 to 402", "**not met**"]
+    assert row("first frame after installation")[1:] == ["at most 15", "not measured", "", ""]
+    assert len([line for line in lines if "not measured" in line]) == len(report.goals()) - 4
+
+
+def test_every_goal_names_a_reading_that_its_question_makes(script, tmp_path):
+    """What the goals look for is what the questions write: at tiny sizes, put in the goals' place."""
+    report = script("report")
+    made = {"frame": asked(script, "frame", tmp_path, "--n", "16", "--seconds", "0")[0]}
+    made["direct_sum"] = asked(script, "direct_sum", tmp_path, "--n", "4", "8", "--seconds", "0")[0]
+    for goal in report.goals():
+        if goal.question in made and goal.at.get("backend", "scipy") in machine.backends() and machine.usable_cores() > 1:
+            size = {"n": 16} if goal.question == "frame" else {"n": 8}
+            assert len(made[goal.question].all(goal.reading, **{**goal.at, **size})) == 1, goal
+    sources = {name: (FOLDER / f"{name}.py").read_text() for name in ("memory", "startup", "bake")}
+    for goal in report.goals():
+        if goal.question in sources:
+            words = goal.reading.replace(", above Python", "")
+            assert f'"{words}"' in sources[goal.question], goal
+
+
+def test_the_report_is_made_from_the_files_and_from_nothing_else(script):
+    """RESULTS.md is to the byte what the JSON files give: no figure was written by hand."""
+    report = script("report")
+    assert (FOLDER / "RESULTS.md").read_text(encoding="utf-8") == report.report(report.gather())
+
+
+def test_every_question_is_asked_by_the_one_command_and_has_its_picture(script, monkeypatch, tmp_path):
+    """`all.py` runs each script with the flags that this script knows, and writes the report of what is there."""
+    everything = script("all")
+    ran = []
+
+    class Done:
+        returncode = 0
+
+    def run(command, **_):
+        name = Path(command[1]).stem
+        question = invented(name, Reading.single("x", "ms", 1.0, {"n": 64}, clock="cpu"))
+        question.write(Path(command[command.index("--json") + 1]))
+        ran.append((name, command[2:]))
+        done = Done()
+        done.returncode = int(name == "memory")
+        return done
+
+    monkeypatch.setattr(everything.subprocess, "run", run)
+    assert everything.main(["--quick", "--output", str(tmp_path)]) == 1  # one question failed
+    assert [name for name, _ in ran] == list(QUESTIONS)
+    page = (tmp_path / "RESULTS.md").read_text(encoding="utf-8")
+    for name, flags in ran:
+        assert f"(results/{name}.png)" in page
+        assert str(tmp_path / "results" / f"{name}.png") in flags
+        parser = __import__("argparse").ArgumentParser()
+        script(name).flags(parser)
+        parser.parse_args(flags[: flags.index("--json")])  # leaves with an error if a flag is unknown
+    monkeypatch.setattr(everything.subprocess, "run", lambda *_, **__: Done())
+    assert everything.main(["--only", "frame", "--output", str(tmp_path)]) == 0
+
+
+def test_a_question_that_cannot_be_asked_says_so(script, capsys):
+    assert script("frame").main(["--n", "0", "--seconds", "0"]) == 2
+    assert "frame: n must be" in capsys.readouterr().err
+
+
+def test_json_holds_the_machine_and_the_settings(script, tmp_path):
+    asked(script, "scaling", tmp_path, "--n", "8", "16", "--seconds", "0")
+    tree = json.loads((tmp_path / "scaling.json").read_text())
+    assert tree["settings"]["n"] == [8, 16]
+    assert tree["machine"] == machine.describe()
+    assert tree["before"]["utc"] <= tree["after"]["utc"]

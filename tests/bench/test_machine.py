@@ -1,0 +1,64 @@
+"""What is said of the machine: all of it plain data, and true where another source can tell."""
+
+import json
+import os
+import platform
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean.arrays import available_memory
+from fftocean.bench import machine
+
+
+def test_the_machine_is_described_in_plain_data():
+    said = machine.describe()
+    assert json.loads(json.dumps(said, allow_nan=False)) == said
+    assert said["cpu"]
+    assert said["packages"]["numpy"] == np.__version__
+    assert said["packages"]["fftocean"] == fo.__version__
+    assert platform.python_version() in said["python"]
+    assert 1 <= said["usable_cores"] <= said["cores"]
+    assert said["fft_default"] in said["fft_libraries"]
+    assert "scipy" in said["fft_libraries"]
+
+
+def test_the_default_is_what_an_ocean_takes():
+    assert machine.describe()["fft_default"] == fo.Ocean.from_modes([], n=4, size=1.0).backend
+
+
+def test_every_library_that_is_named_makes_a_frame():
+    for name in machine.backends():
+        assert fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=8, size=10.0, backend=name).backend == name
+
+
+def test_memory_is_more_than_what_is_free():
+    assert 0.0 < available_memory() < machine.memory()
+
+
+def test_the_moment_says_when_and_how_busy():
+    said = machine.moment()
+    assert set(said) == {"utc", "load"}
+    assert said["load"] is None or said["load"] >= 0.0
+    assert len(said["utc"]) == len("2026-01-31 12:00")
+
+
+def test_a_control_group_limits_the_cores(monkeypatch):
+    real = machine._read
+    monkeypatch.setattr(machine, "_read", lambda path: "150000 100000\n" if str(path).endswith("cpu.max") else real(path))
+    assert machine.usable_cores() == 1
+    monkeypatch.setattr(machine, "_read", lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path))
+    assert 1 <= machine.usable_cores() <= os.cpu_count()
+
+
+@pytest.mark.parametrize(("ranges", "count"), [("0", 1), ("0-3", 4), ("0-3,8,10-11\n", 7), ("", 0)])
+def test_lists_of_cores_are_counted(ranges, count):
+    assert machine._count(ranges) == count
+
+
+def test_a_system_without_such_files_is_described_too(monkeypatch):
+    monkeypatch.setattr(machine, "_read", lambda path: "")  # noqa: ARG005
+    assert machine.cpu_model()
+    assert machine.instructions() == []
+    assert machine.usable_cores() >= 1

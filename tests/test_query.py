@@ -1,0 +1,473 @@
+"""Points of the world: the surface inverted another way, differences in time and space, folds, filters, shapes, threads, and bad input."""
+
+import copy
+import math
+import os
+import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+
+SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
+SHALLOW = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=6.0, direction=30.0)
+TILES = [(64, 120.0), (64, 31.0), (32, 7.3)]
+FEW = fo.gerstner.CWR(period=5.0, amplitude=0.5, number=4, steepness=0.8, scale=1.6)
+RNG = np.random.default_rng(11)
+
+
+def ocean(sea=SEA, **arguments):
+    return fo.Ocean(sea, **{"n": 32, "size": 60.0, "seed": 4, "dtype": "float64", "choppiness": 0.9, **arguments})
+
+
+def cascade(**arguments):
+    return fo.Cascade(SEA, TILES, **{"seed": 2, "dtype": "float64", "choppiness": 0.7, **arguments})
+
+
+def points(count, far=200.0):
+    return np.random.default_rng(count).uniform(-far, far, (2, count))
+
+
+SOURCES = {
+    "ocean": ocean,
+    "looping": lambda: ocean(loop=40.0),
+    "shallow": lambda: ocean(SHALLOW, choppiness=0.5),
+    "oblong": lambda: ocean(n=(24, 20), size=(60.0, 37.0)),
+    "cascade": lambda: fo.Cascade(SEA, [(16, 60.0), (16, 23.0)], seed=2, dtype="float64", choppiness=0.7),
+}
+
+
+def slowly(source, x, y, t):
+    """The parameters of the water at (x, y), by a damped fixed point on `gerstner.surface` alone, with no Jacobian."""
+    x0, y0 = x.copy(), y.copy()
+    for _ in range(400):
+        s = fo.gerstner.surface(source, x0, y0, t)
+        x0, y0 = x0 + 0.6 * (x - s.x), y0 + 0.6 * (y - s.y)
+        if max(np.max(np.abs(s.x - x)), np.max(np.abs(s.y - y))) < 1e-13:
+            break
+    return x0, y0
+
+
+# What is found
+
+
+@pytest.mark.parametrize("name", SOURCES)
+def test_exact_equals_an_independent_inversion(name):
+    """1e-10 in every quantity: round-off of some hundred waves, 1e-13, times the condition of the inversion; positions as they are."""
+    source, t = SOURCES[name](), 3.7
+    x, y = points(12, far=50.0)
+    found = fo.Query(source, mode="exact").at(x, y, t)
+    x0, y0 = slowly(source, x, y, t)
+    truth = fo.gerstner.surface(source, x0, y0, t)
+    assert np.max(np.hypot(truth.x - x, truth.y - y)) < 1e-12  # so the oracle has found it
+    assert np.max(np.hypot(found.x0 - x0, found.y0 - y0)) < 1e-10
+    assert np.max(np.abs(found.heights - truth.height)) < 1e-10
+    assert np.max(np.abs(found.normals - truth.normal)) < 1e-10
+    c = source.choppiness
+    assert np.max(np.abs(found.velocities - np.stack([c * truth.velocity_x, c * truth.velocity_y, truth.velocity_z], -1))) < 1e-10
+    assert np.max(found.residual) < 1e-10
+    assert not np.any(found.folded)
+
+
+def test_few_wave_models():
+    """`Waves.at` inverted by the same damped fixed point; also as it starts from rest."""
+    x, y = points(15)
+    for model, t in ((FEW, 4.1), (fo.gerstner.CWR(period=5.0, amplitude=0.5, steepness=0.7, tau=3.0), 2.0)):
+        found = fo.Query(model).at(x, y, t)
+        x0, y0 = x.copy(), y.copy()
+        for _ in range(400):
+            s = model.waves.at(x0, y0, t)
+            x0, y0 = x0 + 0.6 * (x - s.x), y0 + 0.6 * (y - s.y)
+        s = model.waves.at(x0, y0, t)
+        assert np.max(np.abs(found.heights - s.height)) < 1e-11
+        assert np.max(np.abs(found.normals - s.normal)) < 1e-11
+        assert np.max(np.abs(found.velocities - s.velocity)) < 1e-11
+        assert np.array_equal(fo.Query(model.waves).at(x, y, t).heights, found.heights)
+    assert not np.any(fo.Query(fo.gerstner.CWR(period=5.0, amplitude=0.5, tau=3.0)).at(x, y, -1.0).heights)
+
+
+def test_modes_are_a_source():
+    source = ocean(SHALLOW)
+    x, y = points(8)
+    found = fo.Query(source.modes(), depth=6.0, choppiness=0.9).at(x, y, 2.0)
+    expected = fo.Query(source, mode="exact").at(x, y, 2.0)
+    for name in ("heights", "normals", "velocities", "accelerations"):
+        assert np.max(np.abs(found[name] - expected[name])) < 1e-11
+
+
+def test_bicubic_is_near_the_truth():
+    """U10 = 10 m/s, n = 256 over 200 m, choppiness 1: rms within 1.1 % of the standard deviation of the height, largest within 4.5 %."""
+    source = fo.Ocean(SEA, n=256, size=200.0, seed=1)
+    x, y = points(300)
+    query, sigma = fo.Query(source, mode="bicubic"), math.sqrt(source.amplitudes.variance)
+    found = query.at(x, y, 3.7, "heights")
+    exact = fo.gerstner.surface(source, found.x0, found.y0, 3.7)
+    error = found.heights - exact.height
+    assert np.sqrt(np.mean(error**2)) < 0.011 * sigma
+    assert np.max(np.abs(error)) < 0.045 * sigma
+    apart = np.hypot(exact.x - x, exact.y - y)
+    assert np.sqrt(np.mean(apart**2)) < 0.02 * sigma  # two displacements with the height's own error
+    bilinear = fo.Query(source, mode="bilinear").at(found.x0[:1] * 0 + x[:1], y[:1], 3.7, "heights")
+    assert abs(bilinear.heights[0] - found.heights[0]) < 0.1 * sigma
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
+def test_interpolated_modes_invert_what_they_return(mode):
+    """The surface is known at its vertices: a query at the place of one returns that vertex, in every quantity, to rounding."""
+    source = cascade(choppiness=0.6)
+    single = source.oceans[0]
+    frame = single.frame(5.0, ("height", "displace_x", "displace_y", "normal", "velocity_z"))
+    grid = single.grid
+    rows, columns = RNG.integers(0, grid.ny, 40), RNG.integers(0, grid.nx, 40)
+    x = grid.x[columns] + 0.6 * frame.displace_x[rows, columns] + 3 * grid.lx
+    y = grid.y[rows] + 0.6 * frame.displace_y[rows, columns] - 2 * grid.ly
+    found = fo.Query(single, mode=mode).at(x, y, 5.0)
+    assert np.max(np.abs(found.heights - frame.height[rows, columns])) < 1e-9
+    assert np.max(np.abs(found.normals - frame.normal[rows, columns])) < 1e-8
+    assert np.max(np.abs(found.velocities[:, 2] - frame.velocity_z[rows, columns])) < 1e-8
+    assert np.max(found.residual) < 1e-9 * grid.lx
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
+def test_interpolation_converges(mode):
+    """Twice the samples: a 4th (linear) or 16th (cubic) of the error in height, half a power off; for waves that both resolve."""
+    modes = [(1, 2, 0.3, 0.4), (-2, 1, 0.2, 1.0), (3, 0, 0.1, 2.0)]
+    x, y = points(60)
+    errors = []
+    for n in (32, 64):
+        source = fo.Ocean.from_modes(modes, n=n, size=40.0, dtype="float64")
+        exact = fo.Query(source, mode="exact").at(x, y, 1.0)
+        found = fo.Query(source, mode=mode).at(x, y, 1.0)
+        errors.append([np.max(np.abs(found[name] - exact[name])) for name in ("heights", "normals", "velocities", "accelerations")])
+    ratios = np.array(errors[0]) / np.array(errors[1])
+    order = 2 if mode == "bilinear" else 4
+    assert np.all(ratios > 2.0 ** (order - 0.5))
+    assert np.all(np.array(errors[1]) < (0.05 if mode == "bilinear" else 0.001))
+
+
+def test_bicubic_of_a_cascade_is_near_exact():
+    """Three tiles, their displacements summed before inverting: heights within 2 % of sigma of the waves themselves."""
+    source = cascade()
+    x, y = points(40)
+    exact = fo.Query(source, mode="exact").at(x, y, 9.0)
+    for mode, share in (("bicubic", 0.02), ("bilinear", 0.1)):
+        found = fo.Query(source, mode=mode).at(x, y, 9.0)
+        assert np.max(np.abs(found.heights - exact.heights)) < share * math.sqrt(source.variance)
+
+
+# Motion
+
+
+@pytest.mark.parametrize("source", [ocean(), cascade(), FEW], ids=["ocean", "cascade", "few"])
+def test_velocity_is_the_rate_of_the_position(source):
+    """
+    Of the particle found: central differences of its position converge as dt^2, twice dt four times the error; so do accelerations.
+
+    Positions are those of `gerstner.surface` or `Waves.at`, at the parameters found.
+    """
+    x, y = points(6, far=40.0)
+    found = fo.Query(source, mode="exact").at(x, y, 2.0)
+
+    def position(t):
+        if source is FEW:
+            return FEW.waves.at(found.x0, found.y0, t).position
+        s = fo.gerstner.surface(source, found.x0, found.y0, t)
+        return np.stack([s.x, s.y, s.z], axis=-1)
+
+    assert np.max(np.abs(position(2.0) - np.stack([x, y, found.heights], axis=-1))) < 1e-10
+    first, second = [], []
+    for dt in (0.01, 0.02):
+        first.append(np.max(np.abs((position(2.0 + dt) - position(2.0 - dt)) / (2 * dt) - found.velocities)))
+        second.append(np.max(np.abs((position(2.0 + dt) - 2 * position(2.0) + position(2.0 - dt)) / dt**2 - found.accelerations)))
+    assert first[1] / first[0] == pytest.approx(4.0, rel=0.1)
+    assert second[1] / second[0] == pytest.approx(4.0, rel=0.1)
+    assert first[0] < 1e-2 * np.max(np.abs(found.velocities))
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
+def test_interpolated_velocity_is_the_rate_of_the_interpolated_position(mode):
+    """One texel's particle, followed through three queries: the central difference of where it is; dt^2/6 of the third derivative."""
+    source = ocean(choppiness=0.6)
+    column, row, t, dt = 5, 9, 4.0, 1e-3
+    frames = [source.frame(s, ("height", "displace_x", "displace_y")) for s in (t - dt, t, t + dt)]
+    place = [
+        np.array(
+            [
+                source.grid.x[column] + 0.6 * f.displace_x[row, column],
+                source.grid.y[row] + 0.6 * f.displace_y[row, column],
+                f.height[row, column],
+            ]
+        )
+        for f in frames
+    ]
+    found = fo.Query(source, mode=mode).at(place[1][0], place[1][1], t)
+    assert np.max(np.abs((place[2] - place[0]) / (2 * dt) - found.velocities)) < 1e-4
+    assert np.max(np.abs((place[2] - 2 * place[1] + place[0]) / dt**2 - found.accelerations)) < 1e-3
+
+
+def test_normals_are_those_of_the_heights():
+    """Central differences of queried heights in the world: -dz/dx, -dz/dy, 1; h^2 of third derivatives."""
+    query, h = fo.Query(ocean(choppiness=0.6), mode="exact"), 1e-4
+    x, y = points(10)
+    heights = {step: query.at(x + step[0], y + step[1], 1.0, "heights").heights for step in ((h, 0), (-h, 0), (0, h), (0, -h))}
+    normal = np.stack([-(heights[h, 0] - heights[-h, 0]) / (2 * h), -(heights[0, h] - heights[0, -h]) / (2 * h), np.ones(10)], axis=-1)
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    assert np.max(np.abs(normal - query.at(x, y, 1.0).normals)) < 1e-5
+
+
+# Folds
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+@pytest.mark.parametrize("choppiness", [1.0, 1.3, 6.0])
+def test_residuals_are_small_or_flagged(mode, choppiness):
+    """Steep enough to fold: residuals at most 1e-9 of the tile, true by the direct sum; flags where the surface lies upside down."""
+    source = ocean(choppiness=choppiness, n=64)
+    frame = source.frame(3.0, ("jacobian",))
+    query = fo.Query(source, mode=mode)
+    x, y = points(400 if mode != "exact" else 12)
+    found = query.at(x, y, 3.0)
+    limit = 1e-9 * source.grid.lx
+    assert np.all((found.residual <= limit) | found.folded)
+    assert np.max(found.residual) <= limit  # on this surface every point is found
+    if mode == "exact":
+        truth = fo.gerstner.surface(source, found.x0, found.y0, 3.0)
+        assert np.max(np.abs(np.hypot(truth.x - x, truth.y - y) - found.residual)) < 1e-12
+        assert np.array_equal(found.folded, truth.jacobian <= 0.0)
+    if choppiness == 6.0:
+        assert np.min(frame.jacobian) < -0.5
+        if mode != "exact":
+            assert np.any(found.folded)
+        assert np.all(found.normals[found.folded, 2] <= 0.0) or mode != "exact"
+
+
+def test_a_flag_where_nothing_was_found(monkeypatch):
+    """Points whose search is cut short keep the best there was, and say so."""
+    from fftocean.kernels import query as kernels
+
+    def lazy(*arguments):
+        arguments[-2][:], arguments[-1][:] = 1.0, 1.0  # a residual of a metre, and no fold
+        arguments[-4][:], arguments[-3][:] = 0.0, 0.0
+
+    monkeypatch.setattr(kernels, "invert", lazy)
+    found = fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights")
+    assert np.all(found.folded)
+
+
+# The filter
+
+
+def test_waves_shorter_than_asked_are_ignored():
+    """One long and one short wave: with the filter, what the long one alone gives, in every mode; without, it is not."""
+    long, short = (2, 1, 0.4, 0.3), (9, 4, 0.1, 1.0)
+    both, alone = (fo.Ocean.from_modes(modes, n=32, size=50.0, dtype="float64", choppiness=0.9) for modes in ([long, short], [long]))
+    x, y = points(20)
+    for mode in ("bilinear", "bicubic", "exact"):
+        expected = fo.Query(alone, mode=mode).at(x, y, 2.0)
+        found = fo.Query(both, mode=mode, shortest=10.0).at(x, y, 2.0)
+        for name in ("heights", "normals", "velocities", "accelerations"):
+            assert np.max(np.abs(found[name] - expected[name])) < 1e-11
+        assert np.max(np.abs(fo.Query(both, mode=mode).at(x, y, 2.0).heights - expected.heights)) > 0.05
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+def test_a_filter_that_leaves_nothing_leaves_a_flat_sea(mode):
+    found = fo.Query(cascade(), mode=mode, shortest=1e4).at([1.0, 2.0], [0.0, math.nan], 3.0)
+    assert np.array_equal(found.heights, [0.0, math.nan], equal_nan=True)
+    assert np.array_equal(found.normals[0], [0.0, 0.0, 1.0])
+    assert np.all(np.isnan(found.normals[1]))
+    assert not np.any(found.velocities[0])
+    assert found.residual[0] == 0.0
+    assert not np.any(found.folded)
+
+
+def test_a_filter_drops_whole_tiles():
+    source = cascade()
+    shortest = 1.6 * 2 * math.pi / source.bands[1][0]
+    x, y = points(5)
+    found = fo.Query(source, shortest=shortest).at(x, y, 1.0)
+    assert np.allclose(found.heights, fo.Query(source.oceans[0], shortest=shortest).at(x, y, 1.0).heights, atol=1e-13)
+
+
+# Shapes and coordinates
+
+
+@pytest.mark.parametrize("mode", ["bicubic", "exact"])
+def test_any_shape(mode):
+    query = fo.Query(ocean(), mode=mode)
+    one = query.at(3.0, 4.0, 1.5)
+    assert one.heights.shape == one.folded.shape == one.residual.shape == one.x0.shape == ()
+    assert one.normals.shape == one.velocities.shape == one.accelerations.shape == (3,)
+    assert query.at([3, 4], [4, 5], 1).heights.shape == (2,)
+    grid = query.at(np.zeros((3, 1)), np.zeros((1, 4)), 1.5)
+    assert grid.heights.shape == (3, 4)
+    assert grid.velocities.shape == (3, 4, 3)
+    assert query.at([], [], 1.5).normals.shape == (0, 3)
+    several = query.at(np.full((2, 2), 3.0), 4.0, [[1.5, 2.5], [2.5, 1.5]])
+    assert np.allclose(several.heights[[0, 1], [0, 1]], one.heights, atol=1e-13)
+    assert several.heights[0, 1] == several.heights[1, 0] != one.heights
+    x = np.asfortranarray(RNG.uniform(-9, 9, (4, 5)))
+    assert np.array_equal(query.at(x[:, ::2], x[:, ::2].T[0, 0], 1.5).heights, query.at(x, x[0, 0], 1.5).heights[:, ::2])
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+def test_far_away_and_negative(mode):
+    """Whole periods away: as near the origin, to the rounding of the coordinate itself times the steepest slope."""
+    source = ocean()
+    query = fo.Query(source, mode=mode)
+    x, y = points(10, far=30.0)
+    near = query.at(x, y, 1.0)
+    for periods in (-3, 1000, -(10**7), 10**12):
+        found = query.at(x + 60.0 * periods, y - 120.0 * periods, 1.0)
+        rounding = 4 * np.spacing(120.0 * abs(periods))
+        assert np.max(np.abs(found.heights - near.heights)) < 1e-12 + rounding
+        assert np.max(found.residual) < 6e-8
+
+
+def test_years_later():
+    """t = 1e8 s: the exact sum has the waves where the frames have them; 1e-10 rad of phase."""
+    source = ocean()
+    frame = source.frame(1e8, ("height", "displace_x", "displace_y"))
+    x = source.grid.x[7] + 0.9 * frame.displace_x[3, 7]
+    y = source.grid.y[3] + 0.9 * frame.displace_y[3, 7]
+    assert abs(fo.Query(source, mode="exact").at(x, y, 1e8).heights - frame.height[3, 7]) < 1e-9
+    looping = ocean(loop=40.0)
+    exact = fo.Query(looping, mode="exact")
+    assert abs(exact.at(1.0, 2.0, 40.0 * 2**30 + 1.5).heights - exact.at(1.0, 2.0, 1.5).heights) < 1e-12
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_is_nan_for_that_point_only(mode, bad):
+    query = fo.Query(cascade(), mode=mode)
+    clean = query.at([1.0, 2.0, 3.0], [4.0, 5.0, 6.0], 1.5)
+    for x, y, t in (
+        ([1.0, bad, 3.0], [4.0, 5.0, 6.0], 1.5),
+        ([1.0, 2.0, 3.0], [4.0, bad, 6.0], 1.5),
+        ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [1.5, bad, 1.5]),
+    ):
+        found = query.at(x, y, t)
+        for name in ("heights", "normals", "velocities", "accelerations"):
+            assert np.all(np.isnan(found[name][1]))
+            assert np.array_equal(found[name][[0, 2]], clean[name][[0, 2]])
+        assert math.isnan(found.residual[1])
+        assert math.isnan(found.x0[1])
+        assert not found.folded[1]
+    assert np.all(np.isnan(query.at([1.0, 2.0], 0.0, bad).heights))
+
+
+def test_without_choppiness_the_water_stays_where_it_is():
+    source = ocean(choppiness=0.0)
+    x, y = points(20)
+    found = fo.Query(source).at(x, y, 1.0)
+    assert np.array_equal(found.x0, x)
+    assert not np.any(found.residual)
+    assert not np.any(found.velocities[:, :2])
+    assert not np.any(found.folded)
+
+
+# A query as a thing
+
+
+def test_only_what_is_asked_is_there():
+    query = fo.Query(ocean())
+    found = query.at([1.0, 2.0], 0.0, 0.5, fields=("heights",))
+    with pytest.raises(fo.FieldError, match="velocities"):
+        _ = found.velocities
+    full = query.at([1.0, 2.0], 0.0, 0.5)
+    assert np.array_equal(full.heights, found.heights)
+    with pytest.raises(fo.FieldError, match="heights"):
+        _ = query.at(1.0, 2.0, 0.0, "normals").heights
+
+
+def test_one_time_is_synthesised_once(monkeypatch):
+    calls = []
+    frame = fo.Ocean.frame
+    monkeypatch.setattr(fo.Ocean, "frame", lambda self, t, *rest, **more: (calls.append(t), frame(self, t, *rest, **more))[1])
+    query = fo.Query(ocean())
+    for _ in range(3):
+        query.at(1.0, 2.0, 0.5, ("heights", "normals"))
+    assert calls == [0.5]
+    query.at(1.0, 2.0, 0.5)
+    assert calls == [0.5, 0.5, 0.5]  # velocities, and accelerations: what was missing
+    query.at(1.0, 2.0, 0.75, "heights")
+    query.at(1.0, 2.0, 0.5, "heights")
+    assert calls[3:] == [0.75, 0.5]
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "exact"])
+def test_threads_change_nothing(mode):
+    source = fo.Ocean(SEA, n=16, size=60.0, dtype="float32")
+    x, y = points(40000 if mode == "bilinear" else 100)
+    one, two = (fo.Query(source, mode=mode, threads=threads).at(x, y, 1.0) for threads in (1, 2))
+    for name in ("heights", "normals", "velocities", "accelerations"):
+        assert np.array_equal(one[name], two[name])
+
+
+def test_many_threads_share_a_query():
+    query = fo.Query(cascade(), mode="bilinear", threads=2)
+    x, y = points(50)
+    times = [0.1 * (i % 5) for i in range(40)]
+    alone = {t: query.at(x, y, t).accelerations for t in set(times)}
+    with ThreadPoolExecutor(8) as pool:
+        for t, found in zip(times, pool.map(lambda t: query.at(x, y, t).accelerations, times), strict=True):
+            assert np.array_equal(found, alone[t])
+
+
+def test_a_query_is_a_frozen_value():
+    query = fo.Query(ocean(), mode="bilinear", shortest=3.0, threads=2)
+    with pytest.raises(AttributeError, match="frozen"):
+        query.mode = "exact"
+    for again in (pickle.loads(pickle.dumps(query)), copy.copy(query)):
+        assert (again.mode, again.shortest, again.threads) == ("bilinear", 3.0, 2)
+        assert np.array_equal(again.at(1.0, 2.0, 0.5).normals, query.at(1.0, 2.0, 0.5).normals)
+    assert "bilinear" in repr(query)
+    assert "heights" in repr(query.at(1.0, 2.0, 0.5))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork there")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_forked_child_can_ask_too():
+    query = fo.Query(ocean(), mode="bilinear", threads=2)
+    x, y = points(20000)
+    expected = float(np.sum(query.at(x, y, 1.0, "heights").heights))
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        value = float(np.sum(query.at(x, y, 1.0, "heights").heights))
+        os.write(writing, b"1" if value == expected else b"0")
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert os.read(reading, 1) == b"1"
+    os.close(reading)
+    os.close(writing)
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: fo.Query("water"), "must come from"),
+        (lambda: fo.Query(ocean(), mode="nearest"), "mode must be one of"),
+        (lambda: fo.Query(FEW, mode="bicubic"), "must be 'exact'"),
+        (lambda: fo.Query(ocean(), shortest=-1.0), "shortest"),
+        (lambda: fo.Query(ocean(), shortest=math.nan), "shortest"),
+        (lambda: fo.Query(ocean(), threads=0), "threads"),
+        (lambda: fo.Query(ocean(), depth=3.0), "go with Modes only"),
+        (lambda: fo.Query(ocean(), choppiness=1.0, mode="exact"), "go with Modes only"),
+        (lambda: fo.Query(ocean().modes(), depth=-1.0), "depth"),
+        (lambda: fo.Query(ocean().modes()._replace(kx=np.array([math.nan]))), "columns of finite"),
+        (lambda: fo.Query(ocean().modes()._replace(kx=0 * ocean().modes().kx, ky=0 * ocean().modes().kx)), "above 0"),
+        (lambda: fo.Query(ocean()).at("a", 0.0, 0.0), "x must be numbers"),
+        (lambda: fo.Query(ocean()).at(1.0, 1j, 0.0), "y must be numbers"),
+        (lambda: fo.Query(ocean()).at(1.0, None, 0.0), "y must be numbers"),
+        (lambda: fo.Query(ocean()).at([1.0, 2.0], [1.0, 2.0, 3.0], 0.0), "broadcast"),
+        (lambda: fo.Query(ocean()).at(1.0, 2.0, 1e13), "t must"),
+        (lambda: fo.Query(ocean()).at(1.0, 2.0, 0.0, ("height",)), "a field must be one of"),
+    ],
+)
+def test_bad_input_is_refused(make, says):
+    with pytest.raises(fo.ParameterError, match=says):
+        make()
