@@ -74,6 +74,11 @@ class Plan:
     rows: tuple[Row, ...]
 
 
+def rows_of_the_table() -> tuple[tuple[str, ...], ...]:
+    """The pairs, as far as the table allows them: two that differ by more than a real factor and one of kx go a row each."""
+    return tuple(row for pair in PAIRS for row in ([pair] if _derived(pair) or _mixable(pair) else [(name,) for name in pair]))
+
+
 def _derived(pair: tuple[str, ...]) -> bool:
     """Whether the second of a pair is the first's derivative along x, or there is none."""
     if len(pair) == 1:
@@ -82,15 +87,19 @@ def _derived(pair: tuple[str, ...]) -> bool:
     return (b.of, b.dt, b.dy, b.dx) == (a.of, a.dt, a.dy, a.dx + 1)
 
 
+def _mixable(pair: tuple[str, ...]) -> bool:
+    """Whether A and i B of a pair differ by a real factor before anything is known of kx."""
+    a, b = (FIELDS[name] for name in pair)
+    return a.dx == b.dx == 0 and (1 + b.dy - a.dy) % 2 == 0
+
+
 def _spectra_of(pair: tuple[str, ...]) -> tuple[Spectrum, ...]:
     """The spectra that a pair needs: A alone where the rest is a factor of kx, else A + i weight B and A - i weight B."""
     a: Field = FIELDS[pair[0]]
     if _derived(pair):
         return (Spectrum(pair, (a.of, a.dt), a.dx + a.dy, a.dy),)
     b: Field = FIELDS[pair[1]]
-    half_turns, odd = divmod(1 + b.dy - a.dy, 2)  # by which i B leads A
-    assert a.dx == b.dx == odd == 0, "the two must differ by a real factor, and kx is not known yet"
-    sign = (-1) ** half_turns
+    sign = (-1) ** ((1 + b.dy - a.dy) // 2)  # i B leads A by so many half turns
     return tuple(Spectrum(pair, (a.of, a.dt), a.dy, a.dy, (b.of, b.dt), b.dy, s) for s in (sign, -sign))
 
 
@@ -98,7 +107,7 @@ def _spectra_of(pair: tuple[str, ...]) -> tuple[Spectrum, ...]:
 def plan_of(fields: tuple[str, ...]) -> Plan:
     """Plan a set of field names."""
     wanted = {name for field in fields for name in ((field,) if field in FIELDS else POINTWISE[field])}
-    pairs = tuple(pair for pair in PAIRS if wanted & set(pair))
+    pairs = tuple(pair for pair in rows_of_the_table() if wanted & set(pair))
     spectra: list[Spectrum] = []
     rows = []
     for pair in pairs:
@@ -140,12 +149,13 @@ class Synthesis:
         self._omega: Real | None = None
         self._between = np.zeros(0, dtype=COMPLEX_OF[dtype])
         size = magnitudes(amplitudes)
+        pairs = rows_of_the_table()
         # The transform's rounding errors are shared out between a pair: a power of two, which rounds nothing, makes them equals.
         self._weights: dict[tuple[str, ...], float] = {
-            pair: 2.0 ** round(np.log2(size[pair[0]] / size[pair[1]])) for pair in PAIRS if len(pair) == 2
+            pair: 2.0 ** round(np.log2(size[pair[0]] / size[pair[1]])) for pair in pairs if len(pair) == 2
         }
-        self._numbers = {spectrum: self._numbers_of(spectrum) for pair in PAIRS for spectrum in _spectra_of(pair)}
-        self._factors = {pair: self._factors_of(pair) for pair in PAIRS}
+        self._numbers = {spectrum: self._numbers_of(spectrum) for pair in pairs for spectrum in _spectra_of(pair)}
+        self._factors = {pair: self._factors_of(pair) for pair in pairs}
         self._widths = (block_of(grid.ny, self.columns), block_of(grid.nx, grid.ny))
         self._desks = [_Desk(self._widths, grid.shape, dtype, backend, planning) for _ in range(threads)]
         self.restart()
