@@ -48,7 +48,10 @@ class Answer:
         self.residual = residual
         """How far from the point asked for the water found is, horizontally [m]."""
         self.folded = folded
-        """True where that water lies upside down, as part of a fold, or where the residual is above 1e-9 of the tile's size."""
+        """
+        True where the answer is one of several or none: the search met water that lies upside down, which is that of a fold at this
+        point or beside it; or it ended with a residual above 1e-9 of the largest tile's size (of the longest wave, without tiles).
+        """
         self._arrays = dict(arrays)
 
     def __getitem__(self, name: str) -> Real:
@@ -326,6 +329,7 @@ class _Interpolated:
         self._layout = np.array([(start, grid.nx, grid.ny) for start, grid in zip(starts, grids, strict=False)], dtype=np.int64).reshape(
             -1, 3
         )
+        self._rates = self._layout[:, 1:] / self._sizes
         self._texels, self._dtype = int(starts[-1]), oceans[0].dtype
         self.limit = 1e-9 * float(np.max(self._sizes, initial=0.0))
         self._reach = _FAR * self._choppiness * math.sqrt(sum(_mean_square_displacement(ocean) for ocean in used))
@@ -359,7 +363,7 @@ class _Interpolated:
         def work(x: Real, y: Real, out: _Found) -> None:
             origin, heights = np.empty(sizes.shape), out.arrays["heights"]
             room = (origin, out.offsets, heights, out.residuals, out.jacobians)
-            kernels.follow(self._spline, sizes, layout, motion, x, y, c, self.limit, *room)
+            kernels.follow(self._spline, sizes, self._rates, layout, motion, x, y, c, self.limit, *room)
             hard = np.flatnonzero(out.residuals > self.limit)
             if hard.size:
                 left = _Found.room(hard.size, ())
@@ -397,9 +401,9 @@ class _Interpolated:
         frames = [ocean.frame(still.t, ours) for ocean in self._oceans] if ours else []
         for group in missing:
             if group == "motion":
-                flat = np.zeros((self._texels, 4), dtype=self._dtype)
+                flat = np.zeros(4 * self._texels, dtype=self._dtype)
                 for frame, (start, nx, ny) in zip(frames, self._layout, strict=True):
-                    tile = flat[start : start + nx * ny].reshape(ny, nx, 4)
+                    tile = flat[4 * start : 4 * (start + nx * ny)].reshape(ny, nx, 4)
                     for name in names[group]:
                         tile[:, :, MOTION.index(name)] = frame[name]
                 still.groups[group] = [flat]
@@ -421,7 +425,7 @@ class _Still:
 
 _GROUPS = {"geometry": "normals", "velocity": "velocities", "acceleration": "accelerations"}
 _CHANNELS = {"motion": MOTION, "geometry": GEOMETRY, "velocity": VELOCITY, "acceleration": MOTION}  # the last of another ocean
-_NO_LAYOUT, _NO_TEXELS, _NO_FIRST, _NO_WAVES = np.zeros((0, 3), np.int64), np.zeros((0, 4)), np.zeros(0, np.int64), np.zeros((5, 0))
+_NO_LAYOUT, _NO_TEXELS, _NO_FIRST, _NO_WAVES = np.zeros((0, 3), np.int64), np.zeros(0), np.zeros(0, np.int64), np.zeros((5, 0))
 
 
 def _side_by_side(frame: Any, names: Sequence[str]) -> Real:

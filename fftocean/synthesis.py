@@ -132,7 +132,7 @@ def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
 
 def block_of(n: int, available: int) -> int:
     """How many rows of n to work on at a time: what a second-level cache of 1 MB holds with its results; measured, and flat about there."""
-    return min(32 if n <= 512 else 16, available)
+    return min(max(2**14 // n, 16), 64, available)
 
 
 class Synthesis:

@@ -102,18 +102,24 @@ def bake(
                     with crew:
                         order = survey(crew, order, scene, ledger)
                         _write(crew, order, todo, rows, ledger)
+                    _sweep(folder)  # a worker may have died while it wrote
                 manifest = _finish(order, scene, [rows[j] for j in chosen], containers, ledger)
             with suppress(OutputError):  # the bake is done; what is left of its work is litter
                 discard_work(folder)
         except BaseException:
-            for room in layout.rooms(folder):
-                sweep(room)
+            _sweep(folder)
             raise
         finally:
             leave()
     if listen:
         listen({"event": "done", "manifest": str(folder / layout.MANIFEST_FILE), "frames": len(chosen)})
     return manifest
+
+
+def _sweep(folder: Path) -> None:
+    """Remove the temporary files of all who are stopped."""
+    for room in layout.rooms(folder):
+        sweep(room)
 
 
 def scene_for(job: Job, downsample: int) -> Scene:

@@ -25,10 +25,10 @@ def bilinear(texels: Real, u: Real, v: Real, out: Real) -> None:
             continue
         i, f = _texel(u[p], nx)
         j, g = _texel(v[p], ny)
-        right, above = _wrapped(i + 1, nx), _wrapped(j + 1, ny)
+        left, right, below, above = np.uint64(i), np.uint64(_after(i, nx)), np.uint64(j), np.uint64(_after(j, ny))
         for c in range(channels):
-            low = texels[j, i, c] * (1.0 - f) + texels[j, right, c] * f
-            high = texels[above, i, c] * (1.0 - f) + texels[above, right, c] * f
+            low = texels[below, left, c] * (1.0 - f) + texels[below, right, c] * f
+            high = texels[above, left, c] * (1.0 - f) + texels[above, right, c] * f
             out[p, c] += low * (1.0 - g) + high * g
 
 
@@ -48,14 +48,15 @@ def bicubic(texels: Real, u: Real, v: Real, spline: bool, out: Real) -> None:
         i, f = _texel(u[p], nx)
         j, g = _texel(v[p], ny)
         a, b = (spline_weights(f), spline_weights(g)) if spline else (catmull_rom_weights(f), catmull_rom_weights(g))
-        i0, i2, i3 = _wrapped(i - 1, nx), _wrapped(i + 1, nx), _wrapped(i + 2, nx)
-        row = j - 1
+        i0, i1, i2 = np.uint64(_wrapped(i - 1, nx)), np.uint64(i), np.uint64(_after(i, nx))
+        i3 = np.uint64(_after(_after(i, nx), nx))
+        row = _wrapped(j - 1, ny)
         for weight in b:
-            r = _wrapped(row, ny)
+            r = np.uint64(row)
             for c in range(channels):
-                along = texels[r, i0, c] * a[0] + texels[r, i, c] * a[1] + texels[r, i2, c] * a[2] + texels[r, i3, c] * a[3]
+                along = texels[r, i0, c] * a[0] + texels[r, i1, c] * a[1] + texels[r, i2, c] * a[2] + texels[r, i3, c] * a[3]
                 out[p, c] += weight * along
-            row += 1
+            row = _after(row, ny)
 
 
 @compiled
@@ -63,12 +64,13 @@ def bilinear_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: f
     """
     Return the first three channels (a, b, c) at (u, v), and da/du, da/dv, db/du, db/dv of the interpolant itself.
 
-    `texels` is flat, (any, 4): the tile's lie row by row from `first` on. (u, v) is finite, and not too far away for an integer.
+    `texels` is flat, four channels to a texel: the tile's lie row by row from texel `first` on. (u, v) is finite, and not too far away
+    for an integer.
     """
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
-    right = _wrapped(i + 1, nx)
-    low, high = first + j * nx, first + _wrapped(j + 1, ny) * nx
+    right = _after(i, nx)
+    low, high = first + j * nx, first + _after(j, ny) * nx
     a, a_u, b, b_u, c = _linear_row(texels, low + i, low + right, f)
     a_high, a_u_high, b_high, b_u_high, c_high = _linear_row(texels, high + i, high + right, f)
     a_v, b_v = a_high - a, b_high - b
@@ -78,9 +80,19 @@ def bilinear_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: f
 @compiled
 def _linear_row(texels: Real, i: int, right: int, f: float) -> tuple[float, ...]:
     """(a, da/du, b, db/du, c) between two texels."""
-    a, b, c = float(texels[i, 0]), float(texels[i, 1]), float(texels[i, 2])
-    a_u, b_u = texels[right, 0] - a, texels[right, 1] - b
-    return a + f * a_u, a_u, b + f * b_u, b_u, c + f * (texels[right, 2] - c)
+    a, b, c = _three(texels, i)
+    p, q, r = _three(texels, right)
+    return a + f * (p - a), p - a, b + f * (q - b), q - b, c + f * (r - c)
+
+
+@compiled
+def _three(texels: Real, i: int) -> tuple[float, float, float]:
+    """The first three channels of a texel. Unsigned indices, here as above, spare the question whether they count from the end."""
+    k = np.uint64(4 * i)
+    return float(texels[k]), float(texels[k + _ONE]), float(texels[k + _TWO])
+
+
+_ONE, _TWO = np.uint64(1), np.uint64(2)
 
 
 @compiled
@@ -91,13 +103,10 @@ def spline_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: flo
     w, d = spline_weights(f), spline_slopes(f)
     w0, w1, w2, w3 = spline_weights(g)
     d0, d1, d2, d3 = spline_slopes(g)
-    i0, i2, i3 = _wrapped(i - 1, nx), _wrapped(i + 1, nx), _wrapped(i + 2, nx)
-    r0, r1, r2, r3 = (
-        first + _wrapped(j - 1, ny) * nx,
-        first + j * nx,
-        first + _wrapped(j + 1, ny) * nx,
-        first + _wrapped(j + 2, ny) * nx,
-    )
+    i0, i2 = _wrapped(i - 1, nx), _after(i, nx)
+    i3, r2 = _after(i2, nx), _after(j, ny)
+    r0, r1, r3 = first + _wrapped(j - 1, ny) * nx, first + j * nx, first + _after(r2, ny) * nx
+    r2 = first + r2 * nx
     a0, p0, b0, q0, c0 = _cubic_row(texels, r0 + i0, r0 + i, r0 + i2, r0 + i3, w, d)
     a1, p1, b1, q1, c1 = _cubic_row(texels, r1 + i0, r1 + i, r1 + i2, r1 + i3, w, d)
     a2, p2, b2, q2, c2 = _cubic_row(texels, r2 + i0, r2 + i, r2 + i2, r2 + i3, w, d)
@@ -118,14 +127,16 @@ def _cubic_row(
     texels: Real, i: int, j: int, k: int, m: int, w: tuple[float, float, float, float], d: tuple[float, float, float, float]
 ) -> tuple[float, ...]:
     """(a, da/du, b, db/du, c) along four texels of one row, with the weights of values and slopes."""
-    a, b, c, e = float(texels[i, 0]), float(texels[j, 0]), float(texels[k, 0]), float(texels[m, 0])
-    p, q, r, s = float(texels[i, 1]), float(texels[j, 1]), float(texels[k, 1]), float(texels[m, 1])
+    a0, b0, c0 = _three(texels, i)
+    a1, b1, c1 = _three(texels, j)
+    a2, b2, c2 = _three(texels, k)
+    a3, b3, c3 = _three(texels, m)
     return (
-        w[0] * a + w[1] * b + w[2] * c + w[3] * e,
-        d[0] * a + d[1] * b + d[2] * c + d[3] * e,
-        w[0] * p + w[1] * q + w[2] * r + w[3] * s,
-        d[0] * p + d[1] * q + d[2] * r + d[3] * s,
-        w[0] * texels[i, 2] + w[1] * texels[j, 2] + w[2] * texels[k, 2] + w[3] * texels[m, 2],
+        w[0] * a0 + w[1] * a1 + w[2] * a2 + w[3] * a3,
+        d[0] * a0 + d[1] * a1 + d[2] * a2 + d[3] * a3,
+        w[0] * b0 + w[1] * b1 + w[2] * b2 + w[3] * b3,
+        d[0] * b0 + d[1] * b1 + d[2] * b2 + d[3] * b3,
+        w[0] * c0 + w[1] * c1 + w[2] * c2 + w[3] * c3,
     )
 
 
@@ -180,3 +191,9 @@ def _wrapped(i: int, n: int) -> int:
     elif i >= n:
         i -= n
     return i if 0 <= i < n else i % n
+
+
+@compiled
+def _after(i: int, n: int) -> int:
+    """The texel after i, which is one of the tile's."""
+    return i + 1 if i + 1 < n else 0

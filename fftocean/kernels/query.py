@@ -7,8 +7,9 @@ an offset of a few metres: far from the origin nothing but the reduction itself 
 
     kind     BILINEAR, SPLINE or WAVES
     sizes    (tiles, 2)      lx, ly [m]
+    rates    (tiles, 2)      nx/lx, ny/ly: texels to the metre
     layout   (tiles, 3)      first, nx, ny of each tile's texels in the flat arrays
-    texels   (all, 4)        displace_x, displace_y, height, unused
+    texels   (4 all,)        displace_x, displace_y, height and nothing of each: 16 bytes in single precision
     first    (tiles + 1,)    where the waves of each tile begin
     waves    (5, all)        kx, ky, a, push, start: height a cos f, displacement -push (kx, ky) sin f, with f = kx x + ky y - start
 """
@@ -47,6 +48,7 @@ def _reduced(x: float, size: float) -> float:
 def follow(
     cubic: bool,
     sizes: Real,
+    rates: Real,
     layout: Integer,
     texels: Real,
     x: Real,
@@ -72,14 +74,14 @@ def follow(
             heights[p] = residuals[p] = jacobians[p] = np.nan
             continue
         _reduce(x[p], y[p], sizes, origin)
-        sx = sy = height = jacobian = 0.0
-        square = np.inf
+        sx = sy = height = 0.0
+        square = least = np.inf
         for count in range(EASY):
             known = tiles - 1 if count == 0 and tiles > 1 else tiles
             dx = dy = height = xx = xy = yx = yy = 0.0
             for i in range(known):
                 start, nx, ny = layout[i, 0], layout[i, 1], layout[i, 2]
-                per_x, per_y = nx / sizes[i, 0], ny / sizes[i, 1]
+                per_x, per_y = rates[i, 0], rates[i, 1]
                 u, v = (origin[i, 0] + sx) * per_x, (origin[i, 1] + sy) * per_y
                 if cubic:
                     a, b, h, a_u, a_v, b_u, b_v = spline_gradient(texels, start, nx, ny, u, v)
@@ -96,16 +98,18 @@ def follow(
             square = rx * rx + ry * ry
             xx, xy, yx, yy = 1.0 + choppiness * xx, choppiness * xy, choppiness * yx, 1.0 + choppiness * yy
             jacobian = xx * yy - xy * yx
+            least = min(least, jacobian)
             if known == tiles and square <= limit * limit:
                 break
             if jacobian > STEEP:
-                sx += (xy * ry - yy * rx) / jacobian
-                sy += (yx * rx - xx * ry) / jacobian
+                inverse = 1.0 / jacobian
+                sx += (xy * ry - yy * rx) * inverse
+                sy += (yx * rx - xx * ry) * inverse
             else:
                 sx -= rx
                 sy -= ry
         offsets[p, 0], offsets[p, 1] = sx, sy
-        heights[p], residuals[p], jacobians[p] = height, np.sqrt(square), jacobian
+        heights[p], residuals[p], jacobians[p] = height, np.sqrt(square), least
 
 
 EASY, STEEP = 12, 0.1
@@ -139,8 +143,8 @@ def invert(
     [m] away; an answer there is, as a bounded displacement leaves no hole in the surface.
 
     Stops where the residual is at most `aim` [m], or, after some steps, at most `limit`; else the best point found is kept. `offsets`
-    (points, 2), `heights`, `residuals` [m] and `jacobians` [-] are written; NaN for points that are not finite. `origin` (tiles, 2) is
-    room to work in.
+    (points, 2), `heights`, `residuals` [m] and the least of the `jacobians` met on the way are written: where the surface is folded,
+    the way leads over water that lies upside down. NaN for points that are not finite. `origin` (tiles, 2) is room to work in.
     """
     for p in range(heights.size):
         if not (np.isfinite(x[p]) and np.isfinite(y[p])):
@@ -148,7 +152,7 @@ def invert(
             heights[p] = residuals[p] = jacobians[p] = np.nan
             continue
         _reduce(x[p], y[p], sizes, origin)
-        best = np.inf
+        best = least = np.inf
         for start in range(STARTS):
             # The first from the point itself, the next along a spiral that covers all within reach (steps of the golden angle).
             angle, radius = 2.399963229728653 * start, reach * np.sqrt(start / STARTS)
@@ -160,10 +164,11 @@ def invert(
                 residual = np.sqrt(rx * rx + ry * ry)
                 a, b, c, d = 1.0 + choppiness * xx, choppiness * xy, choppiness * yx, 1.0 + choppiness * yy
                 jacobian = a * d - b * c
+                least = min(least, jacobian)
                 if residual < best:
                     best = residual
                     offsets[p, 0], offsets[p, 1] = sx, sy
-                    heights[p], residuals[p], jacobians[p] = height, residual, jacobian
+                    heights[p], residuals[p] = height, residual
                 if residual <= aim:
                     break
                 if residual < base:
@@ -183,6 +188,7 @@ def invert(
                 sx, sy = base_x + part * step_x, base_y + part * step_y
             if best <= limit:
                 break
+        jacobians[p] = least
 
 
 STARTS, STEPS, LONGEST, SHORTEST = 100, 40, 10.0, 1e-3

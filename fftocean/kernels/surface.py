@@ -17,25 +17,29 @@ def normals(slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppine
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     nothing = xx.dtype.type(0)
     n = out.shape[1]
-    # One row at a time, each loop over five arrays at most, one of them written: compilers vectorise no more than that.
-    x, y, z, per_length = np.empty(n, xx.dtype), np.empty(n, xx.dtype), np.empty(n, xx.dtype), np.empty(n, xx.dtype)
+    unit = np.empty(3 * n, xx.dtype)  # a row of x, one of y, one of z: one array to write to is what compilers still vectorise
+    second, third = np.uint64(n), np.uint64(2 * n)  # unsigned: an index that might be negative would have to be looked at
     for j in range(out.shape[0]):
         sx, sy, dxx, dxy, dyy = slope_x[j], slope_y[j], xx[j], xy[j], yy[j]
         for i in range(n):
-            x[i] = choppiness * dxy[i] * sy[i] - sx[i] * (one + choppiness * dyy[i])
-        for i in range(n):
-            y[i] = choppiness * dxy[i] * sx[i] - sy[i] * (one + choppiness * dxx[i])
-        for i in range(n):
+            a = one + choppiness * dxx[i]
             b = choppiness * dxy[i]
-            z[i] = (one + choppiness * dxx[i]) * (one + choppiness * dyy[i]) - b * b
-        for i in range(n):
-            square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i]
-            per_length[i] = one / np.sqrt(square) if square > nothing else nothing
+            d = one + choppiness * dyy[i]
+            x = b * sy[i] - sx[i] * d
+            y = b * sx[i] - sy[i] * a
+            z = a * d - b * b
+            square = x * x + y * y + z * z
+            per_length = one / np.sqrt(square) if square > nothing else nothing
+            k = np.uint64(i)
+            unit[k] = x * per_length
+            unit[second + k] = y * per_length
+            unit[third + k] = z * per_length if per_length > nothing else one
         normal = out[j].reshape(3 * n)
         for i in range(n):
-            normal[3 * i] = x[i] * per_length[i]
-            normal[3 * i + 1] = y[i] * per_length[i]
-            normal[3 * i + 2] = z[i] * per_length[i] if per_length[i] > nothing else one
+            k = np.uint64(i)
+            normal[3 * i] = unit[k]
+            normal[3 * i + 1] = unit[second + k]
+            normal[3 * i + 2] = unit[third + k]
 
 
 @compiled

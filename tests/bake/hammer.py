@@ -135,7 +135,16 @@ def damage(kind, folder, expected, chance):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name, default in (("kills", 50), ("flips", 200), ("cuts", 20), ("deletions", 20), ("swaps", 10), ("n", 32), ("frames", 20), ("seed", 1)):
+    for name, default in (
+        ("kills", 50),
+        ("flips", 200),
+        ("cuts", 20),
+        ("deletions", 20),
+        ("swaps", 10),
+        ("n", 32),
+        ("frames", 20),
+        ("seed", 1),
+    ):
         parser.add_argument(f"--{name}", type=int, default=default)
     parser.add_argument("--formats", nargs="+", default=list(FORMATS), choices=list(FORMATS))
     options = parser.parse_args(arguments)
@@ -147,7 +156,9 @@ def main(arguments=None):
                 order = job(name, options.n, options.frames)
                 count = round(share * options.kills)
                 done, bakes, false, different, _ = kills(order, Path(place) / name, count, chance)
-                print(f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {bakes - different} of {bakes} with the same bytes")
+                print(
+                    f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {bakes - different} of {bakes} with the same bytes"
+                )
                 bad += false + different
         wanted = {kind: getattr(options, kind) for kind in ("flips", "cuts", "deletions", "swaps")}
         totals = dict.fromkeys(wanted, (0, 0, 0, 0))

@@ -71,6 +71,16 @@ def test_direct_sum_answers(script, tmp_path):
     assert result.find("exponent of N, direct sum").count == 3
 
 
+def test_direct_sum_reckons_a_part_up_to_the_whole(script, monkeypatch):
+    direct_sum, seen = script("direct_sum"), []
+    real = direct_sum.race
+    monkeypatch.setattr(direct_sum, "race", lambda *a, **k: seen.append(real(*a, **k)) or seen[-1])
+    readings = direct_sum.at_one_size(16, 0.0, 224 * 64.5)  # 224 waves: room for 64 of the 256 points
+    for raw, whole in zip(seen[0], readings, strict=True):
+        assert whole.median == pytest.approx(raw.median * (4.0 if "direct sum" in raw.what else 1.0))
+    assert next(r.at["points"] for r in readings if r.what == "direct sum") == 64
+
+
 def costs(n, fft, direct):
     """Readings as the question makes them, of costs that we choose [ms]."""
     for i, size in enumerate(n):

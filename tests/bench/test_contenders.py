@@ -27,6 +27,15 @@ def test_all_make_the_same_water(make):
     assert same_water(own, Fast(own)) == 0.0
 
 
+def test_waves_that_none_comes_toward_are_the_same_too():
+    """Of each pair k and -k only one wave is there: its other half in the spectrum turns with it, not with a wave of its own."""
+    waves = [(1, 0, 0.5, 0.3), (-2, 3, 0.2, 1.0), (0, -4, 0.1, 2.0)]
+    own = fo.Ocean.from_modes(waves, n=16, size=100.0, dtype="float64")
+    for kind in (Textbook, DirectSum):
+        assert same_water(own, kind(own)) < 1e-12
+    assert same_water(own, Careful(own)) < 1e-6
+
+
 def test_all_make_the_same_water_in_single_precision():
     own = ocean(32)
     assert require_same_water(own, {"t": Textbook(own), "c": Careful(own), "d": DirectSum(own)}, within=WITHIN) < 1e-6
@@ -115,6 +124,15 @@ def test_the_floor_times_zeros_that_stay_zeros(library):
     assert not bare.spectra.any()
     assert not bare.fields.any()
     assert bare.spectra.ctypes.data % 64 == bare.fields.ctypes.data % 64 == bare.copied.ctypes.data % 64 == 0
+
+
+def test_what_planning_scribbles_is_wiped_away(monkeypatch):
+    def scribbler(spectra, _):
+        spectra[:] = 7.0
+        return lambda: None
+
+    monkeypatch.setitem(contenders._PLANNERS, "scipy", lambda: scribbler)
+    assert not floor(8, "scipy", count=2).spectra.any()
 
 
 def test_an_unknown_or_absent_library_has_no_floor(monkeypatch):

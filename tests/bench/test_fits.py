@@ -40,6 +40,11 @@ def test_the_standard_error_covers_the_truth_as_often_as_it_should():
     assert hits / 400 == pytest.approx(0.9234, abs=3.0 * np.sqrt(0.9234 * 0.0766 / 400))  # three standard deviations of a binomial
 
 
+def test_the_laws_are_what_they_are_called():
+    assert n_log_n(np.array([2.0, 8.0, 1024.0])).tolist() == [2.0, 24.0, 10240.0]
+    assert square(np.array([3.0, 16.0])).tolist() == [9.0, 256.0]
+
+
 @pytest.mark.parametrize("law", [n_log_n, square])
 def test_overhead_and_factor_are_told_apart(law):
     work = SIZES**2

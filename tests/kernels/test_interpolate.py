@@ -94,7 +94,7 @@ def test_what_is_not_finite_stays_alone():
 def test_gradients_are_those_of_the_interpolant(spline):
     """Value from the general routine, slopes from its central differences: h^2 of a third derivative, h = 1e-5, and rounding / h."""
     field = np.ascontiguousarray(RNG.standard_normal((NY, NX, 4)))
-    flat = np.concatenate([np.full((7, 4), np.nan), field.reshape(-1, 4)])  # another tile before it
+    flat = np.concatenate([np.full(7 * 4, np.nan), field.ravel()])  # another tile before it
     gradient = interpolate.spline_gradient if spline else interpolate.bilinear_gradient
 
     def at(u, v):
