@@ -53,17 +53,19 @@ class Amplitudes:
     variance_backward: Real  # of the wave at -k [m^2]
     draw: Literal["gaussian", "fixed", "given"]
     band: Band = WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
-    omega: Real = field(init=False)  # as the dispersion relation has it, before any loop [rad/s]
     cycles: Integer | None = field(init=False)  # whole turns in a loop
 
     def __post_init__(self) -> None:
-        omega = dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)
-        cycles = None if self.loop is None else dispersion.loop_cycles(omega, LOOP.check("loop", self.loop))
-        object.__setattr__(self, "omega", omega)
+        cycles = None if self.loop is None else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))
         object.__setattr__(self, "cycles", cycles)
-        for array in (self.forward, self.backward, self.variance_forward, self.variance_backward, omega, cycles):
+        for array in (self.forward, self.backward, self.variance_forward, self.variance_backward, cycles):
             if array is not None:
                 array.setflags(write=False)
+
+    @property
+    def omega(self) -> Real:
+        """The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked for."""
+        return dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)
 
     @property
     def running_omega(self) -> Real:

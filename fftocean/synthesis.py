@@ -121,11 +121,12 @@ def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
     """The size of each field: its root mean square over waves, a derivative along x or y taken as one by |k|; 1 where there is none."""
     k = amplitudes.grid.k
     energy = np.abs(amplitudes.forward) ** 2 + np.abs(amplitudes.backward) ** 2
+    omega = amplitudes.running_omega
     sources: dict[str, Real | float] = {"height": 1.0, "potential": potential_factor(k, amplitudes.depth)}
 
     @lru_cache
     def size(of: str, order: int, dt: int) -> float:
-        return float(np.sqrt(np.sum(energy * (sources[of] * k**order * amplitudes.running_omega**dt) ** 2))) or 1.0
+        return float(np.sqrt(np.sum(energy * (sources[of] * k**order * omega**dt) ** 2))) or 1.0
 
     return {name: size(f.of, f.dx + f.dy, f.dt) for name, f in FIELDS.items()}
 

@@ -156,9 +156,8 @@ def main(arguments=None):
                 order = job(name, options.n, options.frames)
                 count = round(share * options.kills)
                 done, bakes, false, different, _ = kills(order, Path(place) / name, count, chance)
-                print(
-                    f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {bakes - different} of {bakes} with the same bytes"
-                )
+                same = f"{bakes - different} of {bakes} with the same bytes"
+                print(f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {same}", flush=True)
                 bad += false + different
         wanted = {kind: getattr(options, kind) for kind in ("flips", "cuts", "deletions", "swaps")}
         totals = dict.fromkeys(wanted, (0, 0, 0, 0))
