@@ -1,9 +1,9 @@
 """
 How much memory do full frames take?
 
-For each n a fresh process makes a frame of 4 x 4, for which all is imported that will be, notes what it holds, makes an ocean and three full
-frames into the same arrays, and notes the most that it ever held and what it holds while it goes on. Compiled kernels come from the cache, as
-in daily life.
+For each n a fresh process makes a frame of 4 x 4, for which all is imported that will be, and notes what it holds. Then it makes an ocean
+and three full frames into the same arrays, and notes the most that it ever held and what it holds while it goes on. Compiled kernels come
+from the cache, as in daily life.
 The figures are the process's own pages in memory (Linux: VmHWM and VmRSS), above those after the imports.
 
     python benchmarks/memory.py [--n 256 512] [--json FILE] [--plot FILE]
@@ -43,7 +43,7 @@ import fftocean as fo
 warnings.simplefilter("ignore", fo.SeaWarning)
 n, fields, backend = int(sys.argv[1]), sys.argv[2].split(","), sys.argv[3]
 sea, make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean
-make.from_modes([], n=4, size=1.0, backend=backend).frame(0.0, fields)  # imports the FFT library, and what the compiler loads for its first kernel
+make.from_modes([], n=4, size=1.0, backend=backend).frame(0.0, fields)  # loads the FFT library, and the compiler for its first kernel
 base = held()["VmRSS"]
 forget()
 ocean = make(sea, n=n, size=300.0, seed=7, backend=backend)
