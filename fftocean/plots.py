@@ -135,7 +135,7 @@ def save(figure: "Figure", path: str | Path) -> Path:
     kind = path.suffix.lower()
     if kind not in SUFFIXES:
         raise ParameterError(f"a picture's name must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}, got {path.name!r:.80}")
-    with _style():
+    with style():
         from matplotlib.figure import Figure
 
         if not isinstance(figure, Figure):
@@ -151,7 +151,7 @@ def _drawn(draw: "Callable[[FigureBase, Subject], None]", subject: Subject, kind
     """A figure of its own, drawn in our style whatever the user's is."""
     if not isinstance(subject, kind):
         raise ParameterError(f"{kind.__name__.lower()} must be {'an' if kind is Ocean else 'a'} {kind.__name__}, got {subject!r:.80}")
-    with _style():
+    with style():
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
@@ -161,7 +161,7 @@ def _drawn(draw: "Callable[[FigureBase, Subject], None]", subject: Subject, kind
     return figure
 
 
-def _style() -> AbstractContextManager[None]:
+def style() -> AbstractContextManager[None]:
     """matplotlib's own defaults with ours on top, for a while."""
     try:
         from matplotlib import style

@@ -50,7 +50,7 @@ def sheet(path: Path, title: str, result: Result, *, width: float = 9.0, height:
         ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg, .pdf.
         OutputError: the file could not be written.
     """
-    with plots._style():
+    with plots.style():
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
