@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from fftocean.bake.load import load as load
     from fftocean.bake.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
-    from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import CacheWarning as CacheWarning
+    from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import FieldError as FieldError
     from fftocean.errors import FolderInUseError as FolderInUseError
     from fftocean.errors import IntegrityError as IntegrityError

@@ -58,7 +58,11 @@ class Amplitudes:
     def __post_init__(self) -> None:
         cycles = None if self.loop is None else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))
         object.__setattr__(self, "cycles", cycles)
-        for array in (self.forward, self.backward, self.variance_forward, self.variance_backward, cycles):
+        self.freeze()
+
+    def freeze(self) -> None:
+        """Forbid changes of the arrays; once more after they were unpickled, which forgets it."""
+        for array in (self.forward, self.backward, self.variance_forward, self.variance_backward, self.cycles):
             if array is not None:
                 array.setflags(write=False)
 

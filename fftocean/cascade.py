@@ -16,7 +16,7 @@ from fftocean.fields import EIGHT
 from fftocean.grid import Grid
 from fftocean.limits import LOOP, SEED, Quantity
 from fftocean.noise import philox
-from fftocean.ocean import Frame, Ocean, _remade, memory_needed
+from fftocean.ocean import Frame, Ocean, memory_needed, remade
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
 
@@ -85,7 +85,7 @@ class Cascade:
         for index, (grid, band, period) in enumerate(zip(grids, shared, loops, strict=True)):
             own = seed if index == 0 else tile_seed(seed, grid.lx, grid.ly)
             drawn = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
-            oceans.append(_remade(sea, own, drawn, choppiness, name, backend, planning, threads))
+            oceans.append(remade(sea, own, drawn, choppiness, name, backend, planning, threads))
         self._set_up(sea, seed, tuple(oceans))
 
     def _set_up(self, sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> None:

@@ -25,7 +25,7 @@ from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate, resample, surface
-from fftocean.ocean import Frame, Ocean, _remade, memory_needed
+from fftocean.ocean import Frame, Ocean, memory_needed, remade
 
 FINER = 2  # samples of the splines to one of the ocean
 STEEPEST = 1e3
@@ -200,7 +200,7 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
         variance_backward=spread(a.variance_backward, response**2),
     )
     _, (sea, seed, _, choppiness, *made) = ocean.__reduce__()
-    return _remade(sea, seed, stretched, choppiness, *made)
+    return remade(sea, seed, stretched, choppiness, *made)
 
 
 def _response(cycles: Real) -> Real:

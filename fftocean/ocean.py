@@ -26,6 +26,19 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+_forked = threading.Lock()
+
+
+def _renew() -> None:
+    """In a forked child: whoever held it is not there."""
+    global _forked
+    _forked = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew)
+
+
 class Frame:
     """
     The water at one moment: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
@@ -243,7 +256,7 @@ class Ocean:
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         """Pickle and copy as what it is made of; plans and buffers are made anew."""
-        return _remade, self._recipe
+        return remade, self._recipe
 
     def _require_range(self) -> None:
         """Refuse a sea whose fields would overflow their type, however the waves meet."""
@@ -339,6 +352,7 @@ class Ocean:
         Raises:
             ParameterError: as `frame`, when the frame in question comes up; `ahead` out of range.
         """
+        fields = _named(fields)
         return self._pipeline((partial(self.frame, t, fields) for t in times), ahead, reuse)
 
     def loop_frames(self, count: int, fields: Sequence[str] = EIGHT, *, ahead: int = 1, reuse: bool = False) -> Iterator[Frame]:
@@ -348,6 +362,7 @@ class Ocean:
         Raises:
             ParameterError: as `loop_frame` and `frames`.
         """
+        fields = _named(fields)
         return self._pipeline((partial(self.loop_frame, j, count, fields) for j in range(FRAMES.check_whole("count", count))), ahead, reuse)
 
     def _pipeline(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
@@ -363,26 +378,47 @@ class Ocean:
 
     def _ahead(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
         spare: list[Frame] = []  # frames that the consumer has done with
+        coming: deque[tuple[Callable[..., Frame], Future[Frame] | None]] = deque()
+        complaint: BaseException | None = None
+        pid = os.getpid()
+
+        def next_frame() -> Frame:
+            job, future = coming.popleft()
+            if future is None or pid != os.getpid():  # nobody is at it, or somebody whom a forked child has not got
+                return job()
+            return future.result()
+
         with ThreadPoolExecutor(1, thread_name_prefix="fftocean-ahead") as worker:
-            coming: deque[Future[Frame]] = deque()
             try:
-                for job in jobs:
-                    coming.append(worker.submit(job, out=spare.pop() if spare else None))
+                while complaint is None:
+                    try:
+                        job = next(jobs)
+                    except StopIteration:
+                        break
+                    except Exception as error:  # of who supplies the times: in its turn, after the frames that were asked for before
+                        complaint = error
+                        break
+                    try:
+                        coming.append((job, worker.submit(job, out=spare.pop() if spare else None) if pid == os.getpid() else None))
+                    except RuntimeError:  # Python is on its way out and starts nothing new
+                        coming.append((job, None))
                     if len(coming) > ahead:
-                        yield (frame := coming.popleft().result())
+                        yield (frame := next_frame())
                         if reuse:
                             spare.append(frame)
                 while coming:
-                    yield coming.popleft().result()
+                    yield next_frame()
             finally:  # the consumer may stop early
-                for future in coming:
-                    future.cancel()
+                for _, future in coming:
+                    if future is not None:
+                        future.cancel()
+                if pid != os.getpid():
+                    worker.shutdown(wait=False)
+        if complaint is not None:
+            raise complaint
 
     def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
-        fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
-        for name in fields:
-            if name not in FIELDS and name not in POINTWISE:
-                raise ParameterError(f"a field must be one of {', '.join([*FIELDS, *POINTWISE])}, got {name!r}")
+        fields = _named(fields)
         arrays = self._outputs(fields, out)
         with self._locked():
             self._synthesis.run(turn, arrays, self.choppiness)
@@ -397,11 +433,15 @@ class Ocean:
         shapes = {name: (*self.grid.shape, 3) if name == "normal" else self.grid.shape for name in fields}
         if out is None:
             return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
-        arrays = {}
+        arrays: dict[str, Real] = {}
         if not isinstance(out, Frame) or not set(fields) <= set(out.fields):
             raise ParameterError(f"out must be a frame that has {', '.join(fields)}, got {out!r:.200}")
         for name, shape in shapes.items():
             array = out[name]
+            if type(array) is not np.ndarray:
+                raise ParameterError(f"out.{name} must be a plain array, got {type(array).__name__}")
+            if any(np.may_share_memory(array, other) for other in arrays.values()):
+                raise ParameterError(f"out.{name} must be an array of its own, and shares its memory with another")
             if array.shape != shape or array.dtype != self.dtype or not array.flags.c_contiguous or not array.flags.writeable:
                 raise ParameterError(
                     f"out.{name} must be a writeable, C-contiguous {self.dtype} array of shape {shape}, got {array.dtype} {array.shape}"
@@ -412,8 +452,11 @@ class Ocean:
     def _locked(self) -> threading.Lock:
         """The lock on plans and buffers; a forked child gets a fresh one and fresh threads, as it has none of its parent's."""
         if self._pid != os.getpid():
-            self._lock, self._pid = threading.Lock(), os.getpid()
-            self._synthesis.restart()
+            with _forked:  # the child's own threads may come together
+                if self._pid != os.getpid():
+                    self._synthesis.restart()
+                    self._lock = threading.Lock()
+                    self._pid = os.getpid()
         return self._lock
 
     def __repr__(self) -> str:
@@ -421,11 +464,24 @@ class Ocean:
         return f"Ocean({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m, depth={self.depth:g}, loop={self.loop}, dtype={self.dtype!r})"
 
 
-def _remade(sea: Sea | None, seed: int | None, *made: Any) -> Ocean:
+def _named(fields: Sequence[str]) -> tuple[str, ...]:
+    """The names of fields, each once."""
+    try:
+        names = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
+    except TypeError:
+        raise ParameterError(f"fields must be names such as ('height', 'normal'), got {fields!r:.80}") from None
+    for name in names:
+        if name not in FIELDS and name not in POINTWISE:
+            raise ParameterError(f"a field must be one of {', '.join([*FIELDS, *POINTWISE])}, got {name!r:.80}")
+    return names
+
+
+def remade(sea: Sea | None, seed: int | None, *made: Any) -> Ocean:
     """An ocean from its own amplitudes, without seeding them again."""
     ocean = Ocean.__new__(Ocean)
     ocean.seed = seed
     ocean._set_up(sea, *made)
+    ocean.amplitudes.freeze()
     return ocean
 
 

@@ -20,7 +20,7 @@ from fftocean.gerstner.wavefields import Waves
 from fftocean.kernels import interpolate, surface
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME, Quantity
-from fftocean.ocean import Ocean, _remade
+from fftocean.ocean import Ocean, remade
 from fftocean.trains import Trains, coordinates, moments_of, oceans_of, trains_of
 
 KINDS = {"bilinear": kernels.BILINEAR, "bicubic": kernels.SPLINE, "exact": kernels.WAVES}
@@ -346,7 +346,7 @@ class _Interpolated:
         forward, backward = (np.asfortranarray(h * factor) for h in (a.forward, a.backward))
         energies = a.variance_forward * factor**2, a.variance_backward * factor**2
         changed = replace(a, forward=forward, backward=backward, variance_forward=energies[0], variance_backward=energies[1])
-        return _remade(ocean.sea, ocean.seed, changed, ocean.choppiness, ocean.dtype, ocean.backend, "estimate", self._threads)
+        return remade(ocean.sea, ocean.seed, changed, ocean.choppiness, ocean.dtype, ocean.backend, "estimate", self._threads)
 
     def at(self, t: float, fields: tuple[str, ...]) -> Work:
         if self._pid != os.getpid():
@@ -361,15 +361,15 @@ class _Interpolated:
         motion = still.groups["motion"][0]
 
         def work(x: Real, y: Real, out: _Found) -> None:
-            origin, heights = np.empty(sizes.shape), out.arrays["heights"]
-            room = (origin, out.offsets, heights, out.residuals, out.jacobians)
+            heights = out.arrays["heights"]
+            room = (*_desk(len(sizes)), out.offsets, heights, out.residuals, out.jacobians)
             kernels.follow(self._spline, sizes, self._rates, layout, motion, x, y, c, self.limit, *room)
             hard = np.flatnonzero(out.residuals > self.limit)
             if hard.size:
                 left = _Found.room(hard.size, ())
                 table = (sizes, layout, motion, _NO_FIRST, _NO_WAVES)
-                room = (origin, left.offsets, left.arrays["heights"], left.residuals, left.jacobians)
-                kernels.invert(self._kind, *table, x[hard], y[hard], c, self.limit, self.limit, self._reach, *room)
+                patient = (np.empty(sizes.shape), left.offsets, left.arrays["heights"], left.residuals, left.jacobians)
+                kernels.invert(self._kind, *table, x[hard], y[hard], c, self.limit, self.limit, self._reach, *patient)
                 for mine, found in ((out.offsets, left.offsets), (heights, left.arrays["heights"])):
                     mine[hard] = found
                 out.residuals[hard], out.jacobians[hard] = left.residuals, left.jacobians
@@ -421,6 +421,12 @@ class _Still:
 
     t: float
     groups: dict[str, list[Real]] = field(default_factory=dict)
+
+
+def _desk(tiles: int) -> tuple[npt.NDArray[Any], ...]:
+    """What one thread needs to work on a block of points."""
+    block = interpolate.BLOCK
+    return np.empty((tiles, 2, block)), np.empty((2, block)), np.empty(interpolate.ROWS * block), np.empty(block, np.int64)
 
 
 _GROUPS = {"geometry": "normals", "velocity": "velocities", "acceleration": "accelerations"}

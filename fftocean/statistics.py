@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.amplitudes import Amplitudes
+from fftocean.amplitudes import WHOLE, Amplitudes, Band
 from fftocean.arrays import Real
+from fftocean.cascade import Cascade
 from fftocean.grid import Grid
 from fftocean.limits import LOOP
 from fftocean.ocean import Ocean
@@ -56,31 +57,33 @@ class Statistics:
     energy_above: float  # m0 of waves shorter than two samples [m^2]
     sampling_error: float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
-    loop: LoopError | None
+    loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
 
 
-def measure(ocean: Ocean) -> Statistics:
+def measure(ocean: Ocean | Cascade) -> Statistics:
     """
-    Measure what an ocean delivers.
+    Measure what an ocean delivers, or all tiles of a cascade together.
 
     Height and vertical velocity of the frame at t = 0 go through a forward FFT, which tells the waves along +k from those along
     -k (f, b = (H +- i H'/omega)/2); their energies give m0, the mean direction and spread, and the spectrum whose peak is Tp.
 
     Args:
-        ocean: any ocean.
+        ocean: any ocean, or a cascade: its tiles have different waves, so their energies add up.
 
     Returns:
         `Statistics`.
 
     Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as Young 1995.
     """
-    ahead, astern, omega, theta = _measured_waves(ocean)
+    tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
+    ahead, astern, omega, theta = (np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True))
     energy = np.concatenate([ahead, astern])
     m0 = float(np.sum(energy))
     direction, spread = moments.mean_direction_and_spread(energy, np.concatenate([theta, theta + np.pi]))
-    amplitudes, sea = ocean.amplitudes, ocean.sea
-    below, above = (0.0, 0.0) if sea is None else outside_band(sea, ocean.grid)
-    sampling, snapshot = _scatter(amplitudes)
+    sea, first, last = ocean.sea, tiles[0], tiles[-1]
+    below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
+    above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
+    sampling, snapshot = _scatter([tile.amplitudes for tile in tiles])
     return Statistics(
         m0=m0,
         hs=4.0 * math.sqrt(m0),
@@ -88,12 +91,12 @@ def measure(ocean: Ocean) -> Statistics:
         mean_direction=direction,
         spread=spread,
         ordered=None if sea is None else ordered(sea),
-        resolved=amplitudes.variance,
+        resolved=sum(tile.amplitudes.variance for tile in tiles),
         energy_below=below,
         energy_above=above,
         sampling_error=sampling,
         snapshot_error=snapshot,
-        loop=None if ocean.loop is None else loop_error(amplitudes, ocean.loop),
+        loop=None if len(tiles) > 1 or ocean.loop is None else loop_error(first.amplitudes, ocean.loop),
     )
 
 
@@ -105,9 +108,9 @@ def ordered(sea: Sea) -> SeaState:
     return SeaState(m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread)
 
 
-def outside_band(sea: Sea, grid: Grid) -> tuple[float, float]:
+def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float]:
     """
-    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest.
+    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest; or what lies beside its band.
 
     The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every direction the sea's energy is
     summed along omega up to the edges of the two rectangles: another way round than the sum over cells, which it checks.
@@ -116,9 +119,11 @@ def outside_band(sea: Sea, grid: Grid) -> tuple[float, float]:
     below = inside = 0.0
     for system in sea.systems:
         theta = _directions(system)
-        nearest = dispersion.angular_frequency(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), sea.depth, sea.surface_tension)
+        nearest = dispersion.angular_frequency(
+            np.maximum(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), band[0]), sea.depth, sea.surface_tension
+        )
         farthest = dispersion.angular_frequency(
-            _edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), sea.depth, sea.surface_tension
+            np.minimum(_edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), band[1]), sea.depth, sea.surface_tension
         )
         omega = _frequencies(system, float(np.max(farthest)))
         density = _shared_out(system, omega, theta)
@@ -200,20 +205,22 @@ def _peak_period(energy: Real, omega: Real) -> float:
     return 2.0 * math.pi * float(np.sum(weight) / np.sum(weight * first[full] / total[full]))
 
 
-def _scatter(amplitudes: Amplitudes) -> tuple[float, float]:
+def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     """
     Relative standard deviations of m0 from draw to draw, and of one frame's variance.
 
     Gaussian amplitudes make a^2 exponential: var(sum a^2/2) = sum E^2. In one frame the waves at +k and -k share one Fourier
     coefficient, whose energy is exponential with mean E_k + E_-k; waves of fixed modulus beat there with variance 2 E_k E_-k.
     """
-    grid = amplitudes.grid
-    once = grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0))
-    ahead, astern = amplitudes.variance_forward[once], amplitudes.variance_backward[once]
+    pairs = []
+    for a in tiles:
+        once = a.grid.active & ((a.grid.mx[None, :] > 0) | (a.grid.my[:, None] > 0))
+        pairs.append((a.variance_forward[once], a.variance_backward[once]))
+    ahead, astern = (np.concatenate(column) for column in zip(*pairs, strict=True))
     total = float(np.sum(ahead) + np.sum(astern))
     if not total > 0.0:
         return 0.0, 0.0
-    if amplitudes.draw != "gaussian":
+    if tiles[0].draw != "gaussian":
         return 0.0, math.sqrt(2.0 * float(np.sum(ahead * astern))) / total
     return math.sqrt(float(np.sum(ahead**2) + np.sum(astern**2))) / total, math.sqrt(float(np.sum((ahead + astern) ** 2))) / total
 

@@ -8,7 +8,7 @@ along y and four along x. Both passes run over blocks that stay in cache.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -118,17 +118,19 @@ def plan_of(fields: tuple[str, ...]) -> Plan:
 
 
 def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
-    """The size of each field: its root mean square over waves, a derivative along x or y taken as one by |k|; 1 where there is none."""
-    k = amplitudes.grid.k
+    """The size of each field: its root mean square over the waves; where they all run along one axis, as if |k| were the other's too."""
+    grid, omega = amplitudes.grid, amplitudes.running_omega
     energy = np.abs(amplitudes.forward) ** 2 + np.abs(amplitudes.backward) ** 2
-    omega = amplitudes.running_omega
-    sources: dict[str, Real | float] = {"height": 1.0, "potential": potential_factor(k, amplitudes.depth)}
+    sources: dict[str, Real | float] = {"height": 1.0, "potential": potential_factor(grid.k, amplitudes.depth)}
 
-    @lru_cache
-    def size(of: str, order: int, dt: int) -> float:
-        return float(np.sqrt(np.sum(energy * (sources[of] * k**order * omega**dt) ** 2))) or 1.0
+    def size(field: Field, along: Real) -> float:
+        return float(np.sqrt(np.sum(energy * (sources[field.of] * along * omega**field.dt) ** 2)))
 
-    return {name: size(f.of, f.dx + f.dy, f.dt) for name, f in FIELDS.items()}
+    kx, ky = grid.kx[None, :], grid.ky[:, None]
+    return {
+        name: size(field, kx**field.dx * ky**field.dy) or size(field, grid.k ** (field.dx + field.dy)) or 1.0
+        for name, field in FIELDS.items()
+    }
 
 
 def block_of(n: int, available: int) -> int:
@@ -140,7 +142,7 @@ class Synthesis:
     """The waves of one tile, and the buffers that turn them into fields. Whoever owns it sees to it that it runs once at a time."""
 
     def __init__(self, amplitudes: Amplitudes, dtype: str, *, backend: str, planning: str, threads: int) -> None:
-        self._amplitudes, self._grid, self._threads = amplitudes, amplitudes.grid, threads
+        self._amplitudes, self._grid = amplitudes, amplitudes.grid
         self._dtype = np.dtype(dtype)
         grid = self._grid
         self.columns = (grid.nx + 1) // 2  # of the half plane; the Nyquist column, where there is one, is always zero
@@ -158,13 +160,15 @@ class Synthesis:
         self._numbers = {spectrum: self._numbers_of(spectrum) for pair in pairs for spectrum in _spectra_of(pair)}
         self._factors = {pair: self._factors_of(pair) for pair in pairs}
         self._widths = (block_of(grid.ny, self.columns), block_of(grid.nx, grid.ny))
-        self._desks = [_Desk(self._widths, grid.shape, dtype, backend, planning) for _ in range(threads)]
+        blocks = max(-(-self.columns // self._widths[0]), -(-grid.ny // self._widths[1]))
+        self._desks = [_Desk(self._widths, grid.shape, dtype, backend, planning) for _ in range(min(threads, blocks))]
         self.restart()
         self.backend = self._desks[0].first.backend
 
     def restart(self) -> None:
         """Start the threads; once more in a forked child, to which its parent's are not handed down."""
-        self._pool = ThreadPoolExecutor(self._threads, thread_name_prefix="fftocean") if self._threads > 1 else None
+        threads = len(self._desks)
+        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="fftocean") if threads > 1 else None
 
     def run(self, turn: Turn, outputs: Mapping[str, Real], choppiness: float) -> None:
         """Compute fields into the arrays given by name, each (ny, nx), or (ny, nx, 3) for normals."""
@@ -188,10 +192,21 @@ class Synthesis:
             for block in own:
                 work(desk, block)
 
+        shares = [(desk, blocks[i :: len(self._desks)]) for i, desk in enumerate(self._desks)]
         if self._pool is None:
-            at(self._desks[0], blocks)
-        else:
-            list(self._pool.map(at, self._desks, [blocks[i :: self._threads] for i in range(self._threads)]))
+            at(*shares[0])
+            return
+        tasks: list[Future[None]] = []
+        try:
+            for share in shares:
+                try:
+                    tasks.append(self._pool.submit(at, *share))
+                except RuntimeError:  # Python is on its way out and starts nothing new: the same work, here
+                    at(*share)
+            for task in tasks:
+                task.result()
+        finally:  # of an interrupt, too: nobody may have the desks before the last has left them
+            wait(tasks)
 
     def _first_pass(self, plan: Plan, desk: "_Desk", block: slice, turn: Turn, between: Real | Complex) -> None:
         """Columns kx: turn the waves, derive along y, transform along y, store transposed."""
@@ -255,6 +270,10 @@ class Synthesis:
         np.subtract(forward.imag, backward.imag, out=waves[:, 1], casting="same_kind")
         np.add(forward.imag, backward.imag, out=waves[:, 2], casting="same_kind")
         np.subtract(forward.real, backward.real, out=waves[:, 3], casting="same_kind")
+        if (
+            self._dtype == np.float32
+        ):  # what cannot be seen beside the largest, not even as curvature, must not end as subnormal, which is slow
+            waves[np.abs(waves) < 1e-25 * np.max(np.abs(waves), initial=0.0)] = 0.0
         return waves.reshape(self.columns, -1)
 
     def _numbers_of(self, spectrum: Spectrum) -> tuple[Real, Real, float, float]:

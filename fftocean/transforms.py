@@ -7,6 +7,7 @@ All compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+
 import ctypes
 import importlib
 import importlib.metadata
+import os
 import sys
 import threading
 import weakref
@@ -21,11 +22,23 @@ from fftocean import wisdom
 from fftocean.arrays import COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
-PLANNING = {"estimate": ("FFTW_ESTIMATE", 64), "measure": ("FFTW_MEASURE", 0), "patient": ("FFTW_PATIENT", 32)}
-"""FFTW's efforts, by its names and the bits they stand for."""
+PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
+"""FFTW's efforts, by the names that pyFFTW knows."""
 
+ESTIMATE = 64  # FFTW_ESTIMATE in C
 ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
 _planner = threading.Lock()  # FFTW's planner is shared by all plans and is not safe to enter twice
+_importing = threading.Lock()
+
+
+def _renew_locks() -> None:
+    """In a forked child: whoever held them is not there."""
+    global _planner, _importing
+    _planner, _importing = threading.Lock(), threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew_locks)
 
 
 class InverseRows(Protocol):
@@ -53,11 +66,11 @@ def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", p
     Raises:
         ParameterError: an unknown backend, precision or effort, or a backend that is not installed.
     """
-    if dtype not in COMPLEX_OF:
+    if not isinstance(dtype, str) or dtype not in COMPLEX_OF:
         raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
-    if planning not in PLANNING:
+    if not isinstance(planning, str) or planning not in PLANNING:
         raise ParameterError(f"planning must be one of {', '.join(PLANNING)}, got {planning!r}")
-    if backend not in ("auto", *BACKENDS):
+    if not isinstance(backend, str) or backend not in ("auto", *BACKENDS):
         raise ParameterError(f"backend must be one of auto, {', '.join(BACKENDS)}, got {backend!r}")
     for name in BACKENDS if backend == "auto" else (backend,):
         if (transform := BACKENDS[name](shape, dtype, planning)) is not None:
@@ -94,14 +107,11 @@ class _FFTW:
         self.source, self.result = aligned(shape, dtype), aligned(shape, dtype)
 
         def plan() -> Any:
-            flag = PLANNING[planning][0]
+            flag = PLANNING[planning]
             return pyfftw.FFTW(self.source, self.result, axes=(1,), direction="FFTW_BACKWARD", flags=(flag,), threads=1)
 
-        with _planner:
-            if planning == "estimate":
-                self._plan = plan()
-            else:
-                self._plan = wisdom.planned(pyfftw, plan, shape, dtype, planning)
+        with _planner, wisdom.set_aside(pyfftw):  # an estimate, too, takes what has been measured, and would differ from run to run
+            self._plan = plan() if planning == "estimate" else wisdom.planned(pyfftw, plan, shape, dtype, planning)
         self.source[:] = 0.0  # measuring scribbles over it
 
     def __call__(self) -> None:
@@ -123,11 +133,11 @@ class _MKL:
         source, result = ctypes.c_void_p(self.source.ctypes.data), ctypes.c_void_p(self.result.ctypes.data)
         with _planner:
             getattr(mkl, f"{prefix}_plan_with_nthreads")(1)
-            plan = many(1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(PLANNING["estimate"][1]))
+            plan = many(1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(ESTIMATE))
         if not plan:
             raise MemoryError(f"MKL could not plan {count} transforms of {n}")
         self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)
-        weakref.finalize(self, getattr(mkl, f"{prefix}_destroy_plan"), self._plan)
+        weakref.finalize(self, getattr(mkl, f"{prefix}_destroy_plan"), self._plan).atexit = False  # daemon threads may be at it then
 
     def __call__(self) -> None:
         self._execute(self._plan)
@@ -189,15 +199,14 @@ def _mkl() -> ctypes.CDLL | None:
 
 def _pyfftw() -> ModuleType | None:
     """pyfftw if it is there; dask.array, which it would import for an interface that is not used here (6 s), is kept out meanwhile."""
-    if "pyfftw" in sys.modules:
-        return sys.modules["pyfftw"]
-    hide = "dask.array" not in sys.modules
-    if hide:
-        sys.modules["dask.array"] = None  # type: ignore[assignment]
-    try:
-        return importlib.import_module("pyfftw")
-    except ImportError:
-        return None
-    finally:
+    with _importing:  # one thread must not see what another has imported half
+        hide = "pyfftw" not in sys.modules and "dask.array" not in sys.modules
         if hide:
-            del sys.modules["dask.array"]
+            sys.modules["dask.array"] = None  # type: ignore[assignment]
+        try:
+            return importlib.import_module("pyfftw")
+        except ImportError:
+            return None
+        finally:
+            if hide:
+                sys.modules.pop("dask.array", None)

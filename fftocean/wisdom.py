@@ -1,8 +1,8 @@
 """
 What FFTW has found out by measuring, kept in the user's cache: one small file for each library, processor and shape.
 
-A file that is cut, bent, or another machine's is left alone with a note; so is a folder that cannot be written. The first process
-that has measured a shape decides: others plan by what it found, and so get the same bits.
+A file that is cut, bent, or another machine's is replaced, with a note; a folder that cannot be written is done without. The first
+process that has measured a shape decides: others plan by what it found, and so get the same bits.
 """
 
 import base64
@@ -14,7 +14,7 @@ import platform
 import sys
 import tempfile
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -37,7 +37,7 @@ def folder() -> Path:
 
 def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int], dtype: str, planning: str) -> Any:
     """
-    Call `plan` with what is known of it, or find it out and keep it. The caller holds FFTW's planner.
+    Call `plan` with what is known of it, or find it out and keep it. The caller holds FFTW's planner, which knows nothing else.
 
     Args:
         pyfftw: the library.
@@ -49,22 +49,36 @@ def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int],
         "processor": _processor(),
         "transform": f"{shape[0]} x {shape[1]} {dtype} {planning}",
     }
-    name = hashlib.sha256(json.dumps(key).encode()).hexdigest()[:24]
-    with contextlib.suppress(OSError, RuntimeError):  # RuntimeError: no home
-        path = folder() / "wisdom" / f"{name}.json"
+    try:
+        path = folder() / "wisdom" / f"{hashlib.sha256(json.dumps(key).encode()).hexdigest()[:24]}.json"
+    except RuntimeError:  # a user without a home
+        return plan()
+    with contextlib.suppress(OSError):
         if path.is_file():
-            if _learned(pyfftw, path, key):
+            if _learned(pyfftw, path, key, dtype):
                 return plan()
-            with contextlib.suppress(OSError):
-                path.unlink()
+            path.unlink()
     made = plan()
-    with contextlib.suppress(OSError, RuntimeError):
-        if not _kept(pyfftw, path, key) and _learned(pyfftw, path, key):
-            made = plan()  # as the one who was first
+    with contextlib.suppress(OSError):
+        if not _kept(pyfftw, path, key) and path.is_file():
+            pyfftw.forget_wisdom()
+            if _learned(pyfftw, path, key, dtype):
+                made = plan()  # as the one who was first
     return made
 
 
-def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
+@contextlib.contextmanager
+def set_aside(pyfftw: ModuleType) -> Iterator[None]:
+    """Plan without what this process, or whoever else uses FFTW in it, has measured so far; afterwards it is known again."""
+    known = pyfftw.export_wisdom()
+    pyfftw.forget_wisdom()
+    try:
+        yield
+    finally:
+        pyfftw.import_wisdom(known)
+
+
+def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str], dtype: str) -> bool:
     """Read a file into FFTW, and say whether it was what it should be."""
     try:
         with path.open("rb") as file:
@@ -72,10 +86,9 @@ def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
         wise = tuple(base64.b64decode(part, validate=True) for part in tree["wisdom"])
         if tree["key"] != key or tree["sha256"] != _digest(wise) or len(wise) != 3:
             raise ValueError("it is cut, bent, or another machine's")
-        pyfftw.forget_wisdom()  # what this process has measured so far would else decide
-        if not any(pyfftw.import_wisdom(wise)):
+        if not pyfftw.import_wisdom(wise)[("float64", "float32").index(dtype)]:
             raise ValueError("FFTW does not know it")
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         warnings.warn(f"{path} is no wisdom of this FFTW and is ignored: {error}", CacheWarning, stacklevel=2)
         return False
     return True
@@ -91,11 +104,13 @@ def _kept(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
         with open(handle, "w", encoding="utf-8") as file:  # noqa: PTH123 - a descriptor, not a path
             file.write(json.dumps(tree))
         try:
-            Path(path).hardlink_to(temporary)  # refuses where there is one
+            path.hardlink_to(temporary)  # refuses where there is one
         except FileExistsError:
             return False
+        except OSError:  # a file system without links
+            Path(temporary).replace(path)
     finally:
-        Path(temporary).unlink()
+        Path(temporary).unlink(missing_ok=True)
     return True
 
 

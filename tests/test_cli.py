@@ -288,7 +288,7 @@ def test_version(run):
     assert run("--version") == (0, f"fftocean {fo.__version__}\n", "")
 
 
-@pytest.mark.parametrize("command", ["", "bake", "info", "verify", "plot", "presets"])
+@pytest.mark.parametrize("command", ["", "bake", "check", "info", "verify", "bench", "plot", "presets"])
 def test_help_shows_an_example_and_the_exit_codes(run, command):
     code, out, err = run(*command.split(), "--help")
     assert code == 0
@@ -297,7 +297,7 @@ def test_help_shows_an_example_and_the_exit_codes(run, command):
     for number in ("0 ok", "2 usage or job", "4 output", "5 integrity", "130 interrupted"):
         assert number in out
     assert max(map(len, out.splitlines())) <= 120
-    for p in FLAGGED if command not in ("", "presets") else ():
+    for p in FLAGGED if command in ("bake", "info", "verify", "plot") else ():
         assert f"--{p.flag} {p.flag.upper()}" in out
         assert p.help.split("%")[0][:20] in " ".join(out.split())
     assert ("--mips, --no-mips" in out) == (command in ("bake", "info", "verify", "plot"))
@@ -685,3 +685,143 @@ def test_an_empty_output_is_not_the_current_folder(tmp_path, monkeypatch, capsys
     assert leaving.value.code == 2
     assert "must not be empty" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+# Parts, rehearsals, and words for programs
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_part_of_the_loop_and_a_part_of_the_samples(run):
+    code, out, _ = run("bake", "-o", "out", "--n", "16", "--set", "bake.frames=12", "--frames", "2:9:3", "--downsample", "2")
+    assert code == 0
+    assert "9 maps of 8 x 8 in " in out
+    assert sorted(p.name for p in Path("out/height").iterdir()) == ["0002.exr", "0005.exr", "0008.exr"]
+    manifest = json.loads(Path("out/manifest.json").read_text())
+    assert [row["t"] for row in manifest["frames"]] == [16.0 * j / 12 for j in (2, 5, 8)]
+    assert (manifest["subset"], manifest["downsample"]) == ("2:9:3", 2)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--frames", "9:2"], "frames must choose some of the loop's 240 in rising order, got '9:2'"),
+        (["--frames", "a:b"], "frames must be a count, or start:stop or start:stop:step"),
+        (["--n", "16", "--downsample", "3"], "downsample must be a whole number that divides ocean.n = 16, got 3"),
+        (["--executor", "thread"], "executor must be one of auto, serial, processes, dask"),
+        (["--format", "r16"], "cannot hold the map 'displacement'"),
+        (["--format", "exr", "--mips"], "mip levels"),
+        (["--engine", "quake"], "bake.engine must be one of canonical, blender, unity"),
+    ],
+)
+def test_what_cannot_be_baked_is_refused(run, arguments, part):
+    assert part in clean(run("bake", "-o", "out", *(arguments if "--n" in arguments else ["--n", "8", *arguments])))
+
+
+@pytest.mark.parametrize("number", ["0", "-1", "1.5", "", "two", "9" * 4000])
+def test_workers_and_downsample_are_whole_numbers(run, number):
+    for flag in ("--workers", "--downsample"):
+        code, out, err = run("bake", "-o", "out", f"{flag}={number}")
+        assert (code, out) == (2, "")
+        assert "must be a whole number from 1 on" in err
+
+
+def test_a_dry_run_writes_nothing_and_foretells_the_files(run, monkeypatch):
+    """Their number to one, their bytes to a fifth: frames of a sea are much alike."""
+    monkeypatch.setattr(preview, "contact_sheet", lambda *_: bytes(700_000))
+    flags = ("--n", "64", "--frames", "6", "--maps", "height,normal")
+    code, out, err = run("bake", "-o", "out", *flags, "--dry-run")
+    assert (code, err) == (0, "")
+    assert "would write 15 files, about " in out
+    assert "for 6 frames to out" in out
+    assert not Path("out").exists()
+    code, out, _ = run("bake", "-o", "out", *flags, "--dry-run", "--json")
+    told = json.loads(out)
+    assert (told["event"], told["frames"], told["files"]) == ("estimate", 6, 15)
+    assert run("bake", "-o", "out", *flags)[0] == 0
+    sizes = [p.stat().st_size for p in Path("out").rglob("*") if p.is_file()]
+    assert len(sizes) == told["files"]
+    assert sum(sizes) == pytest.approx(told["bytes"], rel=0.2)
+
+
+def events(out):
+    """Lines of JSON, each one event."""
+    return [json.loads(line) for line in out.splitlines()]
+
+
+@pytest.mark.usefixtures("quick")
+def test_events_tell_all_that_happens(run):
+    code, out, err = run("bake", "-o", "out", "--n", "8", "--frames", "3", "--maps", "height", "--format", "png16", "--json")
+    assert (code, err) == (0, "")
+    told = events(out)
+    assert [e["event"] for e in told] == ["start", "survey", "survey", "survey", "frame", "frame", "frame", "done"]
+    assert told[0] == {"event": "start", "folder": "out", "frames": 3, "kept": 0, "executor": "serial", "workers": 1}
+    assert told[4] == {"event": "frame", "frame": 0, "t": 0.0, "done": 1, "frames": 3}
+    assert told[-1]["manifest"] == str(Path("out/manifest.json"))
+    code, out, err = run("bake", "-o", "out", "--n", "9", "--frames", "3", "--json")
+    assert code == 4
+    (error,) = events(out)
+    assert (error["event"], error["exit_code"]) == ("error", 4)
+    assert error["message"] in err
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize(("stop", "code", "word"), [(KeyboardInterrupt(), 130, "interrupted"), (SystemExit(143), 143, "terminated")])
+def test_events_tell_of_a_stop(run, stop, code, word, monkeypatch):
+    def fail(*_, **__):
+        raise stop
+
+    monkeypatch.setattr(baker, "_finish", fail)
+    left, out, err = run("bake", "-o", "out", "--n", "8", "--frames", "2", "--json")
+    assert left == code
+    assert events(out)[-1] == {"event": "error", "message": word, "exit_code": code}
+    assert "2 of 2 frames are finished; the same command goes on from there" in err
+
+
+# fftocean check: tests/bake/test_check.py has what it finds; here its words and its exit code
+
+
+@pytest.fixture
+def baked(run, quick):  # noqa: ARG001 - for what it does
+    assert run("bake", "-o", "out", "--n", "8", "--frames", "3", "--maps", "height")[0] == 0
+    return Path("out")
+
+
+def test_check_says_that_all_is_well(run, baked):
+    assert run("check", baked) == (0, "all is well: out\n", "")
+    assert run("check", baked, "--quiet") == (0, "", "")
+    code, out, err = run("check", baked, "--json")
+    assert (code, events(out), err) == (0, [{"event": "done", "findings": 0}], "")
+
+
+def test_check_names_what_is_wrong_and_repair_mends_it(run, baked):
+    expected = {p: p.read_bytes() for p in baked.rglob("*") if p.is_file()}
+    (baked / "height/0001.exr").write_bytes(b"")
+    (baked / "height/0002.exr").unlink()
+    code, out, err = run("check", baked)
+    assert (code, err) == (5, "")
+    assert "cut" in out
+    assert "height/0001.exr" in out
+    assert out.endswith("2 things are wrong: out\n")
+    code, out, _ = run("check", baked, "--json")
+    assert code == 5
+    found = events(out)
+    assert [e["event"] for e in found] == ["finding", "finding", "done"]
+    assert {(e["kind"], e["path"], e["map"], e["frame"]) for e in found[:2]} == {
+        ("cut", "height/0001.exr", "height", 1),
+        ("missing", "height/0002.exr", "height", 2),
+    }
+    code, out, _ = run("check", baked, "--repair")
+    assert code == 0
+    assert "repaired: 2 frames were written again" in out
+    assert out.endswith("all is well: out\n")
+    assert {p: p.read_bytes() for p in baked.rglob("*") if p.is_file()} == expected
+
+
+def test_check_of_an_unfinished_bake_and_of_none(run, baked):
+    (baked / "manifest.json").unlink()
+    code, out, _ = run("check", baked)
+    assert code == 5
+    assert "unfinished" in out
+    code, out, err = run("check", "nowhere")
+    assert (code, out) == (4, "")
+    assert err == "fftocean: nowhere must be the folder of a bake, and is not there\n"

@@ -6,6 +6,8 @@ import math
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import warnings
 from concurrent.futures import ThreadPoolExecutor
@@ -461,3 +463,89 @@ def test_a_bad_time_comes_up_in_its_turn():
             ocean.frames([1.0], ahead=bad)
     with pytest.raises(fo.ParameterError, match="needs an ocean that loops"):
         next(ocean.loop_frames(3))
+
+
+def test_times_of_a_loop_are_reduced_before_they_are_multiplied():
+    """A loop that is no power of two: t and t + loop, however far."""
+    ocean = fo.Ocean(WATER, n=32, size=100.0, loop=30.0)
+    for t in (5.0, 29.5):
+        frame = ocean.frame(t)
+        for later in (t + 30.0, t + 30.0 * 1024, t - 30.0):
+            assert all(np.array_equal(ocean.frame(later)[name], frame[name]) for name in frame.fields)
+
+
+def test_who_supplies_the_times_may_fail_and_no_frame_is_lost():
+    def times():
+        yield from (1.0, 2.0, 3.0)
+        raise LookupError("no more times")
+
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    for ahead in (0, 1, 3):
+        frames = ocean.frames(times(), ("height",), ahead=ahead)
+        assert [next(frames).t for _ in range(3)] == [1.0, 2.0, 3.0]
+        with pytest.raises(LookupError, match="no more times"):
+            next(frames)
+
+
+def test_fields_may_come_from_a_generator():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    for frame in ocean.frames([1.0, 2.0], (name for name in ("height", "normal"))):
+        assert frame.fields == ("height", "normal")
+
+
+@pytest.mark.parametrize("fields", [None, 5, [["height"]], ["depth"]])
+def test_what_is_no_field_is_refused(fields):
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    with pytest.raises(fo.ParameterError, match="field"):
+        ocean.frame(0.0, fields)
+
+
+def test_out_refuses_what_it_cannot_fill():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    frame = ocean.frame(0.0, ("height", "slope_x"))
+    shared = fo.Frame(0.0, frame.grid, 1.0, {"height": frame.height, "slope_x": frame.height})
+    with pytest.raises(fo.ParameterError, match="array of its own"):
+        ocean.frame(1.0, ("height", "slope_x"), out=shared)
+    for wrong in (frame.height.tolist(), np.ma.masked_array(frame.height), frame.height.view(np.matrix)):
+        with pytest.raises(fo.ParameterError, match="plain array"):
+            ocean.frame(1.0, ("height",), out=fo.Frame(0.0, frame.grid, 1.0, {"height": wrong}))
+
+
+def test_arrays_of_an_unpickled_ocean_are_read_only():
+    ocean = pickle.loads(pickle.dumps(fo.Ocean(WATER, n=16, size=100.0, loop=30.0)))
+    a = ocean.amplitudes
+    assert not any(array.flags.writeable for array in (a.forward, a.backward, a.variance_forward, a.variance_backward, a.cycles))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # Python 3.12 warns of what is tested
+def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
+    ocean = fo.Ocean(WATER, n=16, size=100.0)
+    truth = [ocean.frame(float(t), ("height",)).height for t in range(4)]
+    frames = ocean.frames(map(float, range(4)), ("height",), ahead=2)
+    next(frames)
+    child = os.fork()
+    if child == 0:
+        signal.alarm(20)
+        good = all(np.array_equal(frame.height, h) for frame, h in zip(frames, truth[1:], strict=True))
+        os._exit(0 if good else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert all(np.array_equal(frame.height, h) for frame, h in zip(frames, truth[1:], strict=True))
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_thread_that_outlives_the_main_one_goes_on(threads):
+    """When Python is on its way out, no new work can be handed to a pool: it is done where it is asked for."""
+    script = f"""
+import threading, time, warnings
+import fftocean as fo
+ocean = fo.Ocean.from_modes([(1, 2, 0.1, 0.0)], n=64, size=10.0, threads={threads})
+ocean.frame(0.0)
+def later():
+    time.sleep(0.5)
+    ocean.frame(1.0)
+    print(len(list(ocean.frames([1.0, 2.0, 3.0]))))
+threading.Thread(target=later).start()
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert done.stdout == "3\n", done.stderr

@@ -1,5 +1,8 @@
 """The block scheme is the table in `fields.py`, whatever is asked of it."""
 
+import math
+import time
+
 import numpy as np
 import pytest
 
@@ -61,6 +64,32 @@ def test_any_number_of_threads_gives_the_same_bytes(dtype, backend):
         assert all(np.array_equal(frame[name], frames[0][name]) for name in frame.fields)
 
 
+@pytest.mark.parametrize(("wave", "size"), [((1, 100), 60.0), ((100, 1), 60.0), ((3, 5), (1e5, 10.0)), ((3, 5), (10.0, 1e5))])
+def test_waves_nearly_along_an_axis_do_not_spoil_the_derivatives_along_the_other(wave, size):
+    """kx and ky of one wave a factor of a hundred or of ten thousand apart: float32 is good to 1e-6 of each field's largest value."""
+    waves = [(*wave, 1e-4, 0.3)]
+    single, double = (fo.Ocean.from_modes(waves, n=256, size=size, dtype=dtype) for dtype in ("float32", "float64"))
+    a, b = single.frame(1.0, tuple(FIELDS)), double.frame(1.0, tuple(FIELDS))
+    for name in FIELDS:
+        assert np.max(np.abs(a[name] - b[name])) < 1e-6 * np.max(np.abs(b[name])), name
+
+
+def test_weights_are_powers_of_two():
+    """Which round nothing."""
+    weights = fo.Ocean(SEA, n=16, size=100.0)._synthesis._weights
+    assert all(math.log2(weight).is_integer() for weight in weights.values())
+
+
+def test_no_wave_is_subnormal():
+    """A narrow swell on a large tile has waves far below what float32 can hold; as subnormal numbers they would cost ten times the time."""
+    swell = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=12.0), spreading=fo.CosinePower(s=1000.0))
+    waves = np.abs(fo.Ocean(fo.Sea(swell), n=64, size=5000.0)._synthesis._waves)
+    assert np.count_nonzero(waves) > 100
+    assert np.min(waves[waves > 0.0]) > np.finfo(np.float32).tiny
+    tiny = fo.Ocean.from_modes([(1, 2, 1e-30, 0.0)], n=16, size=1.0).frame(0.0, ("height",))
+    assert np.max(tiny.height) == pytest.approx(1e-30, rel=1e-2)
+
+
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("n", [(64, 40), (7, 50)])
 def test_a_field_has_the_same_bits_whatever_is_asked_beside_it(n, dtype):
@@ -99,6 +128,24 @@ def test_what_a_narrow_block_leaves_behind_is_harmless():
     desk = ocean._synthesis._desks[0]
     assert np.all(np.isfinite(desk.first.result))
     assert np.all(np.isfinite(desk.second.result))
+
+
+def test_whoever_is_interrupted_waits_for_the_others():
+    """When one thread's work raises, the lock must not be given back while another still writes."""
+    synthesis = fo.Ocean(SEA, n=256, size=100.0, threads=2)._synthesis
+    first = synthesis._desks[0]
+    still_at_it = []
+
+    def work(desk, _):
+        if desk is first:
+            raise KeyboardInterrupt
+        still_at_it.append(True)
+        time.sleep(0.2)
+        still_at_it.pop()
+
+    with pytest.raises(KeyboardInterrupt):
+        synthesis._share(2, 1, work)
+    assert not still_at_it
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, "2", True])

@@ -2,13 +2,14 @@
 
 import json
 import math
+import subprocess
 import sys
 
 import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean import transforms
+from fftocean import transforms, wisdom
 from fftocean.transforms import inverse_rows
 
 
@@ -158,3 +159,82 @@ def test_pyfftw_is_imported_without_dask(monkeypatch):
     transforms._pyfftw()
     assert seen == [True]
     assert "dask.array" not in sys.modules
+
+
+def test_an_estimate_is_the_same_whatever_was_measured_before(tmp_path, monkeypatch):
+    """FFTW would plan by what it knows: a viewer that measures and then bakes would bake other bytes. What the user knows is kept."""
+    import pyfftw
+
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
+    rows = noise((32, 96), "float32")
+
+    def estimated():
+        transform = inverse_rows((32, 96), "float32", backend="pyfftw")
+        transform.source[:] = rows
+        transform()
+        return transform.result.copy()
+
+    before = estimated()
+    mine, other = (np.zeros((8, 90), np.complex64) for _ in range(2))
+    pyfftw.FFTW(mine, other, flags=("FFTW_PATIENT",))
+    for planning in ("measure", "patient"):
+        inverse_rows((32, 96), "float32", backend="pyfftw", planning=planning)
+    assert np.array_equal(estimated(), before)
+    pyfftw.FFTW(mine, other, flags=("FFTW_PATIENT", "FFTW_WISDOM_ONLY"))  # raises where nothing is known
+
+
+def test_the_first_who_has_measured_decides(tmp_path, monkeypatch):
+    """A plan whose wisdom comes second is made anew by the first one's."""
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
+    inverse_rows((4, 28), "float32", backend="pyfftw", planning="measure")
+    (file,) = (tmp_path / "wisdom").iterdir()
+    first, asked = file.read_bytes(), []
+    real = wisdom._kept
+
+    def beaten(pyfftw, path, key):
+        path.write_bytes(first)
+        return real(pyfftw, path, key)
+
+    monkeypatch.setattr(wisdom, "_kept", beaten)
+    learned = wisdom._learned
+    monkeypatch.setattr(wisdom, "_learned", lambda *a: asked.append(True) or learned(*a))
+    file.unlink()
+    inverse_rows((4, 28), "float32", backend="pyfftw", planning="measure")
+    assert asked == [True]
+    assert file.read_bytes() == first
+
+
+def test_wisdom_with_a_wrong_checksum_or_of_another_processor_is_not_used(tmp_path, monkeypatch):
+    monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
+    inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
+    (file,) = (tmp_path / "wisdom").iterdir()
+    tree = json.loads(file.read_text())
+    file.write_text(json.dumps({**tree, "sha256": "0" * 64}))
+    with pytest.warns(fo.errors.CacheWarning, match="ignored"):
+        inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
+    monkeypatch.setattr(wisdom, "_processor", lambda: "another")
+    inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
+    assert len(list((tmp_path / "wisdom").iterdir())) == 2
+
+
+def test_a_user_without_a_home_measures_every_time(monkeypatch):
+    def homeless():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.setattr(wisdom, "folder", homeless)
+    assert inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
+
+
+def test_pyfftw_is_whole_for_whoever_asks_first():
+    """Eight threads at once in a fresh process: none sees what another has imported half."""
+    script = """
+import threading, sys
+from fftocean import transforms, wisdom
+found = []
+def ask():
+    found.append(hasattr(transforms._pyfftw(), "FFTW"))
+threads = [threading.Thread(target=ask) for _ in range(8)]
+[t.start() for t in threads]; [t.join() for t in threads]
+assert found == [True] * 8 and sys.modules.get("dask.array", 1) is not None, found
+"""
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=120)

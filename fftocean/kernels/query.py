@@ -18,7 +18,7 @@ import numpy as np
 
 from fftocean.arrays import Integer, Real
 from fftocean.kernels.compiler import compiled
-from fftocean.kernels.interpolate import bilinear_gradient, spline_gradient
+from fftocean.kernels.interpolate import BLOCK, bilinear_gradient, bilinear_gradients, spline_gradient, spline_gradients
 
 BILINEAR, SPLINE, WAVES = 0, 1, 2
 
@@ -55,7 +55,10 @@ def follow(
     y: Real,
     choppiness: float,
     limit: float,
-    origin: Real,
+    origins: Real,
+    moved: Real,
+    desk: Real,
+    points: Integer,
     offsets: Real,
     heights: Real,
     residuals: Real,
@@ -64,52 +67,101 @@ def follow(
     """
     The same as `invert` for texels where the way is easy, which it nearly always is: Newton's steps as they come, a few of them.
 
-    Stops where the residual is at most `limit` [m]. What is left above it is for `invert`. The first step does without the last tile:
-    the others displace the water furthest, and where it ends up is as good a place to look at ripples as the start was.
+    Stops where the residual is at most `limit` [m]. What is left above it, with an infinite residual, is for `invert`. The first step
+    does without the last tile: the others displace the water furthest, and where it ends up is as good a place to look at ripples as
+    the start was. Points go through in blocks, and leave them as they are found. Room to work in: `origins` (tiles, 2, BLOCK), `moved`
+    (2, BLOCK), `desk` as in `bilinear_gradients`, `points` (BLOCK,).
     """
     tiles = sizes.shape[0]
-    for p in range(heights.size):
-        if not (np.isfinite(x[p]) and np.isfinite(y[p])):
-            offsets[p, :] = np.nan
-            heights[p] = residuals[p] = jacobians[p] = np.nan
-            continue
-        _reduce(x[p], y[p], sizes, origin)
-        sx = sy = height = 0.0
-        square = least = np.inf
+    for start in range(0, heights.size, BLOCK):
+        live = _enter(x, y, start, min(BLOCK, heights.size - start), sizes, rates, origins, points, offsets, heights, residuals, jacobians)
+        moved[:] = 0.0
         for count in range(EASY):
             known = tiles - 1 if count == 0 and tiles > 1 else tiles
-            dx = dy = height = xx = xy = yx = yy = 0.0
+            desk[2 * BLOCK : 9 * BLOCK] = 0.0
             for i in range(known):
-                start, nx, ny = layout[i, 0], layout[i, 1], layout[i, 2]
-                per_x, per_y = rates[i, 0], rates[i, 1]
-                u, v = (origin[i, 0] + sx) * per_x, (origin[i, 1] + sy) * per_y
+                for q in range(live):
+                    desk[q] = origins[i, 0, points[q]] + moved[0, q] * rates[i, 0]
+                    desk[BLOCK + q] = origins[i, 1, points[q]] + moved[1, q] * rates[i, 1]
                 if cubic:
-                    a, b, h, a_u, a_v, b_u, b_v = spline_gradient(texels, start, nx, ny, u, v)
+                    spline_gradients(texels, layout[i, 0], layout[i, 1], layout[i, 2], rates[i, 0], rates[i, 1], live, desk)
                 else:
-                    a, b, h, a_u, a_v, b_u, b_v = bilinear_gradient(texels, start, nx, ny, u, v)
-                dx += a
-                dy += b
-                height += h
-                xx += a_u * per_x
-                xy += a_v * per_y
-                yx += b_u * per_x
-                yy += b_v * per_y
-            rx, ry = sx + choppiness * dx, sy + choppiness * dy
-            square = rx * rx + ry * ry
-            xx, xy, yx, yy = 1.0 + choppiness * xx, choppiness * xy, choppiness * yx, 1.0 + choppiness * yy
-            jacobian = xx * yy - xy * yx
-            least = min(least, jacobian)
-            if known == tiles and square <= limit * limit:
+                    bilinear_gradients(texels, layout[i, 0], layout[i, 1], layout[i, 2], rates[i, 0], rates[i, 1], live, desk)
+            enough = limit if known == tiles else -1.0
+            live = _step(choppiness, enough, start, live, moved, desk, points, offsets, heights, residuals, jacobians)
+            if live == 0:
                 break
-            if jacobian > STEEP:
-                inverse = 1.0 / jacobian
-                sx += (xy * ry - yy * rx) * inverse
-                sy += (yx * rx - xx * ry) * inverse
-            else:
-                sx -= rx
-                sy -= ry
-        offsets[p, 0], offsets[p, 1] = sx, sy
-        heights[p], residuals[p], jacobians[p] = height, np.sqrt(square), least
+
+
+@compiled
+def _enter(
+    x: Real,
+    y: Real,
+    start: int,
+    size: int,
+    sizes: Real,
+    rates: Real,
+    origins: Real,
+    points: Integer,
+    offsets: Real,
+    heights: Real,
+    residuals: Real,
+    jacobians: Real,
+) -> int:
+    """Let the points of a block in that are finite: their places in texels, and how many they are. The others are done with."""
+    live = 0
+    for q in range(size):
+        p = start + q
+        residuals[p] = jacobians[p] = np.inf
+        if np.isfinite(x[p]) and np.isfinite(y[p]):
+            points[live] = q
+            live += 1
+            for i in range(sizes.shape[0]):
+                origins[i, 0, q] = _reduced(x[p], sizes[i, 0]) * rates[i, 0]
+                origins[i, 1, q] = _reduced(y[p], sizes[i, 1]) * rates[i, 1]
+        else:
+            offsets[p, 0] = offsets[p, 1] = heights[p] = residuals[p] = jacobians[p] = np.nan
+    return live
+
+
+@compiled
+def _step(
+    choppiness: float,
+    enough: float,
+    start: int,
+    live: int,
+    moved: Real,
+    desk: Real,
+    points: Integer,
+    offsets: Real,
+    heights: Real,
+    residuals: Real,
+    jacobians: Real,
+) -> int:
+    """Take Newton's step with the points whose residual is above `enough` [m], and let the others go; return how many stay."""
+    kept = 0
+    for q in range(live):
+        p, sx, sy = start + points[q], moved[0, q], moved[1, q]
+        rx, ry = sx + choppiness * desk[2 * BLOCK + q], sy + choppiness * desk[3 * BLOCK + q]
+        a, b = 1.0 + choppiness * desk[5 * BLOCK + q], choppiness * desk[6 * BLOCK + q]
+        c, d = choppiness * desk[7 * BLOCK + q], 1.0 + choppiness * desk[8 * BLOCK + q]
+        jacobian = a * d - b * c
+        jacobians[p] = min(jacobians[p], jacobian)
+        residual = np.sqrt(rx * rx + ry * ry)
+        if residual <= enough:
+            offsets[p, 0], offsets[p, 1] = sx, sy
+            heights[p], residuals[p] = desk[4 * BLOCK + q], residual
+            continue
+        if jacobian > STEEP:
+            inverse = 1.0 / jacobian
+            sx += (b * ry - d * rx) * inverse
+            sy += (c * rx - a * ry) * inverse
+        else:
+            sx -= rx
+            sy -= ry
+        points[kept], moved[0, kept], moved[1, kept] = points[q], sx, sy
+        kept += 1
+    return kept
 
 
 EASY, STEEP = 12, 0.1

@@ -112,3 +112,21 @@ def test_gradients_are_those_of_the_interpolant(spline):
         along, across = (at(u + h, v) - at(u - h, v)) / (2 * h), (at(u, v + h) - at(u, v - h)) / (2 * h)
         assert np.max(np.abs(along[:2] - [a_u, b_u])) < 1e-8
         assert np.max(np.abs(across[:2] - [a_v, b_v])) < 1e-8
+
+
+@pytest.mark.parametrize("spline", [False, True])
+def test_many_gradients_at_once_are_those_of_one(spline):
+    """The same numbers as point by point, added to what is there; round-off of another order of sums."""
+    flat, count, block = RNG.standard_normal(4 * NY * NX), 50, interpolate.BLOCK
+    one, many = (
+        (interpolate.spline_gradient, interpolate.spline_gradients)
+        if spline
+        else (interpolate.bilinear_gradient, interpolate.bilinear_gradients)
+    )
+    desk = np.full(interpolate.ROWS * block, 7.0)
+    rows = desk.reshape(-1, block)
+    rows[:2, :count] = points(count, far=0.9)
+    many(flat, 0, NX, NY, 2.0, 3.0, count, desk)
+    expected = np.array([one(flat, 0, NX, NY, u, v) for u, v in rows[:2, :count].T]).T * np.array([[1, 1, 1, 2, 3, 2, 3]]).T
+    assert np.max(np.abs(rows[2:9, :count] - 7.0 - expected)) < 1e-13
+    assert np.all(rows[2:9, count:] == 7.0)

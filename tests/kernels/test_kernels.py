@@ -150,7 +150,7 @@ def test_frequencies_are_the_nearest_doubles():
 @pytest.mark.parametrize(("step", "count"), [(0, 1), (5, 48), (47, 48), (30, 31), (999_999, 10**6)])
 def test_turns_in_a_loop_are_whole_numbers(step, count):
     """(cycles step mod count) / count, up to whole turns, by Python's own integers."""
-    cycles = np.array([[1.0, 7.0, 1e6, 1e9 + 7, 1.6e11]])
+    cycles = np.array([[1.0, 7.0, 1e6, 1e9 + 7, 160_000_000_003.0]])
     out = np.empty(cycles.shape)
     passes.turns_in_loop(cycles, float(step), float(count), out)
     for c, turns in zip(cycles[0], out[0], strict=True):
