@@ -27,7 +27,7 @@ from fftocean.bake.lock import locked, require_free
 from fftocean.bake.manifest import compose, read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, frames_of, tasks_of
-from fftocean.bake.survey import survey
+from fftocean.bake.survey import recalled, survey, wanting
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
 from fftocean.export import formats
 from fftocean.ocean import memory_needed
@@ -98,7 +98,8 @@ def bake(
                 ledger.say("start", folder=str(folder), frames=len(chosen), kept=len(rows), executor=crew.name, workers=crew.workers)
                 if rows:
                     ledger.progress(len(rows), len(chosen))
-                if todo:
+                order = recalled(order, ledger)
+                if todo or wanting(order, scene):
                     with crew:
                         order = survey(crew, order, scene, ledger)
                         _write(crew, order, todo, rows, ledger)

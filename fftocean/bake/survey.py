@@ -1,7 +1,7 @@
 """What must be known of the whole loop before its first frame can be written: foam that returns to itself, and ranges of scaled maps."""
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
 
@@ -17,14 +17,25 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, Task, tasks_of
 
 
+def recalled(order: Order, ledger: Ledger) -> Order:
+    """Return the order with the ranges that an earlier run found."""
+    found = ledger.claimed("ranges")
+    return _with(order, found[-1]) if found else order
+
+
+def wanting(order: Order, scene: Scene) -> bool:
+    """Whether ranges are still to be found."""
+    return scene.form.scaled and not order.ranges
+
+
 def survey(crew: Crew, order: Order, scene: Scene, ledger: Ledger) -> Order:
     """Return the order with all that its frames need. What an earlier run found is taken over where the disk bears it out."""
     if "foam" in scene.job.maps:
         _foam(crew, order, scene, ledger)
-    if not scene.form.scaled:
-        return order
-    found = ledger.claimed("ranges")
-    ranges = found[-1] if found else _ranges(crew, order, scene, ledger)
+    return _with(order, _ranges(crew, order, scene, ledger)) if wanting(order, scene) else order
+
+
+def _with(order: Order, ranges: Mapping[str, Sequence[float]]) -> Order:
     return replace(order, ranges={name: (low, high) for name, (low, high) in ranges.items()})
 
 

@@ -155,7 +155,7 @@ def main(arguments=None):
             for name, share in (("exr", 0.6), ("ktx2", 0.4)):
                 order = job(name, options.n, options.frames)
                 count = round(share * options.kills)
-                done, bakes, false, different, _ = kills(order, Path(place) / name, count, chance)
+                done, bakes, false, different, _ = kills(order, Path(place) / f"kills-{name}", count, chance)
                 same = f"{bakes - different} of {bakes} with the same bytes"
                 print(f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {same}", flush=True)
                 bad += false + different
