@@ -132,9 +132,20 @@ def save(figure: "Figure", path: str | Path) -> Path:
         OutputError: the file could not be written; nothing is left behind.
     """
     path = Path(path)
-    kind = path.suffix.lower()
+    write_whole(path, encoded(figure, path.suffix))
+    return path
+
+
+def encoded(figure: "Figure", suffix: str) -> bytes:
+    """
+    Return a picture as the bytes of a file; the same figure gives the same bytes.
+
+    Raises:
+        ParameterError: a suffix that is not .png, .svg or .pdf, or not a figure.
+    """
+    kind = suffix.lower()
     if kind not in SUFFIXES:
-        raise ParameterError(f"a picture's name must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}, got {path.name!r:.80}")
+        raise ParameterError(f"a picture's name must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}, got {suffix!r:.80}")
     with style():
         from matplotlib.figure import Figure
 
@@ -143,8 +154,7 @@ def save(figure: "Figure", path: str | Path) -> Path:
         stream = io.BytesIO()
         undated: dict[str, Any] = {".png": {"Software": None}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}[kind]
         figure.savefig(stream, format=kind[1:], metadata=undated)
-    write_whole(path, stream.getvalue())
-    return path
+    return stream.getvalue()
 
 
 def _drawn(draw: "Callable[[FigureBase, Subject], None]", subject: Subject, kind: type, *, height: float, width: float = WIDTH) -> "Figure":

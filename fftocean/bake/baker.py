@@ -130,6 +130,7 @@ def scene_for(job: Job, downsample: int) -> Scene:
     Raises:
         JobError: the job asks for more than can be.
     """
+    pictures.require_drawable(job)
     scene = Scene(job.downsampled(downsample))
     for name in scene.job.maps:
         shape = (scene.job.frames, *scene.ocean.grid.shape, len(MAPS[name].names))

@@ -8,8 +8,8 @@ from fftocean.bake.maps import MAPS
 from fftocean.export.formats import FORMATS, Format
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
-SHEET, ANIMATION, TILING = "preview.png", "preview.webp", "tiling.png"
-PICTURES = (SHEET, ANIMATION, TILING)
+SHEET, ANIMATION, TILING, SPECTRUM = "preview.png", "preview.webp", "tiling.png", "spectrum.png"
+PICTURES = (SHEET, ANIMATION, TILING, SPECTRUM)
 JOURNAL, FOAM_STARTS = f"{WORK_FOLDER}/journal", f"{WORK_FOLDER}/foam.npy"
 SIDECARS = (".json", ".exr.import", ".exr.unity.txt", ".exr.unreal.txt")  # of a map, beside its container or its folder
 

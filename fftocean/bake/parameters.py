@@ -15,7 +15,7 @@ from fftocean.limits import Count, Quantity
 MAPS = ("height", "displacement", "normal", "derivative", "jacobian", "foam", "velocity", "slope_covariance")
 FORMATS = ("exr", "exr-float", "exr-atlas", "png16", "r16", "npz", "bin", "ktx2", "zarr")
 ENGINES = ("canonical", "blender", "unity", "unreal", "godot", "bevy", "gltf", "three", "three-exr", "babylon", "houdini")
-PICTURES = ("sheet", "animation", "tiling")
+PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # the words stand here and not in the rooms that know them, so that the command line's help loads none of those; a test compares
 
 

@@ -4,6 +4,7 @@ import dataclasses
 import errno
 import functools
 import hashlib
+import io
 import json
 import os
 import resource
@@ -17,6 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import fftocean as fo
 from fftocean.bake import baker, files, preview
@@ -198,7 +200,23 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
 
 def environment(**more):
     """This process's environment, with this package in sight."""
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path(fo.__file__).parent.parent), os.environ.get("PYTHONPATH", "")]), **more}
+    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
+
+
+@pytest.mark.usefixtures("small_picture")
+def test_pictures_are_drawn_on_request_and_listed(tmp_path, monkeypatch):
+    """Each opens as what its name says; nothing is drawn that nobody asked for."""
+    monkeypatch.setattr(baker, "measure", lambda _: some_statistics())
+    names = {"sheet": ("preview", "preview.png"), "animation": ("animation", "preview.webp"), "tiling": ("tiling", "tiling.png")}
+    manifest = fo.bake(job(bake__pictures=list(names)), tmp_path / "all")
+    for key, name in names.values():
+        data = (tmp_path / "all" / name).read_bytes()
+        assert manifest[key] == {"path": name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
+        with Image.open(io.BytesIO(data)) as picture:
+            assert picture.format == {".png": "PNG", ".webp": "WEBP"}[Path(name).suffix]
+    manifest = fo.bake(job(bake__pictures=["tiling"]), tmp_path / "one")
+    assert set(tree(tmp_path / "one")) & {name for _, name in names.values()} == {"tiling.png"}
+    assert "preview" not in manifest
 
 
 # Several jobs
