@@ -14,7 +14,7 @@ from fftocean.arrays import COMPLEX_OF, require_memory
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid
-from fftocean.limits import LOOP, SEED, Quantity
+from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
 from fftocean.ocean import Frame, Ocean, memory_needed, remade
 from fftocean.physics import dispersion
@@ -22,8 +22,6 @@ from fftocean.physics.sea import Sea
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
 """n, or (nx, ny), and size, or (lx, ly) [m]."""
-
-EDGE = Quantity("rad/m", 0.0, math.inf)
 
 
 class Cascade:
@@ -208,6 +206,18 @@ def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
     return tuple(pairwise([WHOLE[0], *cuts, WHOLE[1]]))
 
 
+def tile_jobs(tiles: Iterable[Tile], seed: int) -> list[tuple[Grid, int, Band]]:
+    """
+    Return the grid, the seed and the automatic band of each tile of a cascade: an `Ocean` of these is the tile.
+
+    Raises:
+        ParameterError: as `Cascade`.
+    """
+    grids = _grids(tiles)
+    seeds = [seed if index == 0 else tile_seed(seed, grid.lx, grid.ly) for index, grid in enumerate(grids)]
+    return list(zip(grids, seeds, band_edges(grids), strict=True))
+
+
 def tile_seed(seed: int, lx: float, ly: float) -> int:
     """The seed of a smaller tile: a hash of the cascade's and of the tile's size, by the generator that draws the waves."""
     counter = tuple(np.array(word, dtype=np.uint64) for word in struct.unpack("<4I", struct.pack("<2d", lx, ly)))
@@ -249,7 +259,7 @@ def _checked_bands(bands: Sequence[Band], grids: Sequence[Grid]) -> tuple[Band, 
         raise ParameterError(f"bands must be a list of (lowest, highest) wavenumber, got {bands!r:.80}") from error
     if len(pairs) != len(grids):
         raise ParameterError(f"bands must be one for each of the {len(grids)} tiles, got {len(pairs)}")
-    checked = [(EDGE.check("a band's lowest |k|", low), EDGE.check("a band's highest |k|", high)) for low, high in pairs]
+    checked = [(BAND_EDGE.check("a band's lowest |k|", low), BAND_EDGE.check("a band's highest |k|", high)) for low, high in pairs]
     for i, (low, high) in enumerate(checked):
         coarsest, finest = reach_of(grids[i])
         if not low < high:

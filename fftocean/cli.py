@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import fftocean
-from fftocean.errors import FFTOceanError, OutputError, SeaWarning
+from fftocean.errors import FFTOceanError, JobError, OutputError, SeaWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -142,6 +142,12 @@ def _add_bake_flags(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--downsample", type=_whole, default=1, metavar="K", help="a K-th of the samples a side: the same waves, but for those too short"
     )
+    command.add_argument(
+        "--tiles",
+        type=_tiles,
+        metavar="N:SIZE,...",
+        help="one sea on several tiles, such as 512:500,512:71,256:9.3, instead of --n and --size",
+    )
     command.add_argument("--dry-run", action="store_true", help="say what would be written, and write nothing")
     _add_work_flags(command)
     command.add_argument("--json", action="store_true", help="what happens as lines of JSON on stdout: start, survey, frame, done, error")
@@ -247,6 +253,8 @@ def _bake(options: argparse.Namespace) -> int:
         subset, options.frames = options.frames, None
     with _events(options.json) as tell:
         job = _job(options)
+        if options.tiles:
+            return _bake_cascade(options, job, subset, tell)
         if options.dry_run:
             return _dry_run(options, job, subset)
         return _bake_job(options, job, subset, tell)
@@ -290,6 +298,38 @@ def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell:
     if not (options.quiet or options.json):
         _sum_up(options, manifest, time.perf_counter() - start)
     return 0
+
+
+def _bake_cascade(options: argparse.Namespace, job: "Job", subset: str | None, tell: "Callable[[dict[str, Any]], None] | None") -> int:
+    """Bake one sea on several tiles, one after the other."""
+    from fftocean.bake.tiles import CASCADE_FILE, bake_tiles
+
+    if options.dry_run:
+        raise JobError("--dry-run looks at one tile; leave out --tiles, and give --n and --size")
+    with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
+
+        def listen(event: dict[str, Any]) -> None:
+            if event["event"] == "frame":
+                show(event["done"], event["frames"], "baking")
+            if tell:
+                tell(event)
+
+        work = {name: getattr(options, name) for name in ("overwrite", "downsample", "executor", "workers")}
+        listed = bake_tiles(job, options.tiles, options.output, frames=subset, listen=listen, **work)
+    if not (options.quiet or options.json):
+        for tile in listed["tiles"]:
+            (nx, ny), (lx, ly), (low, high) = tile["n"], tile["size"], tile["band"]
+            print(f"{tile['path']}: {nx} x {ny} over {lx:g} x {ly:g} m, waves of {low:.4g} to {float(high):.4g} rad/m")
+        print(f"how to add them stands in {_plain(options.output / CASCADE_FILE)}")
+    return 0
+
+
+def _tiles(text: str) -> list[tuple[int, float]]:
+    """Tiles as n:size,n:size."""
+    try:
+        return [(int(n), float(size)) for n, size in (tile.split(":") for tile in text.split(","))]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be n:size,n:size such as 512:500,512:71,256:9.3, got {text!r:.80}") from None
 
 
 def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: float) -> None:

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
+from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import COMPLEX_OF, Real, RealLike, require_memory
 from fftocean.errors import FieldError, ParameterError, SeaWarning
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.grid import Grid
 from fftocean.kernels import passes
-from fftocean.limits import AHEAD, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
+from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
+from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import POINTWISE, Synthesis, Turn
 
@@ -160,6 +161,7 @@ class Ocean:
         choppiness: factor on the horizontal displacement [-]: 1 is linear wave theory, 0 a plain height field.
         dtype: "float32" or "float64", of the fields; amplitudes and phases are always float64.
         amplitudes: "gaussian" as in nature, or "fixed" for random phases alone (see `seed_amplitudes`).
+        band: the wavenumbers |k| to hold of those that the tile can, from the first up to the second [rad/m]; a `Cascade` sets them.
         backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
         planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
         threads: how many threads share the work on one frame; the bytes are the same for any number.
@@ -182,6 +184,7 @@ class Ocean:
         choppiness: float = 1.0,
         dtype: str = "float32",
         amplitudes: Draw = "gaussian",
+        band: Band = WHOLE,
         backend: str = "auto",
         planning: str = "estimate",
         threads: int = 1,
@@ -189,14 +192,17 @@ class Ocean:
         if not isinstance(sea, Sea):
             raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
         grid, dtype, loop = _checked(n, size, dtype, loop)
-        if loop is not None and loop < 4.0 * (tp := sea.tp):
+        band = _checked_band(band)
+        if loop is not None and loop < 4.0 * (longest := _longest_period(sea, band)):
             warnings.warn(
-                f"a loop of {loop:g} s is less than four peak periods ({4.0 * tp:.1f} s): its long waves run visibly too fast or too slow",
+                f"a loop of {loop:g} s is less than four peak periods ({4.0 * longest:.1f} s): "
+                "its long waves run visibly too fast or too slow",
                 SeaWarning,
                 stacklevel=2,
             )
         self.seed: int | None = seed  # checked where it is used, next
-        self._set_up(sea, seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes), choppiness, dtype, backend, planning, threads)
+        drawn = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
+        self._set_up(sea, drawn, choppiness, dtype, backend, planning, threads)
 
     @classmethod
     def from_modes(
@@ -503,6 +509,24 @@ def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float
         raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
     require_memory(f"an ocean of n = {grid.nx} x {grid.ny}", memory_needed(grid, name))
     return grid, name, None if loop is None else LOOP.check("loop", loop)
+
+
+def _longest_period(sea: Sea, band: Band) -> float:
+    """The period of the sea's peak, or of the longest waves of a band above it [s]."""
+    slowest = float(dispersion.angular_frequency(band[0], sea.depth, sea.surface_tension))
+    return min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
+
+
+def _checked_band(band: Any) -> Band:
+    """Two wavenumbers, the first below the second."""
+    try:
+        low, high = band
+    except (TypeError, ValueError):
+        raise ParameterError(f"band must be two wavenumbers [rad/m], got {band!r:.80}") from None
+    low, high = BAND_START.check("band[0]", low), BAND_EDGE.check("band[1]", high)
+    if not low < high:
+        raise ParameterError(f"band must rise, got {low:g} to {high:g} rad/m")
+    return low, high
 
 
 def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:

@@ -144,6 +144,9 @@ class Job:
     def ocean(self, *, dtype: str = "float32") -> Ocean:
         """The tile."""
         s = self.settings
+        low, high = s["ocean.band_low"], s["ocean.band_high"]
+        if not low < high:
+            raise JobError(f"{self.source}: ocean.band_low must be below ocean.band_high, got {low:g} and {high:g} rad/m")
         try:
             return Ocean(
                 self.sea(),
@@ -154,6 +157,7 @@ class Job:
                 choppiness=s["ocean.choppiness"],
                 amplitudes=s["ocean.amplitudes"],
                 dtype=dtype,
+                band=(low, high),
             )
         except (JobError, ReaderError):
             raise

@@ -104,6 +104,8 @@ TILE = (
     Parameter("ocean.seed", 1, "which of all the seas that it could be", limits.SEED, flag="seed"),
     Parameter("ocean.loop", 16.0, "period after which the water repeats", limits.LOOP, flag="loop"),
     Parameter("ocean.choppiness", 1.0, "factor on horizontal displacement; 1 is wave theory", limits.CHOPPINESS, flag="choppiness"),
+    Parameter("ocean.band_low", 0.0, "wavenumbers to hold, from here", limits.BAND_START),
+    Parameter("ocean.band_high", math.inf, "up to here: bands that adjoin make one sea of several tiles", limits.BAND_EDGE),
     Parameter("ocean.amplitudes", "gaussian", "as in nature, or fixed for random phases alone", choices=("gaussian", "fixed")),
 )
 OUTPUT = (

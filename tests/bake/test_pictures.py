@@ -21,7 +21,7 @@ def test_every_picture_that_is_asked_for_is_there_and_listed(tmp_path):
 
 
 def test_the_spectrum_needs_matplotlib_and_says_so_first(tmp_path, monkeypatch):
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
     with pytest.raises(fo.JobError, match="needs matplotlib"):
         fo.bake(JOB.replaced({"bake.pictures": ["spectrum"]}), tmp_path / "sea", executor="serial")
     assert not (tmp_path / "sea").exists()
