@@ -118,13 +118,12 @@ def _job(folder: Path, contents: Contents) -> Iterator[Finding]:
 
 def _beside(contents: Contents) -> Iterator[Finding]:
     """Pictures, and what stands beside the frames; containers too, where no frame of theirs tells."""
-    pictures = [contents.manifest[key] for key in ("preview", "animation", "tiling", "spectrum") if key in contents.manifest]
-    expected = dict(zip(("preview", "animation", "tiling", "spectrum"), layout.PICTURES, strict=True))
+    pictures = [contents.manifest[key] for key in layout.DRAWN if key in contents.manifest]
     containers = {layout.container(contents.form, name) for name in contents.job.maps} if contents.form.scope == "sequence" else set()
     beside = [entry for entries in contents.manifest.get("containers", {}).values() for entry in entries]
     for entry in [*pictures, *beside]:
         path = entry["path"]
-        ours = path in expected.values() or any(path.startswith((f"{name}.", f"{name}/")) for name in contents.job.maps)
+        ours = path in layout.PICTURES or any(path.startswith((f"{name}.", f"{name}/")) for name in contents.job.maps)
         if not ours or ".." in path.split("/"):
             yield Finding("manifest", layout.MANIFEST_FILE, f"it lists {path!r:.80}, which is no file of a bake")
         elif path not in containers:
@@ -313,7 +312,7 @@ def _extra(contents: Contents) -> Iterator[Finding]:
     """Files that look like ours and are not in the manifest."""
     listed = {contents.path(name, place) for name in contents.job.maps for place in range(len(contents.frames))}
     listed |= {entry["path"] for entries in contents.manifest.get("containers", {}).values() for entry in entries}
-    listed |= {contents.manifest[key]["path"] for key in ("preview", "animation", "tiling", "spectrum") if key in contents.manifest}
+    listed |= {contents.manifest[key]["path"] for key in layout.DRAWN if key in contents.manifest}
     for path in layout.leftovers(contents.folder):
         relative = path.relative_to(contents.folder).as_posix()
         if relative not in listed:

@@ -70,7 +70,7 @@ class Contents:
                 if row["files"][name]["bytes"] < 0 or row["files"][name]["path"] != self.path(name, place):
                     raise ValueError(f"{name} of frame {row['frame']} is not in {row['files'][name]['path']}")
         beside = [entry for entries in self.manifest.get("containers", {}).values() for entry in entries]
-        for entry in [*beside, *(self.manifest[key] for key in ("preview", "animation", "tiling") if key in self.manifest)]:
+        for entry in [*beside, *(self.manifest[key] for key in layout.DRAWN if key in self.manifest)]:
             if not isinstance(entry["path"] + entry["sha256"], str) or entry["bytes"] < 0:
                 raise ValueError(f"a file is listed as {entry}")
         for name, m in self.manifest["maps"].items():

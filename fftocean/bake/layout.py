@@ -9,7 +9,8 @@ from fftocean.export.formats import FORMATS, Format
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
 SHEET, ANIMATION, TILING, SPECTRUM = "preview.png", "preview.webp", "tiling.png", "spectrum.png"
-PICTURES = (SHEET, ANIMATION, TILING, SPECTRUM)
+DRAWN = {"preview": SHEET, "animation": ANIMATION, "tiling": TILING, "spectrum": SPECTRUM}  # by their keys in the manifest
+PICTURES = tuple(DRAWN.values())
 JOURNAL, FOAM_STARTS = f"{WORK_FOLDER}/journal", f"{WORK_FOLDER}/foam.npy"
 SIDECARS = (".json", ".exr.import", ".exr.unity.txt", ".exr.unreal.txt")  # of a map, beside its container or its folder
 
