@@ -500,7 +500,7 @@ def _info(options: argparse.Namespace) -> int:
     from fftocean.statistics import measure
 
     job = _job(options)
-    scene = scene_for(job, 1)
+    scene = scene_for(job, 1, job.frames)
     ocean = scene.ocean
     statistics, grid = measure(ocean), ocean.grid
     console = _console()

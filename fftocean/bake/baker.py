@@ -16,6 +16,7 @@ from fftocean.arrays import available_memory
 from fftocean.bake import blend, layout, pictures
 from fftocean.bake.claim import claim, discard_work, header_of, require_claimable
 from fftocean.bake.containers import assemble, intact, unpack
+from fftocean.bake.contents import Contents
 from fftocean.bake.crews import check_executor, cores, crew_of
 from fftocean.bake.executors import Crew
 from fftocean.bake.files import as_json, make_folder, sweep, write_whole
@@ -80,7 +81,8 @@ def bake(
     check_executor(executor, workers)
     folder = Path(folder)
     require_free(folder)
-    chosen, scene = frames_of(frames, job.frames), scene_for(job, downsample)
+    chosen = frames_of(frames, job.frames)
+    scene = scene_for(job, downsample, len(chosen))
     header = header_of(job, frames=chosen, downsample=downsample, backend=scene.ocean.backend)
     make_folder(folder)
     with locked(folder) as hold:
@@ -123,9 +125,9 @@ def _sweep(folder: Path) -> None:
         sweep(room)
 
 
-def scene_for(job: Job, downsample: int) -> Scene:
+def scene_for(job: Job, downsample: int, frames: int) -> Scene:
     """
-    Set up a job's water, and find out before anything is written whether its format can hold its maps.
+    Set up a job's water, and find out before anything is written whether its format can hold so many frames of its maps.
 
     Raises:
         JobError: the job asks for more than can be.
@@ -133,7 +135,7 @@ def scene_for(job: Job, downsample: int) -> Scene:
     pictures.require_drawable(job)
     scene = Scene(job.downsampled(downsample))
     for name in scene.job.maps:
-        shape = (scene.job.frames, *scene.ocean.grid.shape, len(MAPS[name].names))
+        shape = (frames, *scene.ocean.grid.shape, len(MAPS[name].names))
         try:
             formats.require(scene.form.name, shape, scene.levels)
         except ParameterError as error:
@@ -154,6 +156,7 @@ def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[En
     require_claimable(folder, order.header)
     try:
         manifest = read_manifest(folder)
+        contents = Contents.of(folder, manifest)
     except IntegrityError:
         return entries_of(folder / layout.JOURNAL, order.claim)
     if any(manifest.get(key) != value for key, value in order.header.items()):
@@ -161,7 +164,7 @@ def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[En
     scaled = {name: [m["scaled"]["low"], m["scaled"]["high"]] for name, m in manifest["maps"].items() if "scaled" in m}
     known: list[Entry] = [{"ranges": scaled}] if scaled else []
     if scene.form.scope == "sequence":
-        if intact(folder, manifest):
+        if intact(contents):
             known.append({"containers": manifest["containers"]})
         else:
             unpack(folder, scene, manifest)

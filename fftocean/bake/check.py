@@ -10,15 +10,14 @@ import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.bake import layout
-from fftocean.bake.claim import read_checked
-from fftocean.bake.containers import FREE, INSEPARABLE
+from fftocean.bake.claim import HEADER, read_checked
+from fftocean.bake.containers import INSEPARABLE, still_says
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest
 from fftocean.bake.lock import require_free
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.errors import IntegrityError, OutputError
-from fftocean.export import formats, recipes
 
 Kind = Literal[
     "unfinished", "manifest", "job", "missing", "cut", "swapped", "changed", "extra", "values", "range", "normal", "seam", "loop", "crest"
@@ -112,7 +111,7 @@ def _job(folder: Path, contents: Contents) -> Iterator[Finding]:
         there = (folder / layout.JOB_FILE).is_file()
         yield Finding("job" if there else "missing", layout.JOB_FILE, str(error))
         return
-    if any(contents.manifest.get(key) != value for key, value in job.items()):
+    if job != {key: contents.manifest.get(key) for key in HEADER}:
         yield Finding("job", layout.JOB_FILE, "it is not the job of the manifest")
 
 
@@ -129,16 +128,8 @@ def _beside(contents: Contents) -> Iterator[Finding]:
         elif path not in containers:
             data = contents.read(path)
             fault = _fault(data, entry, {})
-            if fault and not (data and path.endswith(FREE) and _still_says(contents, path, data)):
+            if fault and not (data and still_says(contents, path, data)):
                 yield Finding(fault[0], path, fault[1])
-
-
-def _still_says(contents: Contents, path: str, data: bytes) -> bool:
-    """Whether a sidecar that an engine may rewrite still says all that it was written with."""
-    across, down = formats.atlas(len(contents.frames), *contents.shape)
-    loop = contents.manifest["ocean"]["loop"]
-    written = recipes.beside(contents.profile, path.removesuffix(".import"), columns=across, rows=down, loop=loop).get(path, b"")
-    return set(written.split(b"\n")) <= set(data.replace(b"\r\n", b"\n").split(b"\n"))
 
 
 def _fault(data: bytes | None, entry: Mapping[str, Any], known: Mapping[str, str]) -> tuple[Kind, str] | None:
@@ -320,5 +311,3 @@ def _extra(contents: Contents) -> Iterator[Finding]:
     for room in layout.rooms(contents.folder):
         for path in sorted(room.glob(".*.[0-9]*.tmp")):
             yield Finding("extra", path.relative_to(contents.folder).as_posix(), "somebody was stopped while writing it")
-    if (contents.folder / layout.WORK_FOLDER).is_dir():
-        yield Finding("extra", layout.WORK_FOLDER, "what a bake keeps to itself is left over")

@@ -1,5 +1,6 @@
 """Whose folder it is: what makes a bake's bytes what they are, and the refusal of a folder that holds anything else."""
 
+import itertools
 import json
 import os
 import platform
@@ -13,7 +14,7 @@ from typing import Any
 import fftocean
 from fftocean.bake.files import as_json, digest, read_json, read_whole, remove, sweep, write_whole
 from fftocean.bake.job import Job
-from fftocean.bake.layout import JOB_FILE, MANIFEST_FILE, PICTURES, WORK_FOLDER, leftovers, rooms
+from fftocean.bake.layout import JOB_FILE, MANIFEST_FILE, WORK_FOLDER, leftovers, rooms
 from fftocean.bake.parameters import PARAMETERS
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.transforms import library
@@ -75,6 +76,10 @@ def _version(package: str) -> str:
         return "unknown"
 
 
+HEADER = ("tool", "version", "job", "units", "subset", "downsample", "inputs", "made_with")
+"""What says which bake a folder holds: all of its job's file, and the head of its manifest."""
+
+
 def checked(tree: Mapping[str, Any]) -> dict[str, Any]:
     """A tree with the SHA-256 of all of it under `CHECK`: any change of the file can be told."""
     return {**tree, CHECK: digest(as_json(tree))}
@@ -125,9 +130,10 @@ def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
         OutputError: another one is marked there, or none and yet files that this one would replace.
     """
     if not os.path.lexists(folder / JOB_FILE):
-        for name in (MANIFEST_FILE, *PICTURES):
-            if os.path.lexists(folder / name):
-                raise OutputError(f"{folder} holds a {name} and is no bake, for want of {JOB_FILE}; choose another folder, or --overwrite")
+        there = [folder / MANIFEST_FILE] if os.path.lexists(folder / MANIFEST_FILE) else [*itertools.islice(leftovers(folder), 1)]
+        for path in there:
+            name = path.relative_to(folder).as_posix()
+            raise OutputError(f"{folder} holds a {name} and is no bake, for want of {JOB_FILE}; choose another folder, or --overwrite")
         return
     before = read_json(folder / JOB_FILE)
     if changes := differences(before if isinstance(before, dict) else {}, header):

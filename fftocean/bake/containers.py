@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from fftocean.bake import layout
+from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
-from fftocean.export import formats, profiles
+from fftocean.export import formats, profiles, recipes
 
 INSEPARABLE = ("exr-atlas",)
 """Containers whose frames cannot be told apart once they are bent: their rows are compressed across all frames."""
@@ -67,14 +68,24 @@ def _parts(folder: Path, scene: Scene, name: str, rows: Sequence[Mapping[str, An
         yield data
 
 
-def intact(folder: Path, manifest: Mapping[str, Any]) -> bool:
-    """Whether every container of a finished bake is there and is what it was."""
+def intact(contents: Contents) -> bool:
+    """Whether every container of a finished bake, and what stands beside it, is there and is what it was."""
     return all(
-        (data := read_whole(folder / entry["path"])) is not None and digest(data) == entry["sha256"]
-        for entries in manifest.get("containers", {}).values()
+        (data := contents.read(entry["path"])) is not None
+        and (digest(data) == entry["sha256"] or still_says(contents, entry["path"], data))
+        for entries in contents.manifest.get("containers", {}).values()
         for entry in entries
-        if not entry["path"].endswith(FREE)
     )
+
+
+def still_says(contents: Contents, path: str, data: bytes) -> bool:
+    """Whether a file is a sidecar that an engine may rewrite, and still says all that it was written with."""
+    if not path.endswith(FREE):
+        return False
+    across, down = formats.atlas(len(contents.frames), *contents.shape)
+    loop = contents.manifest["ocean"]["loop"]
+    written = recipes.beside(contents.profile, path.removesuffix(".import"), columns=across, rows=down, loop=loop).get(path, b"")
+    return set(written.split(b"\n")) <= set(data.replace(b"\r\n", b"\n").split(b"\n"))
 
 
 def unpack(folder: Path, scene: Scene, manifest: Mapping[str, Any]) -> None:

@@ -43,8 +43,8 @@ def estimate(
         JobError: the job asks for more than can be.
         OutputError: a value that the format cannot hold.
     """
-    scene = scene or scene_for(job, downsample)
-    chosen = frames_of(frames, scene.job.frames)
+    chosen = frames_of(frames, job.frames)
+    scene = scene or scene_for(job, downsample, len(chosen))
     name, hands = crew_for(executor, workers, scene, len(chosen))
     sizes = [_bytes_of(scene, j) for j in chosen[:1]]  # and whatever is to be compiled is
     start = time.perf_counter()

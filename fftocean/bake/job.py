@@ -268,9 +268,7 @@ class Job:
     def describe(self) -> dict[str, Any]:
         """The whole job as plain data for a manifest: every key, with `inf` as a word, as JSON has no such number."""
         shown = {p.key: self.settings[p.key] for p in PARAMETERS if self.wind or p not in WIND}
-        tree: dict[str, Any] = json.loads(
-            json.dumps({**shown, "sea.systems": list(self.systems)}, default=str).replace("Infinity", '"inf"')
-        )
+        tree: dict[str, Any] = json.loads(json.dumps(_worded({**shown, "sea.systems": list(self.systems)}), default=str))
         return tree
 
 
@@ -324,6 +322,15 @@ def parse_value(text: str) -> Any:
             if len(tree) == 1:  # and not a value and further lines
                 return tree["v"]
     return [part.strip() for part in text.split(",")] if "," in text else text
+
+
+def _worded(tree: Any) -> Any:
+    """A tree whose infinite numbers are words."""
+    if isinstance(tree, Mapping):
+        return {key: _worded(value) for key, value in tree.items()}
+    if isinstance(tree, (list, tuple)):
+        return [_worded(value) for value in tree]
+    return finite_or_word(tree) if isinstance(tree, float) else tree
 
 
 def finite_or_word(value: float) -> float | str:

@@ -34,6 +34,7 @@ class Parameter:
     quantity: Quantity | None = None  # for numbers
     choices: tuple[str, ...] = ()  # for words
     many: bool = False  # a list of choices
+    none: bool = False  # which may be empty
     switch: bool = False  # true or false
     pair: bool = False  # one number or two, (x, y)
     flag: str | None = None  # the command line's short way to it
@@ -66,7 +67,7 @@ class Parameter:
                     raise ParameterError(f"{self.key} must be one value or two, [x, y], got {value!r:.80}")
                 return tuple(self._check_one(v) for v in value)
             if self.many:
-                if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
+                if isinstance(value, str) or not isinstance(value, (list, tuple)) or not (value or self.none):
                     raise ParameterError(f"{self.key} must be a list of {self.rule}, got {value!r:.80}")
                 return tuple(dict.fromkeys(self._check_one(v) for v in value))
             return self._check_one(value)
@@ -120,8 +121,8 @@ OUTPUT = (
         choices=("lagrangian", "eulerian"),
         flag="lookup",
     ),
-    Parameter("bake.mips", False, "smaller levels of each map too, where the format has room for them", switch=True, flag="mips"),
-    Parameter("bake.pictures", ("sheet",), "what to look at beside the maps", choices=PICTURES, many=True),
+    Parameter("bake.mips", False, "smaller levels of each map too; with the format ktx2", switch=True, flag="mips"),
+    Parameter("bake.pictures", ("sheet",), "what to look at beside the maps", choices=PICTURES, many=True, none=True),
 )
 FOAM = (
     Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", FOAM_TAU),

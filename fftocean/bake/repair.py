@@ -8,7 +8,8 @@ from typing import Any
 from fftocean.bake import layout
 from fftocean.bake.baker import bake
 from fftocean.bake.check import check
-from fftocean.bake.claim import checked, differences, read_checked
+from fftocean.bake.claim import HEADER, checked, differences, read_checked
+from fftocean.bake.contents import Contents
 from fftocean.bake.files import as_json, remove, write_whole
 from fftocean.bake.job import Job
 from fftocean.bake.ledger import Listen, Progress
@@ -47,6 +48,7 @@ def repair(
     manifest: dict[str, Any] | None
     try:
         manifest = read_manifest(folder)
+        Contents.of(folder, manifest)
         header: Mapping[str, Any] = {key: manifest[key] for key in HEADER}
     except (IntegrityError, KeyError):
         manifest = None
@@ -60,7 +62,7 @@ def repair(
             raise OutputError(f"{folder / layout.JOB_FILE} must be a file, and is not")
         write_whole(folder / layout.JOB_FILE, as_json(checked(header)))
     for finding in findings:
-        if finding.kind == "extra" and finding.path != layout.WORK_FOLDER:
+        if finding.kind == "extra":
             remove(folder / finding.path)
     subset = None if header["subset"] == "all" else header["subset"]
     downsample = header["downsample"]
@@ -69,6 +71,3 @@ def repair(
         what = differences(manifest, again) or "its frames' checksums"
         raise IntegrityError(f"{folder} was repaired, and is not what it was: {what}")
     return again
-
-
-HEADER = ("tool", "version", "job", "units", "subset", "downsample", "inputs", "made_with")
