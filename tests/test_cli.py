@@ -103,6 +103,8 @@ def refused_or_finite(result, key, value):
 
 
 ACCEPTED = {
+    "ocean.band_low": ("0", "1e-308"),
+    "ocean.band_high": ("inf", "1e308", "1e-308"),
     "sea.wind.speed": ("0", "1e-308"),
     "sea.wind.direction": ("-1", "0", "1e-308"),
     "sea.wind.blend": ("0", "1e-308"),
@@ -416,8 +418,9 @@ def test_info_describes_any_tile(run, n):
     ):
         assert part in out
     assert "nan" not in out
-    assert "inf m" in out  # the depth, and nothing else
-    assert out.count("inf") == 1
+    assert "inf m" in out
+    assert "inf rad/m" in out
+    assert out.count("inf") == 2  # the depth and the band, and nothing else
 
 
 def test_info_describes_a_job_with_systems_and_without_waves(run):
