@@ -41,7 +41,7 @@ class Contents:
             IntegrityError: it is not what a bake could have written.
         """
         try:
-            ordered = Job.from_description(manifest["job"], source=str(folder / layout.MANIFEST_FILE))
+            ordered = Job.from_description(manifest["job"], source=str(folder / layout.MANIFEST_FILE), at_sea=False)
             job = ordered.downsampled(manifest["downsample"])
             subset = manifest["subset"]
             frames = frames_of(None if subset == "all" else subset, job.frames)

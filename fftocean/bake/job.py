@@ -86,8 +86,8 @@ class Job:
         return cls.from_tree(tree, source=source)
 
     @classmethod
-    def from_tree(cls, tree: Mapping[str, Any], *, source: str = "job") -> "Job":
-        """Check a parsed job, key by key."""
+    def from_tree(cls, tree: Mapping[str, Any], *, source: str = "job", at_sea: bool = True) -> "Job":
+        """Check a parsed job, key by key; and, `at_sea`, whether it is a sea, for which its measured files must be there."""
         given: dict[str, Any] = {}
         systems: tuple[Mapping[str, Any], ...] = ()
         for key, value in _flatten(tree):
@@ -103,9 +103,10 @@ class Job:
                 raise JobError(f"{source}: {unknown_key(key, _KNOWN)}")
         wind = not systems or _brings_wind(given, source)
         job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # said once, when it is used
-            job.sea()
+        if at_sea:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # said once, when it is used
+                job.sea()
         return job
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":
@@ -246,9 +247,9 @@ class Job:
         return found
 
     @classmethod
-    def from_description(cls, described: Mapping[str, Any], *, source: str = "job") -> "Job":
+    def from_description(cls, described: Mapping[str, Any], *, source: str = "job", at_sea: bool = True) -> "Job":
         """
-        Return the job that `describe` has described.
+        Return the job that `describe` has described; not `at_sea`, where the files that it measured its sea by need not be.
 
         Raises:
             JobError: it is none.
@@ -263,7 +264,7 @@ class Job:
                     raise JobError(f"{source}: {key!r:.80} is no key of a job")
             number = key in BY_KEY and BY_KEY[key].quantity is not None
             inner[name] = float(value) if number and isinstance(value, str) and value in ("inf", "-inf") else value
-        return cls.from_tree(tree, source=source)
+        return cls.from_tree(tree, source=source, at_sea=at_sea)
 
     def describe(self) -> dict[str, Any]:
         """The whole job as plain data for a manifest: every key, with `inf` as a word, as JSON has no such number."""

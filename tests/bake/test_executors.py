@@ -343,7 +343,7 @@ def test_as_many_workers_as_processors_and_memory_allow(monkeypatch):
     assert 1 <= cores() <= (os.cpu_count() or 1)
     from fftocean.bake.baker import crew_for, scene_for
 
-    scene = scene_for(job(ocean__n=64), 1)
+    scene = scene_for(job(ocean__n=64), 1, 1)
     assert crew_for("processes", None, scene, 1000) == ("processes", cores())
     assert crew_for("processes", 8, scene, 3) == ("processes", 3)  # no more than frames
     assert crew_for("serial", 8, scene, 1000) == ("serial", 1)
