@@ -23,12 +23,8 @@ from fftocean.errors import ParameterError
 from fftocean.fields import potential_factor
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
-from fftocean.limits import FRAMES, TIME, Quantity, keep_checked
+from fftocean.limits import FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, FRAMES, TIME, keep_checked
 from fftocean.ocean import Frame, Ocean
-
-TAU = Quantity("s", 1e-3, 1e6)
-THRESHOLD = Quantity("", -10.0, 1.0)
-STRENGTH = Quantity("1/s", 0.0, 1e6)
 
 SPAN = 16
 """Frames of a loop that are baked from one stored state."""
@@ -52,7 +48,7 @@ class Foam:
     strength: float = 60.0  # foam made per second and unit of squeeze below the threshold [1/s]
 
     def __post_init__(self) -> None:
-        keep_checked(self, tau=TAU, threshold=THRESHOLD, strength=STRENGTH)
+        keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
 
     def loop(self, ocean: Ocean, count: int) -> Iterator[Real]:
         """

@@ -19,11 +19,6 @@ PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # the words stand here and not in the rooms that know them, so that the command line's help loads none of those; a test compares
 
 
-FOAM_TAU = Quantity("s", 1e-3, 1e6)
-FOAM_THRESHOLD = Quantity("", -10.0, 1.0)
-FOAM_STRENGTH = Quantity("1/s", 0.0, 1e6)
-
-
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """One key of a job file."""
@@ -125,9 +120,9 @@ OUTPUT = (
     Parameter("bake.pictures", ("sheet",), "what to look at beside the maps", choices=PICTURES, many=True, none=True),
 )
 FOAM = (
-    Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", FOAM_TAU),
-    Parameter("bake.foam.threshold", 0.72, "squeeze below which water foams: 1 is still water, 0 a folding crest", FOAM_THRESHOLD),
-    Parameter("bake.foam.strength", 60.0, "foam made per unit of squeeze below the threshold", FOAM_STRENGTH),
+    Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", limits.FOAM_TAU),
+    Parameter("bake.foam.threshold", 0.72, "squeeze below which water foams: 1 is still water, 0 a folding crest", limits.FOAM_THRESHOLD),
+    Parameter("bake.foam.strength", 60.0, "foam made per unit of squeeze below the threshold", limits.FOAM_STRENGTH),
 )
 PARAMETERS = (*WIND, *WATER, *TILE, *OUTPUT, *FOAM)
 BY_KEY = {p.key: p for p in PARAMETERS}

@@ -15,11 +15,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import fftocean as fo
-from fftocean import foam
 from fftocean.bake import job as job_room
 from fftocean.bake.job import Job, parse_setting, parse_value
 from fftocean.bake.maps import MAPS
-from fftocean.bake.parameters import BY_KEY, FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, PARAMETERS
+from fftocean.bake.parameters import BY_KEY, PARAMETERS
 from fftocean.bake.systems import SPREADINGS as SPREADING_KINDS
 from fftocean.bake.systems import spectra_in
 from fftocean.errors import JobError, ParameterError, ReaderError
@@ -211,9 +210,8 @@ def test_every_default_keeps_its_own_rule():
 
 
 def test_foam_is_that_of_the_library():
-    """The same defaults and the same rules, though the table of keys stands apart from what they mean."""
+    """The same defaults, though the table of keys stands apart from what they mean."""
     assert Foam(**Job.default().foam) == Foam()
-    assert (FOAM_TAU, FOAM_THRESHOLD, FOAM_STRENGTH) == (foam.TAU, foam.THRESHOLD, foam.STRENGTH)
 
 
 def test_the_embedded_job_is_the_one_in_the_package():
