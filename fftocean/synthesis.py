@@ -172,8 +172,8 @@ class Synthesis:
 
     def restart(self) -> None:
         """Start the threads; once more in a forked child, to which its parent's are not handed down."""
-        threads = len(self._desks)
-        self._pool = ThreadPoolExecutor(threads, thread_name_prefix="fftocean") if threads > 1 else None
+        others = len(self._desks) - 1
+        self._pool = ThreadPoolExecutor(others, thread_name_prefix="fftocean") if others else None
 
     def run(self, turn: Turn, outputs: Mapping[str, Real], choppiness: float) -> None:
         """Compute fields into the arrays given by name, each (ny, nx), or (ny, nx, 3) for normals."""
@@ -197,17 +197,16 @@ class Synthesis:
             for block in own:
                 work(desk, block)
 
-        shares = [(desk, blocks[i :: len(self._desks)]) for i, desk in enumerate(self._desks)]
-        if self._pool is None:
-            at(*shares[0])
-            return
+        (mine, *others) = [(desk, blocks[i :: len(self._desks)]) for i, desk in enumerate(self._desks)]
         tasks: list[Future[None]] = []
         try:
-            for share in shares:
+            for share in others:
+                assert self._pool is not None  # there is one for more desks than one
                 try:
                     tasks.append(self._pool.submit(at, *share))
                 except RuntimeError:  # Python is on its way out and starts nothing new: the same work, here
                     at(*share)
+            at(*mine)  # here, where the caller's caches are warm and nobody has to be woken
             for task in tasks:
                 task.result()
         finally:  # of an interrupt, too: nobody may have the desks before the last has left them
