@@ -35,12 +35,12 @@ def test_phasors():
 
 
 def test_phasors_in_single_precision():
-    """Doubling the angle, 1 - 2 sin^2, has errors of 4 eps; the angle is rounded within half a turn, by at most eps/4 of pi."""
+    """1 - 2 sin^2 has four times the sine's rounding, eps, and two of its own: 6 eps, where the processor does not fuse them."""
     turns = np.linspace(-0.5, 0.5, 100_001)[None, :]
     cosine, sine = np.empty((2, *turns.shape), dtype=np.float32)
     passes.phasors_single(turns, cosine, sine)
-    assert np.max(np.abs(cosine - np.cos(2 * np.pi * turns))) < 5 * 1.2e-7
-    assert np.max(np.abs(sine - np.sin(2 * np.pi * turns))) < 5 * 1.2e-7
+    assert np.max(np.abs(cosine - np.cos(2 * np.pi * turns))) < 6 * 1.2e-7
+    assert np.max(np.abs(sine - np.sin(2 * np.pi * turns))) < 6 * 1.2e-7
 
 
 def waves_of(forward, backward, dtype):
