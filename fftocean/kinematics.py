@@ -69,8 +69,9 @@ def at(
         wheeler     the column from the bed to the surface takes the place of that from the bed to z = 0: the profile is read at
                     h (z - height)/(h + height), in deep water z - height
 
-    With the last two, the pressure at the surface itself is rho g height, as it should be. (Exactly so for waves that obey the
-    dispersion relation without surface tension; on a loop, omega is rounded, and the pressure is that of the waves as they run.)
+    With Wheeler's stretching the pressure at the surface itself is rho g height, as it should be; with vertical, in the crests.
+    (Exactly so for waves that obey the dispersion relation without surface tension; on a loop, omega is rounded, and the pressure is
+    that of the waves as they run.)
 
     Args:
         source: an `Ocean`; a `Cascade`; `Modes`, as `ocean.modes()`; or a few-wave model, read as deep water linear waves.

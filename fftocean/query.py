@@ -49,8 +49,10 @@ class Answer:
         """How far from the point asked for the water found is, horizontally [m]."""
         self.folded = folded
         """
-        True where the answer is one of several or none: the search met water that lies upside down, which is that of a fold at this
-        point or beside it; or it ended with a residual above 1e-9 of the largest tile's size (of the longest wave, without tiles).
+        True where the search met water that lies upside down, which is that of a fold at this point or beside it: the answer is one of
+        several. Or it ended with a residual above 1e-9 of the largest tile's size (of the longest wave, without tiles): there is none.
+        Complete for breaking crests; where far more is folded (three times the choppiness at which waves break) an outer sheet may be
+        reached without meeting the fold.
         """
         self._arrays = dict(arrays)
 
@@ -132,7 +134,7 @@ class Query:
     ) -> None:
         tiles = oceans_of(source)
         mode = mode or ("bicubic" if tiles else "exact")
-        if mode not in KINDS:
+        if not isinstance(mode, str) or mode not in KINDS:
             raise ParameterError(f"mode must be one of {', '.join(KINDS)}, got {mode!r}")
         if mode != "exact" and not tiles:
             raise ParameterError(f"mode must be 'exact' for waves that have no tile to interpolate, got {mode!r}")
@@ -181,7 +183,10 @@ class Query:
         Raises:
             ParameterError: what is not a number, shapes that do not broadcast, a time beyond +-1e12 s, or an unknown field.
         """
-        fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
+        try:
+            fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
+        except TypeError:
+            raise ParameterError(f"fields must be names such as ('heights', 'normals'), got {fields!r:.80}") from None
         for name in fields:
             if name not in WANTED:
                 raise ParameterError(f"a field must be one of {', '.join(WANTED)}, got {name!r}")
@@ -206,6 +211,8 @@ class Query:
         x0, y0 = flat_x + out.offsets[:, 0], flat_y + out.offsets[:, 1]
         with np.errstate(invalid="ignore"):  # NaN is not folded
             folded = (out.jacobians <= 0.0) | (out.residuals > self._water.limit)
+            asked = np.isfinite(flat_x) & np.isfinite(flat_y) & np.isfinite(np.broadcast_to(ts, shape).reshape(-1))
+            folded |= np.isnan(out.residuals) & asked  # nothing was found where something was asked
         arrays = {name: array.reshape((*shape, *array.shape[1:])) for name, array in out.arrays.items() if name in fields}
         return Answer(x0.reshape(shape), y0.reshape(shape), out.residuals.reshape(shape), folded.reshape(shape), arrays)
 
@@ -450,12 +457,6 @@ def _kept(ocean: Ocean, shortest: float) -> npt.NDArray[np.bool_]:
     """Which waves of the half plane are at least so long."""
     kept: npt.NDArray[np.bool_] = ocean.grid.k * shortest <= 2.0 * np.pi
     return kept
-
-
-def _has_waves(ocean: Ocean, shortest: float) -> bool:
-    """Whether an ocean has any wave that is at least so long."""
-    a = ocean.amplitudes
-    return bool(np.any(_kept(ocean, shortest) & ((a.forward != 0.0) | (a.backward != 0.0))))
 
 
 _FAR = 4.0  # root mean squares of the displacement: hardly any water is displaced further

@@ -18,8 +18,6 @@ from fftocean.kernels import passes
 from fftocean.limits import CHOPPINESS, DEPTH
 from fftocean.ocean import Ocean
 
-_TURN = np.longdouble("6.283185307179586476925286766559")
-
 Part = tuple[Modes, Real, tuple[float, float], float | None]
 """The waves of one tile, their push, lx and ly, and the loop."""
 
@@ -141,7 +139,10 @@ def coordinates(name: str, values: RealLike) -> Real:
     Raises:
         ParameterError: anything but numbers.
     """
-    array = np.asarray(values)
+    try:
+        array = np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan) if np.ma.isMaskedArray(values) else np.asarray(values)
+    except ValueError:
+        raise ParameterError(f"{name} must be numbers in a regular array, got {values!r:.60}") from None
     if array.dtype.kind not in "iuf":
         raise ParameterError(f"{name} must be numbers, got {values!r:.60} ({array.dtype})")
     return array.astype(np.float64, copy=False)
@@ -151,6 +152,8 @@ def moments_of(t: Real, shape: tuple[int, ...]) -> "Iterator[tuple[float, slice 
     """Each different time, with the points that ask for it."""
     if t.size == 1:
         yield float(t.reshape(())), slice(None)
+        return
+    if 0 in shape:  # nobody asks
         return
     times, inverse = np.unique(np.broadcast_to(t, shape).ravel(), return_inverse=True)
     if times.size == 1:

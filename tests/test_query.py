@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
+from fftocean.amplitudes import Modes
 
 SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
 SHALLOW = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=6.0, direction=30.0)
@@ -474,3 +475,48 @@ def test_a_forked_child_can_ask_too():
 def test_bad_input_is_refused(make, says):
     with pytest.raises(fo.ParameterError, match=says):
         make()
+
+
+def test_nobody_may_ask():
+    """Empty arrays of points and times, in any shape."""
+    ocean = fo.Ocean.from_modes([(1, 2, 0.1, 0.3)], n=8, size=20.0)
+    query = fo.Query(ocean)
+    for shape, arguments in (
+        ((0,), ([], [], [])),
+        ((0, 3), (np.zeros((0, 3)), 0.0, np.zeros((0, 1)))),
+        ((0, 2), (np.zeros((0, 1)), 0.0, [1.0, 2.0])),
+    ):
+        found = query.at(*arguments)
+        assert found.heights.shape == shape
+        assert found.normals.shape == (*shape, 3)
+    assert fo.kinematics.at(ocean, [], [], [], []).velocities.shape == (0, 3)
+
+
+def test_where_the_sum_is_no_number_the_answer_is_none():
+    """k x overflows: not what was in the memory before, but NaN, and flagged."""
+    modes = Modes(np.array([10.0]), np.array([0.0]), np.array([0.01]), np.array([0.0]), np.array([9.0]))
+    with np.errstate(all="ignore"):
+        found = fo.Query(modes).at([1.7e308, 1.0], [0.0, 0.0], 0.0, ("heights",))
+    assert np.isnan(found.heights[0])
+    assert np.isnan(found.residual[0])
+    assert found.folded[0]
+    assert np.isfinite(found.heights[1])
+
+
+def test_what_is_masked_is_not_asked_for():
+    query = fo.Query(fo.Ocean.from_modes([(1, 2, 0.1, 0.3)], n=8, size=20.0))
+    found = query.at(np.ma.masked_array([1.0, 2.0], mask=[False, True]), 0.0, 0.0)
+    assert np.isfinite(found.heights[0])
+    assert np.isnan(found.heights[1])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "rule"),
+    [(([[1], [1, 2]], 1, 0), "x must be numbers"), ((1, 1, 0, 5), "fields must be"), ((1, 1, 0, (["heights"],)), "fields must be")],
+)
+def test_what_is_no_question_is_refused(arguments, rule):
+    query = fo.Query(fo.Ocean.from_modes([(1, 2, 0.1, 0.3)], n=8, size=20.0))
+    with pytest.raises(fo.ParameterError, match=rule):
+        query.at(*arguments)
+    with pytest.raises(fo.ParameterError, match="mode must be"):
+        fo.Query(query.source, mode=["exact"])

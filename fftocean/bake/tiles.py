@@ -7,7 +7,7 @@ from typing import Any
 
 import fftocean
 from fftocean.bake.baker import bake
-from fftocean.bake.files import as_json, make_folder, write_whole
+from fftocean.bake.files import as_json, make_folder, remove, write_whole
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.cascade import Tile, tile_jobs
@@ -46,6 +46,7 @@ def bake_tiles(job: Job, tiles: Iterable[Tile], folder: str | Path = "out", **op
     except ParameterError as error:
         raise JobError(f"{job.source}: {error}") from None
     make_folder(folder)
+    remove(folder / CASCADE_FILE)  # from here on the folder is no finished cascade
     rows = []
     for index, (grid, seed, band) in enumerate(shares):
         own = {

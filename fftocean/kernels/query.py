@@ -204,6 +204,8 @@ def invert(
             heights[p] = residuals[p] = jacobians[p] = np.nan
             continue
         _reduce(x[p], y[p], sizes, origin)
+        offsets[p, :] = np.nan  # until something is found
+        heights[p] = residuals[p] = np.nan
         best = least = np.inf
         for start in range(STARTS):
             # The first from the point itself, the next along a spiral that covers all within reach (steps of the golden angle).
