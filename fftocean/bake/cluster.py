@@ -2,7 +2,6 @@
 
 import contextlib
 import queue
-import sys
 import time
 import uuid
 from collections.abc import Generator, Sequence
@@ -131,7 +130,6 @@ def _rendered(order: Order, task: Task, topic: str) -> list[Entry]:
     """Runs on a worker: do a task, and tell of each frame as it is finished."""
     import distributed
 
-    _keep_dask_out_of_pyfftw()
     from fftocean.bake.frames import work
 
     worker, entries = distributed.get_worker(), []
@@ -139,14 +137,3 @@ def _rendered(order: Order, task: Task, topic: str) -> list[Entry]:
         worker.log_event(topic, {"entry": entry})
         entries.append(entry)
     return entries
-
-
-def _keep_dask_out_of_pyfftw() -> None:
-    """Where dask is installed, pyfftw imports all of dask.array, for an interface that is not used here; that takes seconds."""
-    if "pyfftw" not in sys.modules and "dask.array" not in sys.modules:
-        sys.modules["dask.array"] = None  # type: ignore[assignment]
-        try:
-            with contextlib.suppress(ImportError):
-                import pyfftw  # noqa: F401
-        finally:
-            del sys.modules["dask.array"]
