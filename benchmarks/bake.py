@@ -26,8 +26,7 @@ from typing import Any
 import script
 
 import fftocean as fo
-from fftocean import kernels
-from fftocean.bench import machine
+from fftocean import host, kernels
 from fftocean.bench.pictures import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
@@ -66,7 +65,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     with tempfile.TemporaryDirectory() as folder:
         fo.bake(job(16, 2), Path(folder, "warm"), executor="serial")  # kernels
         for n in options.n:
-            for executor, workers in (("serial", 1), ("processes", machine.usable_cores())):
+            for executor, workers in (("serial", 1), ("processes", host.cores())):
                 say(f"{n} x {n}, {executor}, {workers} at work")
                 start = time.perf_counter()
                 fo.bake(job(n, options.frames), Path(folder, f"{n} {executor}"), executor=executor, workers=workers)

@@ -21,6 +21,7 @@ from pathlib import Path
 
 import script
 
+from fftocean import host
 from fftocean.arrays import available_memory
 from fftocean.bench import machine
 from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
@@ -114,7 +115,7 @@ def planning(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
     """What more threads gain, by the clock on the wall."""
-    counts = sorted({2, machine.usable_cores()} - {1})
+    counts = sorted({2, host.cores()} - {1})
     readings = []
     for backend in backends:
         entries = [

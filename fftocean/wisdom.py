@@ -10,7 +10,6 @@ import contextlib
 import hashlib
 import json
 import os
-import platform
 import sys
 import tempfile
 import warnings
@@ -20,6 +19,7 @@ from types import ModuleType
 from typing import Any
 
 from fftocean.errors import CacheWarning
+from fftocean.host import processor
 
 MAX_BYTES = 2**20  # what FFTW knows of a hundred shapes is 30 kB
 
@@ -46,7 +46,7 @@ def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int],
     """
     key = {
         "library": f"{pyfftw.fftw_version} {pyfftw.__version__}",
-        "processor": _processor(),
+        "processor": processor(),  # what is fast on one may be slow on another
         "transform": f"{shape[0]} x {shape[1]} {dtype} {planning}",
     }
     try:
@@ -116,12 +116,3 @@ def _kept(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
 
 def _digest(wise: tuple[bytes, ...]) -> str:
     return hashlib.sha256(b"\0".join(wise)).hexdigest()
-
-
-def _processor() -> str:
-    """The processor's model: what is fast on one may be slow on another."""
-    with contextlib.suppress(OSError):
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()

@@ -212,7 +212,7 @@ def test_wisdom_with_a_wrong_checksum_or_of_another_processor_is_not_used(tmp_pa
     file.write_text(json.dumps({**tree, "sha256": "0" * 64}))
     with pytest.warns(fo.errors.CacheWarning, match="ignored"):
         inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
-    monkeypatch.setattr(wisdom, "_processor", lambda: "another")
+    monkeypatch.setattr(wisdom, "processor", lambda: "another")
     inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure")
     assert len(list((tmp_path / "wisdom").iterdir())) == 2
 

@@ -17,7 +17,7 @@ from fftocean.bake import blend, layout, pictures
 from fftocean.bake.claim import claim, discard_work, header_of, require_claimable
 from fftocean.bake.containers import assemble, intact, unpack
 from fftocean.bake.contents import Contents
-from fftocean.bake.crews import check_executor, cores, crew_of
+from fftocean.bake.crews import check_executor, crew_of
 from fftocean.bake.executors import Crew
 from fftocean.bake.files import as_json, make_folder, sweep, write_whole
 from fftocean.bake.frames import Scene, leave, seat
@@ -31,6 +31,7 @@ from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
 from fftocean.export import formats
+from fftocean.host import cores
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
 

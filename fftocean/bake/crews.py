@@ -1,9 +1,5 @@
 """Who is asked to bake: executors by their names, and how many of them this machine has room for."""
 
-import contextlib
-import os
-from pathlib import Path
-
 from fftocean.bake import cluster
 from fftocean.bake.executors import Crew, Processes, Serial
 from fftocean.errors import JobError
@@ -40,12 +36,3 @@ def crew_of(name: str, workers: int, lock: int) -> Crew:
     if name == "processes":
         return Processes(workers, lock)
     return cluster.Cluster(None if name == "dask" else name, workers)
-
-
-def cores() -> int:
-    """How many processors this process may use: its affinity, or its control group's share, whichever is less."""
-    count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    with contextlib.suppress(OSError, ValueError):
-        quota, period = Path("/sys/fs/cgroup/cpu.max").read_text().split()
-        count = min(count, max(1, round(int(quota) / int(period))))
-    return count

@@ -4,15 +4,13 @@ import contextlib
 import os
 import platform
 import re
-import subprocess
-import sys
 import time
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import fftocean
-from fftocean import transforms
+from fftocean import host, transforms
 
 PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyFFTW", "mkl", "matplotlib", "OpenEXR")
 
@@ -20,10 +18,10 @@ PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyFFTW", "mkl", "matplotlib"
 def describe() -> dict[str, Any]:
     """Say what machine this is, as plain data: strings, numbers, lists and dicts of them."""
     return {
-        "cpu": cpu_model(),
+        "cpu": host.processor(),
         "instructions": instructions(),
         "cores": os.cpu_count() or 1,
-        "usable_cores": usable_cores(),
+        "usable_cores": host.cores(),
         "caches": caches(),
         "memory_gib": round(memory() / 2**30, 1),
         "os": platform.platform(),
@@ -40,31 +38,9 @@ def moment() -> dict[str, Any]:
     return {"utc": time.strftime("%Y-%m-%d %H:%M", time.gmtime()), "load": None if load is None else round(load, 2)}
 
 
-def usable_cores() -> int:
-    """On how many cores this process may run: those it is bound to, and no more than its control group pays for."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    quota, _, period = _read("/sys/fs/cgroup/cpu.max").partition(" ")
-    if quota.strip().isdigit() and period.strip().isdigit():
-        cores = min(cores, max(1, int(quota) // int(period)))
-    return cores
-
-
-def cpu_model() -> str:
-    """The processor by name."""
-    for line in _read("/proc/cpuinfo").splitlines():
-        if line.startswith("model name"):
-            return line.partition(":")[2].strip()
-    if sys.platform == "darwin":
-        with contextlib.suppress(OSError, subprocess.SubprocessError):
-            asked = subprocess.run(["/usr/sbin/sysctl", "-n", "machdep.cpu.brand_string"], capture_output=True, text=True, timeout=10)
-            if asked.stdout.strip():
-                return asked.stdout.strip()
-    return platform.processor() or platform.machine()
-
-
 def instructions() -> list[str]:
     """The vector instructions that matter to an FFT."""
-    for line in _read("/proc/cpuinfo").splitlines():
+    for line in host.read("/proc/cpuinfo").splitlines():
         if line.startswith(("flags", "Features")):
             flags = set(line.partition(":")[2].split())
             return [name for name in ("sse2", "avx", "avx2", "fma", "avx512f", "asimd", "sve") if name in flags]
@@ -75,9 +51,9 @@ def caches() -> dict[str, str]:
     """The data caches that core 0 sees, by level, with how many cores share each."""
     found = {}
     for folder in sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
-        kind, level, size = (_read(folder / name).strip() for name in ("type", "level", "size"))
+        kind, level, size = (host.read(folder / name).strip() for name in ("type", "level", "size"))
         if kind in ("Data", "Unified") and size:
-            shared = _count(_read(folder / "shared_cpu_list"))
+            shared = _count(host.read(folder / "shared_cpu_list"))
             found[f"L{level}"] = size + (f", shared by {shared}" if shared > 1 else "")
     return found
 
@@ -120,11 +96,3 @@ def _count(ranges: str) -> int:
     for first, last in re.findall(r"(\d+)(?:-(\d+))?", ranges):
         total += int(last or first) - int(first) + 1
     return total
-
-
-def _read(path: str | Path) -> str:
-    """A small file of the system's, or nothing."""
-    try:
-        return Path(path).read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return ""

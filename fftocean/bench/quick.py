@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from fftocean import host
 from fftocean.bench import machine
 from fftocean.bench.contenders import Careful, DirectSum, Fast, Textbook, require_same_water
 from fftocean.bench.fits import crossover
@@ -97,7 +98,7 @@ def frames(n: int, seconds: float, tick: Callable[[], object]) -> list[Reading]:
     pairs = [Pair(f"{other.what} / full frame", other, full) for other in others]
     pairs.append(Pair("height only / full frame", height, full))
     readings = race([full, height, *others], pairs, clock="cpu", seconds=0.65 * seconds, tick=tick)
-    if machine.usable_cores() > 1:
+    if host.cores() > 1:
         two = Entry("full frame", Fast(ocean(n, threads=2)), {**at, "threads": 2})
         readings += race([full, two], [Pair("one thread / two", full, two)], clock="wall", seconds=0.35 * seconds, tick=tick)
     return readings

@@ -13,11 +13,12 @@ import pytest
 
 import fftocean as fo
 from fftocean.bake import cluster, crews, executors, frames
-from fftocean.bake.crews import check_executor, cores, crew_of
+from fftocean.bake.crews import check_executor, crew_of
 from fftocean.bake.executors import ATTEMPTS, Processes
 from fftocean.bake.lock import locked
 from fftocean.bake.order import Order, Task, frames_of, tasks_of
 from fftocean.errors import FolderInUseError, JobError, OutputError
+from fftocean.host import cores
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 

@@ -1,13 +1,13 @@
 """What is said of the machine: all of it plain data, and true where another source can tell."""
 
 import json
-import os
 import platform
 
 import numpy as np
 import pytest
 
 import fftocean as fo
+from fftocean import host
 from fftocean.arrays import available_memory
 from fftocean.bench import machine
 
@@ -44,21 +44,13 @@ def test_the_moment_says_when_and_how_busy():
     assert len(said["utc"]) == len("2026-01-31 12:00")
 
 
-def test_a_control_group_limits_the_cores(monkeypatch):
-    real = machine._read
-    monkeypatch.setattr(machine, "_read", lambda path: "150000 100000\n" if str(path).endswith("cpu.max") else real(path))
-    assert machine.usable_cores() == 1
-    monkeypatch.setattr(machine, "_read", lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path))
-    assert 1 <= machine.usable_cores() <= os.cpu_count()
-
-
 @pytest.mark.parametrize(("ranges", "count"), [("0", 1), ("0-3", 4), ("0-3,8,10-11\n", 7), ("", 0)])
 def test_lists_of_cores_are_counted(ranges, count):
     assert machine._count(ranges) == count
 
 
 def test_a_system_without_such_files_is_described_too(monkeypatch):
-    monkeypatch.setattr(machine, "_read", lambda path: "")  # noqa: ARG005
-    assert machine.cpu_model()
+    monkeypatch.setattr(host, "read", lambda path: "")  # noqa: ARG005
+    assert host.processor()
     assert machine.instructions() == []
-    assert machine.usable_cores() >= 1
+    assert host.cores() >= 1
