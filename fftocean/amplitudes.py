@@ -67,6 +67,12 @@ class Amplitudes:
                 array.setflags(write=False)
 
     @property
+    def squares(self) -> Real:
+        """|forward|^2 + |backward|^2: half the a^2/2 of an entry's two waves, +k and -k together, (ny, nx // 2 + 1) [m^2]."""
+        total: Real = np.abs(self.forward) ** 2 + np.abs(self.backward) ** 2
+        return total
+
+    @property
     def omega(self) -> Real:
         """The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked for."""
         return dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)

@@ -25,6 +25,19 @@ COMPLEX_OF: dict[str, np.dtype[Any]] = {"float32": np.dtype(np.complex64), "floa
 """The complex type whose parts have the named real type."""
 
 
+def precision_of(dtype: Any) -> str:
+    """
+    Return the name of a real type, "float32" or "float64", given as that or as the type itself.
+
+    Raises:
+        ParameterError: it is neither.
+    """
+    name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
+    if name not in COMPLEX_OF:
+        raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
+    return name
+
+
 def available_memory() -> float:
     """Bytes that this process could still get: the machine's free memory or the control group's, whichever is less; inf if unknown."""
     candidates = [float("inf")]

@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 
 from fftocean.amplitudes import WHOLE, Band, Draw, Modes, seed_amplitudes
-from fftocean.arrays import COMPLEX_OF, require_memory
+from fftocean.arrays import precision_of, require_memory
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid
 from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
-from fftocean.ocean import Frame, Ocean, memory_needed, remade
-from fftocean.physics import dispersion
+from fftocean.ocean import Frame, Ocean, longest_period, memory_needed, remade
 from fftocean.physics.sea import Sea
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
@@ -74,14 +73,11 @@ class Cascade:
         shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
         loops = _loops(loop, len(grids))
         seed = SEED.check_whole("seed", seed)
-        name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
-        if name not in COMPLEX_OF:
-            raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
+        name = precision_of(dtype)
         require_memory(f"a cascade of {len(grids)} tiles", sum(memory_needed(grid, name) for grid in grids))
         _warn_of_short_loops(sea, shared, loops)
         oceans = []
-        for index, (grid, band, period) in enumerate(zip(grids, shared, loops, strict=True)):
-            own = seed if index == 0 else tile_seed(seed, grid.lx, grid.ly)
+        for grid, own, band, period in zip(grids, tile_seeds(seed, grids), shared, loops, strict=True):
             drawn = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
             oceans.append(remade(sea, own, drawn, choppiness, name, backend, planning, threads))
         self._set_up(sea, seed, tuple(oceans))
@@ -214,8 +210,12 @@ def tile_jobs(tiles: Iterable[Tile], seed: int) -> list[tuple[Grid, int, Band]]:
         ParameterError: as `Cascade`.
     """
     grids = _grids(tiles)
-    seeds = [seed if index == 0 else tile_seed(seed, grid.lx, grid.ly) for index, grid in enumerate(grids)]
-    return list(zip(grids, seeds, band_edges(grids), strict=True))
+    return list(zip(grids, tile_seeds(seed, grids), band_edges(grids), strict=True))
+
+
+def tile_seeds(seed: int, grids: Sequence[Grid]) -> list[int]:
+    """The seed of each tile: the largest has the cascade's own."""
+    return [seed, *(tile_seed(seed, grid.lx, grid.ly) for grid in grids[1:])]
 
 
 def tile_seed(seed: int, lx: float, ly: float) -> int:
@@ -284,12 +284,8 @@ def _loops(loop: float | Sequence[float] | None, count: int) -> list[float | Non
 
 def _warn_of_short_loops(sea: Sea, bands: Sequence[Band], loops: Sequence[float | None]) -> None:
     """A loop should hold four periods of the waves that matter in its band: the sea's peak, or the longest there if they are shorter."""
-    for i, ((low, _), loop) in enumerate(zip(bands, loops, strict=True)):
-        if loop is None:
-            continue
-        slowest = float(dispersion.angular_frequency(low, sea.depth, sea.surface_tension))
-        period = min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
-        if loop < 4.0 * period:
+    for i, (band, loop) in enumerate(zip(bands, loops, strict=True)):
+        if loop is not None and loop < 4.0 * (period := longest_period(sea, band)):
             warnings.warn(
                 f"a loop of {loop:g} s is less than four periods of the long waves of tile {i} ({4.0 * period:.1f} s): "
                 "they run visibly too fast or too slow",

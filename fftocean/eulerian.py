@@ -25,7 +25,7 @@ from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate, resample, surface
-from fftocean.ocean import Frame, Ocean, memory_needed, remade
+from fftocean.ocean import Frame, Ocean, memory_needed, named, remade
 
 EXACT = 5e-6  # [m], what splines may miss of the height, as a standard deviation; the most of a tile is about 13 times that
 FINEST = 8  # samples of the splines to one of the ocean, at most
@@ -173,10 +173,7 @@ class Eulerian:
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The fields asked for, and those to ask of the splines: displacement and height to find the water, and what the fields are made of."""
-    fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
-    for name in fields:
-        if name not in _MADE_OF:
-            raise ParameterError(f"a field must be one of {', '.join(_MADE_OF)}, got {name!r}")
+    fields = named(fields, tuple(_MADE_OF))
     made_of = (need for name in fields for need in _MADE_OF[name])
     return fields, tuple(dict.fromkeys(["height", "displace_x", "displace_y", *made_of]))
 
@@ -189,7 +186,7 @@ def _fineness(ocean: Ocean) -> int:
     the cardinal spline, to leading order), along each axis.
     """
     a, grid = ocean.amplitudes, ocean.grid
-    energy = 2.0 * (np.abs(a.forward) ** 2 + np.abs(a.backward) ** 2)  # a^2/2 of the two waves of an entry
+    energy = 2.0 * a.squares  # a^2/2 of the two waves of an entry
     finer = 2
     while finer < FINEST:
         missed = (grid.kx[None, :] * grid.lx / (grid.nx * finer)) ** 6 + (grid.ky[:, None] * grid.ly / (grid.ny * finer)) ** 6

@@ -198,7 +198,7 @@ def longest_step(ocean: Ocean) -> float:
     """
     a = ocean.amplitudes
     k = a.grid.k
-    stretch = (np.abs(a.forward) ** 2 + np.abs(a.backward) ** 2) * (potential_factor(k, a.depth) * k * k) ** 2
+    stretch = a.squares * (potential_factor(k, a.depth) * k * k) ** 2
     total = float(np.sum(stretch))
     fast = float(np.sum(stretch * a.running_omega**2)) / total if total > 0.0 else 0.0
     return 1.0 / (3.0 * math.sqrt(fast)) if fast > 0.0 else math.inf

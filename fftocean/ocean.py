@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_modes, seed_amplitudes
-from fftocean.arrays import COMPLEX_OF, Real, RealLike, require_memory
+from fftocean.arrays import Real, RealLike, precision_of, require_memory
 from fftocean.errors import FieldError, ParameterError, SeaWarning
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.grid import Grid
@@ -193,7 +193,7 @@ class Ocean:
             raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
         grid, dtype, loop = _checked(n, size, dtype, loop)
         band = _checked_band(band)
-        if loop is not None and loop < 4.0 * (longest := _longest_period(sea, band)):
+        if loop is not None and loop < 4.0 * (longest := longest_period(sea, band)):
             warnings.warn(
                 f"a loop of {loop:g} s is less than four peak periods ({4.0 * longest:.1f} s): "
                 "its long waves run visibly too fast or too slow",
@@ -358,7 +358,7 @@ class Ocean:
         Raises:
             ParameterError: as `frame`, when the frame in question comes up; `ahead` out of range.
         """
-        fields = _named(fields)
+        fields = named(fields)
         return self._pipeline((partial(self.frame, t, fields) for t in times), ahead, reuse)
 
     def loop_frames(self, count: int, fields: Sequence[str] = EIGHT, *, ahead: int = 1, reuse: bool = False) -> Iterator[Frame]:
@@ -368,7 +368,7 @@ class Ocean:
         Raises:
             ParameterError: as `loop_frame` and `frames`.
         """
-        fields = _named(fields)
+        fields = named(fields)
         return self._pipeline((partial(self.loop_frame, j, count, fields) for j in range(FRAMES.check_whole("count", count))), ahead, reuse)
 
     def _pipeline(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
@@ -424,7 +424,7 @@ class Ocean:
             raise complaint
 
     def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
-        fields = _named(fields)
+        fields = named(fields)
         arrays = self._outputs(fields, out)
         with self._locked():
             self._synthesis.run(turn, arrays, self.choppiness)
@@ -470,15 +470,15 @@ class Ocean:
         return f"Ocean({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m, depth={self.depth:g}, loop={self.loop}, dtype={self.dtype!r})"
 
 
-def _named(fields: Sequence[str]) -> tuple[str, ...]:
-    """The names of fields, each once."""
+def named(fields: Sequence[str], known: Sequence[str] = (*FIELDS, *POINTWISE)) -> tuple[str, ...]:
+    """The names of fields, each once, all of them known."""
     try:
         names = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
     except TypeError:
-        raise ParameterError(f"fields must be names such as ('height', 'normal'), got {fields!r:.80}") from None
+        raise ParameterError(f"fields must be names such as {tuple(known[:2])}, got {fields!r:.80}") from None
     for name in names:
-        if name not in FIELDS and name not in POINTWISE:
-            raise ParameterError(f"a field must be one of {', '.join([*FIELDS, *POINTWISE])}, got {name!r:.80}")
+        if name not in known:
+            raise ParameterError(f"a field must be one of {', '.join(known)}, got {name!r:.80}")
     return names
 
 
@@ -504,14 +504,12 @@ def memory_needed(grid: Grid, dtype: str) -> float:
 def _checked(n: Any, size: Any, dtype: Any, loop: Any) -> tuple[Grid, str, float | None]:
     """Check what the two ways to make an ocean have in common, before anything is allocated."""
     grid = Grid.of(n, size)
-    name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
-    if name not in COMPLEX_OF:
-        raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
+    name = precision_of(dtype)
     require_memory(f"an ocean of n = {grid.nx} x {grid.ny}", memory_needed(grid, name))
     return grid, name, None if loop is None else LOOP.check("loop", loop)
 
 
-def _longest_period(sea: Sea, band: Band) -> float:
+def longest_period(sea: Sea, band: Band) -> float:
     """The period of the sea's peak, or of the longest waves of a band above it [s]."""
     slowest = float(dispersion.angular_frequency(band[0], sea.depth, sea.surface_tension))
     return min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
@@ -533,11 +531,11 @@ def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     """
     Return the turns that each wave makes in a second or, on a loop, in its period: whole numbers then; (columns, ny), float64.
 
-    omega / 2 pi is taken in extended precision where the machine has it: what it is rounded by is all that a phase ever loses.
+    What they are rounded by is all that a phase ever loses.
     """
     if amplitudes.cycles is not None:
         return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
     frequency = np.empty((columns, amplitudes.grid.ny))
     for column, omega in zip(frequency, amplitudes.omega.T, strict=False):  # the Nyquist column is left over
-        column[:] = omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
+        column[:] = dispersion.turns_per_second(omega)
     return frequency

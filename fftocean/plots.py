@@ -550,7 +550,7 @@ def _measured_dispersion(ocean: Ocean) -> _Measured:
     a, grid = ocean.amplitudes, ocean.grid
     k_max = _reach(ocean)
     omega_max = float(dispersion.angular_frequency(k_max, a.depth, a.surface_tension))
-    strength = np.abs(a.forward) ** 2 + np.abs(a.backward) ** 2
+    strength = a.squares
     used = np.flatnonzero(grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0)) & (grid.k <= k_max))
     used = used[np.argsort(strength.flat[used])[-_MOST_WAVES:]]
     k = grid.k.flat[used]

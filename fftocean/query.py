@@ -20,7 +20,7 @@ from fftocean.gerstner.wavefields import Waves
 from fftocean.kernels import interpolate, surface
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME, Quantity
-from fftocean.ocean import Ocean, remade
+from fftocean.ocean import Ocean, named, remade
 from fftocean.trains import Trains, coordinates, moments_of, oceans_of, trains_of
 
 KINDS = {"bilinear": kernels.BILINEAR, "bicubic": kernels.SPLINE, "exact": kernels.WAVES}
@@ -183,13 +183,7 @@ class Query:
         Raises:
             ParameterError: what is not a number, shapes that do not broadcast, a time beyond +-1e12 s, or an unknown field.
         """
-        try:
-            fields = (fields,) if isinstance(fields, str) else tuple(dict.fromkeys(fields))
-        except TypeError:
-            raise ParameterError(f"fields must be names such as ('heights', 'normals'), got {fields!r:.80}") from None
-        for name in fields:
-            if name not in WANTED:
-                raise ParameterError(f"a field must be one of {', '.join(WANTED)}, got {name!r}")
+        fields = named(fields, WANTED)
         if self._pid != os.getpid():  # a forked child has no threads of its parent's
             self._start()
         xs, ys, ts = (coordinates(name, values) for name, values in (("x", x), ("y", y), ("t", t)))
@@ -466,7 +460,7 @@ def _mean_square_displacement(ocean: Ocean) -> float:
     """Of an ocean's water, before choppiness [m^2]: twice the half plane, which counts the waves with mx = 0 double."""
     a = ocean.amplitudes
     along = potential_factor(ocean.grid.k, a.depth) * ocean.grid.k
-    return float(2.0 * np.sum((np.abs(a.forward) ** 2 + np.abs(a.backward) ** 2) * along**2))
+    return float(2.0 * np.sum(a.squares * along**2))
 
 
 def _growth(trains: Trains, t: float) -> tuple[float, float, float]:

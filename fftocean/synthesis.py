@@ -120,7 +120,7 @@ def plan_of(fields: tuple[str, ...]) -> Plan:
 def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
     """The size of each field: its root mean square over the waves; where they all run along one axis, as if |k| were the other's too."""
     grid, omega = amplitudes.grid, amplitudes.running_omega
-    energy = np.abs(amplitudes.forward) ** 2 + np.abs(amplitudes.backward) ** 2
+    energy = amplitudes.squares
     sources: dict[str, Real | float] = {"height": 1.0, "potential": potential_factor(grid.k, amplitudes.depth)}
 
     def size(field: Field, along: Real) -> float:
@@ -274,9 +274,8 @@ class Synthesis:
         np.subtract(forward.imag, backward.imag, out=waves[:, 1], casting="same_kind")
         np.add(forward.imag, backward.imag, out=waves[:, 2], casting="same_kind")
         np.subtract(forward.real, backward.real, out=waves[:, 3], casting="same_kind")
-        if (
-            self._dtype == np.float32
-        ):  # what cannot be seen beside the largest, not even as curvature, must not end as subnormal, which is slow
+        if self._dtype == np.float32:
+            # What cannot be seen beside the largest, not even as curvature, must not end as subnormal, which is slow.
             waves[np.abs(waves) < 1e-25 * np.max(np.abs(waves), initial=0.0)] = 0.0
         return waves.reshape(self.columns, -1)
 

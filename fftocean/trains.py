@@ -17,6 +17,7 @@ from fftocean.gerstner.wavefields import Waves
 from fftocean.kernels import passes
 from fftocean.limits import CHOPPINESS, DEPTH
 from fftocean.ocean import Ocean
+from fftocean.physics import dispersion
 
 Part = tuple[Modes, Real, tuple[float, float], float | None]
 """The waves of one tile, their push, lx and ly, and the loop."""
@@ -53,9 +54,7 @@ class Trains:
         turns = np.empty((1, self.omega.size))
         for i, loop in enumerate(self.loops):
             part = slice(self.first[i], self.first[i + 1])
-            frequency = (self.omega[None, part].astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")).astype(
-                np.float64
-            )
+            frequency = dispersion.turns_per_second(self.omega[None, part])
             if loop is None:
                 passes.turns_at(frequency, t, turns[:, part])
             else:

@@ -94,7 +94,7 @@ def sentence(b: Blend) -> str:
 def _waves(ocean: Ocean) -> tuple[Real, Real, Real]:
     """Energies, up to a factor, running frequencies and wavenumbers of the waves of the half plane, +k and -k together."""
     a = ocean.amplitudes
-    energy = np.abs(a.forward) ** 2 + np.abs(a.backward) ** 2
+    energy = a.squares
     energy[:, 0] *= 0.5  # the column mx = 0 holds both k and -k, the others stand for theirs
     there = energy > 0.0
     return energy[there], a.running_omega[there], a.grid.k[there]

@@ -53,6 +53,12 @@ def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
     return ratio
 
 
+def turns_per_second(omega: Real) -> Real:
+    """Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest double, not the next."""
+    turns: Real = (omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")).astype(np.float64)
+    return turns
+
+
 def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
     """
     Return omega(k):  omega^2 = (g k + (sigma/rho) k^3) tanh(k h).
