@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
+    from fftocean.window import Window as Window
 
 __version__ = "0.1.0"
 
@@ -116,6 +117,7 @@ _ROOMS = {
     "fftocean.query": ("Answer", "Query"),
     "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
+    "fftocean.window": ("Window",),
 }
 _MODULES = {
     "bake": "fftocean.bake",

@@ -16,7 +16,7 @@ FLOORS = {
     2: ["amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["synthesis", "ocean", "gerstner"],
-    5: ["cascade", "trains"],
+    5: ["cascade", "trains", "window"],
     6: ["products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"],
     7: ["bake", "proof"],
     8: ["viewer", "plots", "science", "bench"],
@@ -37,7 +37,7 @@ STAIRS = [
     ],
     [["wisdom"], ["transforms"]],
     [["synthesis"], ["ocean"]],
-    [["cascade"], ["trains"]],
+    [["cascade"], ["trains", "window"]],
     [["plots"], ["bench.pictures"]],
     [["cli"], ["__main__"]],
 ]

@@ -1,4 +1,7 @@
-"""From a frame to the pictures that are written: which field goes into which channel, in what unit, and what smaller levels hold."""
+"""
+From a frame to the pictures that are written: which field goes into which channel, in what unit,
+and what smaller levels hold.
+"""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -27,8 +30,9 @@ class Map:
     """
     A picture of the sea, in our own frame: row 0 south, x east, y north, z up, SI.
 
-    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its coverage, (ny, nx) in 0..1; and,
-    where slope covariance is, that of the waves too short for the tile, from `unresolved`. A frame of `Eulerian` has the same names.
+    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its
+    coverage, (ny, nx) in 0..1; and, where slope covariance is, that of the waves too short for the
+    tile, from `unresolved`. A frame of `Eulerian` has the same names.
     """
 
     needs: tuple[str, ...]  # fields of a frame
@@ -39,13 +43,17 @@ class Map:
     draw: Callable[[Moment], Iterable[Real]]  # the channels, each (ny, nx)
     needs_levels: tuple[str, ...] = ()  # further fields, for levels
     draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
+    adds: bool = True  # over the tiles of a cascade: linear in the waves, or a covariance of independent ones
 
     def channels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
         """Return the picture, (ny, nx, channels), float32, C-contiguous."""
         return _stacked(self.draw(Moment(frame, foam, unresolved)))
 
     def levels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
-        """Return the picture and its smaller levels down to one texel, each (rows, columns, channels), float32, C-contiguous."""
+        """
+        Return the picture and its smaller levels down to one texel, each (rows, columns, channels),
+        float32, C-contiguous.
+        """
         moment = Moment(frame, foam, unresolved)
         levels = self.draw_levels(moment) if self.draw_levels else mips.chain(_stacked(self.draw(moment)))
         return [np.ascontiguousarray(level, dtype=np.float32) for level in levels]
@@ -76,21 +84,28 @@ MAPS: dict[str, Map] = {
         ("normal",), "normal", ("x", "y", "z"), "1",
         "unit normal of the displaced surface, signed; of smaller levels, that of the mean slope",
         lambda m: np.moveaxis(m.frame.normal, -1, 0),
-        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m), m.frame.choppiness),
+        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m), m.frame.choppiness), adds=False,
     ),
     "derivative": Map(
         ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
         ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
-        "what cascades add up before the normal is made: about (-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
+        "slopes and stretches, which add up over tiles; without the shear the normal is about "
+        "(-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
         lambda m: (m.frame.slope_x, m.frame.slope_y, m.frame.stretch_xx * m.frame.choppiness, m.frame.stretch_yy * m.frame.choppiness),
+    ),
+    "stretch": Map(
+        ("stretch_xx", "stretch_xy", "stretch_yy"), "stretch",
+        ("d displacement x/dx", "d displacement x/dy = d displacement y/dx", "d displacement y/dy"), "1",
+        "gradient of the horizontal displacement, choppiness applied: sums over tiles give Jacobian, normal and foam",
+        lambda m: tuple(part * m.frame.choppiness for part in (m.frame.stretch_xx, m.frame.stretch_xy, m.frame.stretch_yy)),
     ),
     "jacobian": Map(
         ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
-        lambda m: (m.frame.jacobian,),
+        lambda m: (m.frame.jacobian,), adds=False,
     ),
     "foam": Map(
         (), "scalar", ("coverage",), "1", "part of the water that is covered with foam, 0 to 1",
-        lambda m: (_foam(m),),
+        lambda m: (_foam(m),), adds=False,
     ),
     "velocity": Map(
         ("velocity_x", "velocity_y", "velocity_z"), "vector", ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
@@ -107,10 +122,15 @@ MAPS: dict[str, Map] = {
 """
 Every map that can be baked. By lookup:
 
-"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it is now. "eulerian": about the water
-that is NOW at x, y, and the surface is a plain height field over x and y: displacement is (0, 0, height) and the stretches of the
-derivative map are 0, so that what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of it.
-Normals are the surface's own, jacobian, foam and velocity those of the water that is there.
+"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it
+is now. "eulerian": about the water that is NOW at x, y, and the surface is a plain height field
+over x and y: displacement is (0, 0, height) and the stretches of the derivative and stretch maps
+are 0, so that what is displaced and lit by these maps is the same surface, and the slopes are
+dz/dx and dz/dy of it. Normals are the surface's own, jacobian, foam and velocity those of the water
+that is there.
+
+Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by the undisplaced
+position: see `tiles`.
 """
 
 
@@ -120,7 +140,7 @@ def needed(names: Iterable[str], *, mips: bool = False) -> tuple[str, ...]:
 
 
 def unresolved(ocean: Ocean) -> Real:
-    """Return the slope covariance of the waves too short for the tile, (3,), xx, xy, yy; see `mips.unresolved_slopes`."""
+    """Return the slope covariance of the waves too short for the tile, (3,): `mips.unresolved_slopes`."""
     return mips.unresolved_slopes(ocean)
 
 

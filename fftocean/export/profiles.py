@@ -22,16 +22,17 @@ from fftocean.errors import ParameterError
 Pixels = npt.NDArray[np.float32]
 """(rows, columns, channels) float32, C-contiguous, as a file holds it."""
 
-Kind = Literal["scalar", "height", "vector", "normal", "derivative", "covariance"]
+Kind = Literal["scalar", "height", "vector", "normal", "derivative", "stretch", "covariance"]
 """
 How the channels of a map change with the frame:
 
 scalar: not at all (Jacobian, foam).  height: a length along up.  vector: a length along each axis (displacement, velocity).
 normal: tangent space, whatever the world's axes: R along +u, G toward row 0 or away from it, B up; signed, not packed into 0..1.
 derivative: the slopes along the engine's two horizontal axes, then the two stretches.  covariance: of those slopes: xx, xy, yy.
+stretch: the gradient of the horizontal displacement along those two axes, symmetric: xx, xy, yy.
 """
 
-CHANNELS: dict[str, int] = {"vector": 3, "normal": 3, "derivative": 4, "covariance": 3}
+CHANNELS: dict[str, int] = {"vector": 3, "normal": 3, "derivative": 4, "stretch": 3, "covariance": 3}
 """How many channels a kind has; scalars and heights come in any number."""
 
 AXES = {"x": 0, "y": 1, "z": 2}
@@ -196,6 +197,7 @@ def _recipe(profile: Profile, kind: Kind, count: int) -> tuple[list[tuple[int, i
         "scalar": (1,) * count,
         "normal": (1, profile.green_north, 1),
         "derivative": (1, profile.north, 1, 1),
+        "stretch": (1, profile.north, 1),
         "covariance": (1, profile.north, 1),
     }
     return list(enumerate(signs[kind])), 1
