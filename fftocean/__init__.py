@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from fftocean.bake.check import check as check
     from fftocean.bake.job import Job as Job
     from fftocean.bake.load import Bake as Bake
+    from fftocean.bake.load import BakedCascade as BakedCascade
     from fftocean.bake.load import load as load
     from fftocean.bake.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
@@ -80,7 +81,7 @@ __version__ = "0.1.0"
 _ROOMS = {
     "fftocean.bake.check": ("Finding", "check"),
     "fftocean.bake.job": ("Job",),
-    "fftocean.bake.load": ("Bake", "load"),
+    "fftocean.bake.load": ("Bake", "BakedCascade", "load"),
     "fftocean.bake.repair": ("repair",),
     "fftocean.cascade": ("Cascade",),
     "fftocean.errors": (
