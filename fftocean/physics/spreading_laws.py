@@ -221,6 +221,16 @@ class SwellElongation:
         require_spreading("base", self.base)
         keep_checked(self, xi=FRACTION)
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The directions at which the base has a kink or a jump [rad]."""
+        return tuple(getattr(self.base, "breaks", ()))
+
+    @property
+    def frequency_breaks(self) -> tuple[float, ...]:
+        """The frequencies at which the base has a kink [rad/s]."""
+        return tuple(getattr(self.base, "frequency_breaks", ()))
+
     def exponent_added(self, omega: RealLike, peak: float) -> Real:
         """16 tanh(omega_p/omega) xi^2 [-] at `omega`."""
         s: Real = 16.0 * np.tanh(1.0 / _relative(omega, peak)) * self.xi**2
@@ -234,8 +244,7 @@ class SwellElongation:
         if own is not None:
             return cosine_2s(own + self.exponent_added(omega, peak), wrapped(theta))
         omega = _held(omega, peak)
-        breaks = tuple(getattr(self.base, "breaks", ()))
-        density: Real = self._product(omega, theta, peak) / _circle_integral(self._product, omega, peak, breaks)
+        density: Real = self._product(omega, theta, peak) / _circle_integral(self._product, omega, peak, self.breaks)
         return density
 
     def _own_exponent(self, omega: RealLike, peak: float) -> Real | None:
