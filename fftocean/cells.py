@@ -130,7 +130,7 @@ class Cells:
                 theta, weight = (a.ravel() for a in gauss(low, high))
             with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
                 last = np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
-            last = np.minimum(np.minimum(last, band[1]), part.k[-1])
+            last = np.maximum(np.minimum(np.minimum(last, band[1]), part.k[-1]), band[0])
             total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last, 8)))
         return total
 
