@@ -12,6 +12,7 @@ the points where the ray enters, crosses the edges of the frequency panels, and 
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,7 +64,7 @@ class Cells:
     def __init__(self, sea: Sea, dkx: float, dky: float) -> None:
         self.sea, self.dkx, self.dky = sea, dkx, dky
         fine = _toward_axes(dkx, dky)
-        self._parts = [_Part(share, system, sea, fine) for whole in sea.systems for share, system in parts_of(whole)]
+        self.parts = [Part(share, system, sea, fine) for whole in sea.systems for share, system in parts_of(whole)]
 
     def variances(self, ax: Integer, ay: Integer) -> Real:
         """
@@ -78,7 +79,7 @@ class Cells:
         total = np.zeros((4, ax.size))
         for start in range(0, ax.size, _BLOCK // 4):
             block = slice(start, start + _BLOCK // 4)
-            for part in self._parts:
+            for part in self.parts:
                 total[:, block] += part.share * self._variances_of(part, ax[block], ay[block])
         if not np.all((total >= 0.0) & (total < np.inf)):
             raise ParameterError("the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not")
@@ -96,7 +97,7 @@ class Cells:
         cut = np.flatnonzero((nearest < edge) & (edge < farthest))
         x, y = mx[cut], my[cut]
         below, above = (
-            sum((part.share * self._by_rays(part, x, y, band) for part in self._parts), np.zeros(cut.size))
+            sum((part.share * self._by_rays(part, x, y, band) for part in self.parts), np.zeros(cut.size))
             for band in ((0.0, edge), (edge, math.inf))
         )
         total = below + above
@@ -112,6 +113,19 @@ class Cells:
         """
         if not (half_x > 0.0 and half_y > 0.0 and band[0] < band[1]):
             return 0.0
+        total = 0.0
+        for part, theta, weight, edge in self.rays(half_x, half_y, band):
+            last = np.maximum(np.minimum(np.minimum(edge, band[1]), part.k[-1]), band[0])
+            total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last, 8)))
+        return total
+
+    def rays(self, half_x: float, half_y: float, band: Band = WHOLE) -> Iterator[tuple["Part", Real, Real, Real]]:
+        """
+        Cover the plane with rays from k = 0, on which integrals up to a rectangle's edge, or from there on, are smooth in theta.
+
+        Yields:
+            Each part of the sea with the directions [rad] and weights of its rays, and |k| where each leaves the rectangle [rad/m].
+        """
         corner = math.atan2(half_y, half_x)
         corners = np.array([0.0, corner, 0.5 * np.pi, np.pi - corner])
         circles = np.array([a for edge in band if 0.0 < edge < math.inf for a in _crossings(half_x, half_y, edge)])
@@ -121,23 +135,19 @@ class Cells:
         near = near[(np.abs(near) < 0.5 * np.pi) | (np.abs(near - 0.5 * np.pi) < 0.5 * np.pi)]
         edges = np.remainder(np.concatenate([corners, corners + np.pi, circles, near, near + np.pi]), 2.0 * np.pi)
         edges = np.unique(np.concatenate([edges, [0.0, 2.0 * np.pi]]))
-        total = 0.0
-        for part in self._parts:
+        for part in self.parts:
             if part.long_crested:
                 theta, weight = np.array([part.direction]), np.array([1.0])
             else:
                 _, low, high = split(edges[:-1], edges[1:], part.theta)
                 theta, weight = (a.ravel() for a in gauss(low, high))
             with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
-                last = np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
-            last = np.maximum(np.minimum(np.minimum(last, band[1]), part.k[-1]), band[0])
-            total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last, 8)))
-        return total
+                yield part, theta, weight, np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
 
     @property
     def specified(self) -> float:
         """The sea's variance by the sum over its frequency panels [m^2]."""
-        return sum(part.share * part.variance for part in self._parts)
+        return sum(part.share * part.variance for part in self.parts)
 
     def require_energy(self, held: float, grid: Grid, band: Band) -> None:
         """
@@ -146,7 +156,7 @@ class Cells:
         Raises:
             ParameterError: they differ by more than `TOLERANCE` of the sea's variance, or a spreading does not integrate to 1.
         """
-        for part in self._parts:
+        for part in self.parts:
             if abs(part.unity - 1.0) > TOLERANCE:
                 raise ParameterError(
                     f"the spreading must integrate to 1 round the circle, within {TOLERANCE:g}, got {part.unity:.6g} for "
@@ -155,7 +165,7 @@ class Cells:
         reach_x, reach_y = grid.reach
         within = self.inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
         within -= self.inside(0.5 * grid.dkx, 0.5 * grid.dky, band)
-        scale = max(within, min(self.specified, self._up_to(math.hypot((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky))))
+        scale = sum(part.share * part.mainly for part in self.parts)
         if not abs(held - within) <= TOLERANCE * scale:
             raise ParameterError(
                 f"the waves of a tile must hold the sea's variance at their wavenumbers, {within:.6g} m^2 of {self.specified:.6g} m^2, "
@@ -163,18 +173,13 @@ class Cells:
                 "their `breaks`"
             )
 
-    def _up_to(self, k: float) -> float:
-        """The variance of all waves up to |k| [m^2]."""
-        one = np.array([0.0])
-        return sum(p.share * float(p.along_rays(one, one + 1.0, one, one + min(k, p.k[-1]), 8, all_round=True)[0]) for p in self._parts)
-
     def distances(self, mx: Integer, my: Integer) -> tuple[Real, Real]:
         """Return |k| of the nearest and of the farthest point of each cell [rad/m]."""
         ax, ay = np.abs(mx), np.abs(my)
         nearest = np.hypot(np.maximum(ax - 0.5, 0.0) * self.dkx, np.maximum(ay - 0.5, 0.0) * self.dky)
         return nearest, np.hypot((ax + 0.5) * self.dkx, (ay + 0.5) * self.dky)
 
-    def _variances_of(self, part: "_Part", ax: Integer, ay: Integer) -> Real:
+    def _variances_of(self, part: "Part", ax: Integer, ay: Integer) -> Real:
         """One part's variances, (4, m)."""
         out = np.zeros((4, ax.size))
         kx, ky = ax * self.dkx, ay * self.dky
@@ -183,7 +188,6 @@ class Cells:
         nearest, farthest = self.distances(ax, ay)
         if part.long_crested:
             rays = self._on_ray(part.direction, kx, ky)
-            across = np.zeros(k.size)
         else:
             # half the angle in which a cell is seen, or more
             half = np.minimum((0.5 * self.dkx * ky + 0.5 * self.dky * kx) / (k * nearest), 0.5 * np.pi)
@@ -207,7 +211,7 @@ class Cells:
         out[quadrant, cell] = self._by_rays(part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell], WHOLE)
         return out
 
-    def _by_points(self, part: "_Part", kx: Real, ky: Real, p: int) -> Real:
+    def _by_points(self, part: "Part", kx: Real, ky: Real, p: int) -> Real:
         """The mean density over cells by p x p Gauss points, (4, m)."""
         x, w = np.polynomial.legendre.leggauss(p)
         weight = (0.25 * w[:, None] * w).ravel()
@@ -221,13 +225,14 @@ class Cells:
     def _on_ray(self, direction: float, kx: Real, ky: Real) -> Flags:
         """The cells of each quadrant that a ray from k = 0 meets, (4, m)."""
         signs = np.array(QUADRANTS, dtype=np.float64)
-        x, y = math.cos(direction), math.sin(direction)
-        x, y = signs[:, :1] * kx * x + signs[:, 1:] * ky * y, signs[:, 1:] * ky * x - signs[:, :1] * kx * y
-        reach = 0.5 * (self.dkx * abs(math.sin(direction)) + self.dky * abs(math.cos(direction)))
-        met: Flags = (np.abs(y) <= reach) & (x > -max(self.dkx, self.dky))
+        cosine, sine = math.cos(direction), math.sin(direction)
+        along = signs[:, :1] * kx * cosine + signs[:, 1:] * ky * sine
+        beside = signs[:, 1:] * ky * cosine - signs[:, :1] * kx * sine
+        reach = 0.5 * (self.dkx * abs(sine) + self.dky * abs(cosine)) * (1.0 + 1e-9)
+        met: Flags = (np.abs(beside) <= reach) & (along > -max(self.dkx, self.dky))
         return met
 
-    def _by_rays(self, part: "_Part", mx: Integer, my: Integer, band: Band) -> Real:
+    def _by_rays(self, part: "Part", mx: Integer, my: Integer, band: Band) -> Real:
         """One part's variance in the cells (mx, my) within a band, by rays, (m,)."""
         out = np.zeros(mx.size)
         for start in range(0, mx.size, _CELLS):
@@ -248,7 +253,7 @@ class Cells:
                 out[some] += np.bincount(cell[chosen], energy, low_x.size)
         return out
 
-    def _rays(self, part: "_Part", sides: tuple[Real, Real, Real, Real], band: Band) -> tuple[Index, Real, Real]:
+    def _rays(self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band) -> tuple[Index, Real, Real]:
         """Cover cells with rays from k = 0: the cell, direction and weight of each."""
         low_x, high_x, low_y, high_y = sides
         heading = np.arctan2(low_y + high_y, low_x + high_x)
@@ -258,8 +263,8 @@ class Cells:
 
         corners = np.sort([turned(x, y) for x in (low_x, high_x) for y in (low_y, high_y)], axis=0)
         if part.long_crested:
-            theta = np.remainder(part.direction - heading + np.pi, 2.0 * np.pi) - np.pi
-            cell = np.flatnonzero((corners[0] <= theta) & (theta <= corners[3]))
+            from_heading = np.remainder(part.direction - heading + np.pi, 2.0 * np.pi) - np.pi
+            cell = np.flatnonzero((corners[0] <= from_heading) & (from_heading <= corners[3]))
             return cell, np.full(cell.size, part.direction), np.ones(cell.size)
         breaks = [*corners]
         for edge in band:  # where the circle |k| = edge meets the lines through the sides
@@ -270,7 +275,7 @@ class Cells:
                 for side in (low_y, high_y):
                     across = np.sqrt(np.maximum(edge**2 - side**2, 0.0))
                     breaks += [turned(across, side), turned(-across, side)]
-        ends = np.sort(np.clip(breaks, corners[0], corners[3]), axis=0) + heading
+        ends: Real = np.sort(np.clip(breaks, corners[0], corners[3]), axis=0) + heading
         low, high = ends[:-1].T.ravel(), ends[1:].T.ravel()
         cell = np.repeat(np.arange(heading.size), ends.shape[0] - 1)
         wide = np.flatnonzero(high > low)
@@ -281,7 +286,7 @@ class Cells:
 
 
 @dataclass(slots=True, init=False)
-class _Part:
+class Part:
     """One wave system, or a share of one, with the panels on which it is smooth."""
 
     share: float
@@ -292,6 +297,7 @@ class _Part:
     long_crested: bool
     knows_waves: bool  # the spectrum need not invert the dispersion relation
     variance: float  # [m^2]
+    mainly: float  # of that, up to a thousand peaks: finite whatever the tail [m^2]
     unity: float  # integral of D over theta where it is farthest from 1
     k: Real  # edges of the frequency panels [rad/m]
     k_jumps: Real
@@ -311,6 +317,7 @@ class _Part:
         self.k_jumps = dispersion.wavenumber(omega.jumps, self.depth, self.tension)
         some, energy = energetic_frequencies(system, omega.edges)
         self.variance = float(np.sum(energy))
+        self.mainly = float(np.sum(energy[omega.edges[1:] <= 1e3 * float(system.spectrum.peak)]))
         self.theta = self.theta_jumps = self.theta_fine = np.zeros(0)
         self.unity = 1.0
         if not self.long_crested:
@@ -339,7 +346,7 @@ class _Part:
             return s
         return s * self.system.spreading(omega, theta - self.direction, float(self.system.spectrum.peak))
 
-    def along_rays(self, theta: Real, weight: Real, first: Real, last: Real, order: int, all_round: bool = False) -> Real:
+    def along_rays(self, theta: Real, weight: Real, first: Real, last: Real, order: int) -> Real:
         """Return the variance along rays, from `first` to `last` [rad/m] on each, times its weight, (rays,)."""
         out = np.zeros(theta.size)
         at_a_time = max(1, _BLOCK // (2 * order))
@@ -349,10 +356,7 @@ class _Part:
             for part in range(0, ray.size, 8 * at_a_time):
                 piece = slice(part, part + 8 * at_a_time)
                 k, w = gauss(low[piece], high[piece], order)
-                if all_round:
-                    density = self.radial(k)[1]
-                else:
-                    density = self.density(k, theta[some][ray[piece], None])
+                density = self.density(k, theta[some][ray[piece], None])
                 np.add.at(out[some], ray[piece], np.sum(density * w, axis=1))
         out *= weight
         return out

@@ -105,7 +105,9 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
     breaks = wrapped(np.fromiter(getattr(spreading, "breaks", ()), dtype=np.float64))
 
     def sampled(theta: Real) -> Real:
-        return np.asarray(spreading(omega[:, None], theta[None, :], peak), dtype=np.float64) * np.ones((omega.size, theta.size))
+        density = np.asarray(spreading(omega[:, None], theta[None, :], peak), dtype=np.float64)
+        whole: Real = np.broadcast_to(density, (omega.size, theta.size))
+        return whole
 
     quarters = 0.25 * np.pi * np.arange(-4.0, 5.0)
     features = np.unique(np.concatenate([[-0.5 * np.pi, 0.0, 0.5 * np.pi], breaks[np.abs(breaks) < np.pi]]))
@@ -161,4 +163,5 @@ def _jumps(sampled: Sampled, at: Real, step: Real) -> Real:
     """Those of some points at which a curve jumps."""
     before, after = sampled(at - step), sampled(at + step)
     top = np.max(np.maximum(before, after), axis=1, keepdims=True)
-    return at[np.any(np.abs(after - before) > 1e-3 * top, axis=0) & (at != 0.0)]
+    jumping: Real = at[np.any(np.abs(after - before) > 1e-3 * top, axis=0) & (at != 0.0)]
+    return jumping

@@ -7,7 +7,6 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.physics.spreading import wrapped
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +56,7 @@ class TabulatedSpreading:
     @property
     def breaks(self) -> tuple[float, ...]:
         """The directions of the table, where the straight lines meet [rad]."""
-        return tuple(wrapped(self._theta[:-1]).tolist())
+        return tuple(self._theta[:-1].tolist())
 
     @property
     def frequency_breaks(self) -> tuple[float, ...]:
