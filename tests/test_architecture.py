@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: ["constants", "errors", "host", "arrays", "limits"],
     1: ["physics", "grid", "noise"],
-    2: ["amplitudes", "readers", "fields"],
+    2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["synthesis", "ocean", "gerstner"],
     5: ["cascade", "trains"],
@@ -34,7 +34,9 @@ STAIRS = [
         ["physics.wind_wavenumber"],
         ["physics.presets"],
         ["physics.sea"],
+        ["physics.panels"],
     ],
+    [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["synthesis"], ["ocean"]],
     [["cascade"], ["trains"]],
