@@ -28,7 +28,7 @@ FLOOR = {room: floor for floor, rooms in FLOORS.items() for room in rooms}
 STAIRS = [
     [["constants", "errors"], ["arrays", "limits"]],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments"],
+        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
         ["physics.spectra", "physics.spreading", "physics.tabulated"],
         ["physics.double_peaked", "physics.spreading_laws"],
         ["physics.wind_wavenumber"],
