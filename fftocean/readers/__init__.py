@@ -48,10 +48,17 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
         return layout.announce(netcdf.read(path, site=site))
     first_line = magic.split(b"\n", 1)[0].decode("utf-8", "replace").strip()
     if swan.recognises(first_line):
-        return swan.read(path, site=site)
+        return _ended(path, swan.read(path, site=site))
     if ndbc.recognises(first_line):
         Count("", 0, 0).check_whole("site", site)
-        return ndbc.read(path, bins=bins)
+        return _ended(path, ndbc.read(path, bins=bins))
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
         break
     raise ReaderError(f"{path.name} must be NDBC, SWAN or netCDF wave spectra, got {first_line!r:.40} first")
+
+
+def _ended(path: Path, made: "Dataset") -> "Dataset":
+    """Say in the attributes which of the text files that were read lack their final newline."""
+    if cut := [other.name for other in ndbc.files_of(path) if not files.has_final_newline(other)]:
+        made.attrs["unterminated"] = f"{', '.join(cut)}: the last line has no end, and was taken as whole"
+    return made

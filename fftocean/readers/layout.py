@@ -4,6 +4,7 @@ The one layout in which every measured spectrum comes out, and the door through 
     dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)   ef [m2/Hz]
     freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north, ascending
     dpt    (time) water depth [m], where known        lon, lat   where known
+    freq_bnds (freq, 2) edges of the bands [Hz], where the file has its own
 
 It is the layout of the wavespectra package, so its accessor works on it (`dataset.efth.spec.hs()`).
 """
@@ -47,9 +48,10 @@ def missing(error: ImportError) -> ReaderError:
 
 
 def announce(made: "Dataset") -> "Dataset":
-    """Pass a dataset on, warning of what its reader was not sure of."""
-    if "direction_note" in made.attrs:
-        warnings.warn(made.attrs["direction_note"], SeaWarning, stacklevel=3)
+    """Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`."""
+    for key, text in made.attrs.items():
+        if key.endswith("_note"):
+            warnings.warn(str(text), SeaWarning, stacklevel=3)
     return made
 
 
@@ -145,6 +147,7 @@ def dataset(
     time: Any = None,
     depth: Real | None = None,
     position: Mapping[str, float] | None = None,
+    bands: Real | None = None,
     notes: Mapping[str, Any] | None = None,
 ) -> "Dataset":
     """
@@ -159,6 +162,7 @@ def dataset(
         time: (time,) datetime64, where known.
         depth: (time,) [m], where known.
         position: `lon`, `lat` [degrees] or `x`, `y` [m], where known.
+        bands: (f, 2) lower and upper edge of each frequency's band [Hz], where the file has them.
         notes: what else is to be known, as attributes.
     """
     xr = science()
@@ -175,6 +179,9 @@ def dataset(
         name = {"standard_name": "sea_surface_wave_directional_variance_spectral_density", "units": "m2 s degree-1"}
         variables["efth"] = (("time", "freq", "dir"), density, name)
         coords["dir"] = ("dir", direction, {"standard_name": "sea_surface_wave_from_direction", "units": "degree"})
+    if bands is not None:
+        coords["freq"][2]["bounds"] = "freq_bnds"
+        coords["freq_bnds"] = (("freq", "bnds"), bands)
     if depth is not None:
         variables["dpt"] = ("time", depth, {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m"})
     for key, value in (position or {}).items():

@@ -93,6 +93,13 @@ def read(path: Path, *, bins: int) -> "Dataset":
     return _directed(spectrum, moments, bins)
 
 
+def files_of(path: Path) -> list[Path]:
+    """Return a file and those of its set that are beside it."""
+    stem = path.name.removesuffix(".gz").rpartition(".")[0] or path.name
+    others = [_sibling(path, stem + suffix) for suffix in list(_KINDS)[1:]] if ".data_spec" in path.name else []
+    return [path, *(other for other in others if other and other != path)]
+
+
 def _sibling(path: Path, name: str) -> Path | None:
     return next((p for p in (path.with_name(name), path.with_name(name + ".gz")) if p.is_file()), None)
 

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fftocean.arrays import Real
+from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, hdf5, layout
+from fftocean.readers import bands, files, hdf5, layout
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -40,6 +40,9 @@ _SPECTRA: Final = {
 }
 _DEGREES: Final = ("deg", "degr", "degree", "degrees")
 _RADIANS: Final = ("rad", "radian", "radians")
+_FIRST: Final = "frequency1"
+_SECOND: Final = "frequency2"
+_WIDTHS: Final = ("df", "waveBandwidth", "bandwidth", "frequency_bandwidth")
 _PER_HERTZ: Final = (("s", 1), ("hz", -1), ("hertz", -1), ("sec", 1))
 
 
@@ -153,6 +156,7 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
         values = values[np.newaxis]
 
     frequency, f_order = layout.frequencies(*_frequency(raw, axes, family, source))
+    edges = _bands(raw, axes["freq"], frequency, f_order, source)
     scale = _per_degree(where, spectrum.attrs, family, directional)
     values = scale * values[:, f_order]
     direction = None
@@ -180,6 +184,7 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
         time=_times(raw, axes, picked, source),
         depth=_depth(raw, axes, picked, len(density)),
         position=_position(raw, picked),
+        bands=edges,
         notes={**counts, **notes},
     )
 
@@ -255,10 +260,46 @@ def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
     values = _numbers(where, f)
     if family is _ERA5 and (numbers := _bin_numbers(where, values, 30)) is not None:
         return where, 0.03453 * 1.1 ** (numbers - 1.0)
-    unit = str(f.attrs.get("units", "Hz" if family.documented else "")).replace(" ", "").lower()
-    if unit not in ("hz", "s-1", "s^-1", "s**-1", "1/s", "hertz"):
+    if not _is_hertz(f.attrs.get("units", "Hz" if family.documented else "")):
         raise ReaderError(f"{where} must have units Hz or s-1, got {f.attrs.get('units')!r}")
     return where, values
+
+
+def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, source: str) -> Real | None:
+    """
+    Return the edges of the bands that the file states, (f, 2) [Hz], or None.
+
+    By CF's `bounds` attribute, WAVEWATCH III's `frequency1` and `frequency2`, or a width of each band.
+    """
+    f = raw[axis]
+    name = f.attrs.get("bounds", f.encoding.get("bounds"))
+    found: list[tuple[Hashable, DataArray]] = []
+    if name in raw.variables:
+        found = [(name, raw[name].isel({raw[name].dims[-1]: i})) for i in range(2) if raw[name].ndim == 2 and raw[name].shape[1] == 2]
+    elif _FIRST in raw.variables and _SECOND in raw.variables:
+        found = [(_FIRST, raw[_FIRST]), (_SECOND, raw[_SECOND])]
+    else:
+        width = next((w for w in _WIDTHS if w in raw.variables and raw[w].dims == (axis,)), None)
+        if width is None:
+            return None
+        where = f"{source}: variable {width}"
+        return bands.of_widths(where, frequency, _hertz(where, raw[width], f.attrs.get("units", "Hz"))[order])
+    if not found or any(edge.dims != (axis,) for _, edge in found):
+        raise ReaderError(f"{source}: variable {name or _FIRST} must hold two edges of the band of each {axis}")
+    edges = [_hertz(f"{source}: variable {name}", edge, f.attrs.get("units", "Hz"))[order] for name, edge in found]
+    return bands.checked(f"{source}: variable {found[0][0]}", frequency, np.stack(edges, axis=1))
+
+
+def _hertz(where: str, variable: "DataArray", unit: str) -> Real:
+    """Frequencies in Hz; bounds without a unit have that of their axis, as CF says."""
+    said = variable.attrs.get("units", unit)
+    if not _is_hertz(said):
+        raise ReaderError(f"{where} must have units Hz or s-1, got {said!r:.60}")
+    return _numbers(where, variable)
+
+
+def _is_hertz(unit: object) -> bool:
+    return str(unit).replace(" ", "").lower() in ("hz", "s-1", "s^-1", "s**-1", "1/s", "hertz")
 
 
 def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real, bool]:
