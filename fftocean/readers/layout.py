@@ -4,6 +4,7 @@ The one layout in which every measured spectrum comes out, and the door through 
     dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)   ef [m2/Hz]
     freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north, ascending
     dpt    (time) water depth [m], where known        lon, lat   where known
+    freq_bnds (freq, 2) edges of the bands [Hz], where the file has its own
 
 It is the layout of the wavespectra package, so its accessor works on it (`dataset.efth.spec.hs()`).
 """
@@ -13,6 +14,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from fftocean.arrays import Integer, Real, RealLike
 from fftocean.errors import ReaderError, SeaWarning
@@ -47,9 +49,10 @@ def missing(error: ImportError) -> ReaderError:
 
 
 def announce(made: "Dataset") -> "Dataset":
-    """Pass a dataset on, warning of what its reader was not sure of."""
-    if "direction_note" in made.attrs:
-        warnings.warn(made.attrs["direction_note"], SeaWarning, stacklevel=3)
+    """Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`."""
+    for key, text in made.attrs.items():
+        if key.endswith("_note"):
+            warnings.warn(str(text), SeaWarning, stacklevel=3)
     return made
 
 
@@ -76,6 +79,58 @@ def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
         a, b = f[order][i], f[order][i + 1]
         raise ReaderError(f"{where} must ascend or descend without repeats [Hz], got {a} " + ("twice" if a == b else f"before {b}"))
     return f[order], order
+
+
+def above_zero(values: RealLike) -> tuple[npt.NDArray[np.bool_], dict[str, Any]]:
+    """
+    Choose the frequencies that waves can have: analyses by FFT also give one of exactly 0 Hz, the mean level.
+
+    Args:
+        values: a frequency axis [Hz].
+
+    Returns:
+        Where the axis is not 0, shape of `values`; and a note of how many were left out, empty where none.
+    """
+    kept = np.asarray(values, dtype=np.float64).ravel() != 0.0
+    left_out = int(np.count_nonzero(~kept))
+    return kept, {"zero_frequencies_left_out": left_out} if left_out else {}
+
+
+def in_order(seconds: RealLike) -> tuple[Integer, int]:
+    """
+    Sort records by time; of those of one time the first stays.
+
+    Returns:
+        The indices of the records that stay, in order of time, and how many were left out.
+    """
+    times, first = np.unique(np.asarray(seconds), return_index=True)
+    return first, int(np.size(seconds) - times.size)
+
+
+def compare_heights(where: str, m0: Real, stated: Real, rounding: float) -> dict[str, Any]:
+    """
+    Compare significant wave heights with those that the file states.
+
+    Args:
+        where: what to call the file.
+        m0: (time,) variances of what was read [m2].
+        stated: (time,) significant wave heights of the file's own [m]; NaN where there are none.
+        rounding: half a unit of the last decimal of `stated` [m].
+
+    Returns:
+        Notes: the largest difference, and a warning where it is more than 5 % and the rounding.
+    """
+    read = 4.0 * np.sqrt(m0)
+    apart = np.where(np.isfinite(read) & np.isfinite(stated), np.abs(read - stated), 0.0)
+    notes: dict[str, Any] = {"stated_hs_difference": float(np.max(apart, initial=0.0))}
+    wrong = np.flatnonzero(apart > rounding + 0.05 * np.abs(stated))
+    if wrong.size:
+        i = int(wrong[0])
+        notes["height_note"] = (
+            f"{where}: the densities of record {i} have a significant wave height of {read[i]:.4g} m, "
+            f"but the file states {stated[i]:.4g} m ({wrong.size} of {read.size} records differ by more than 5 %)"
+        )
+    return notes
 
 
 def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
@@ -145,6 +200,7 @@ def dataset(
     time: Any = None,
     depth: Real | None = None,
     position: Mapping[str, float] | None = None,
+    bands: Real | None = None,
     notes: Mapping[str, Any] | None = None,
 ) -> "Dataset":
     """
@@ -159,6 +215,7 @@ def dataset(
         time: (time,) datetime64, where known.
         depth: (time,) [m], where known.
         position: `lon`, `lat` [degrees] or `x`, `y` [m], where known.
+        bands: (f, 2) lower and upper edge of each frequency's band [Hz], where the file has them.
         notes: what else is to be known, as attributes.
     """
     xr = science()
@@ -175,6 +232,9 @@ def dataset(
         name = {"standard_name": "sea_surface_wave_directional_variance_spectral_density", "units": "m2 s degree-1"}
         variables["efth"] = (("time", "freq", "dir"), density, name)
         coords["dir"] = ("dir", direction, {"standard_name": "sea_surface_wave_from_direction", "units": "degree"})
+    if bands is not None:
+        coords["freq"][2]["bounds"] = "freq_bnds"
+        coords["freq_bnds"] = (("freq", "bnds"), bands)
     if depth is not None:
         variables["dpt"] = ("time", depth, {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m"})
     for key, value in (position or {}).items():

@@ -22,6 +22,7 @@ from fftocean.arrays import Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
 from fftocean.readers import files, hdf5, layout
+from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -64,7 +65,7 @@ def recognises(magic: bytes) -> bool:
     return magic.startswith((hdf5.MAGIC, b"CDF"))
 
 
-def read(path: Path, *, site: int) -> "Dataset":
+def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
     """
     Read the spectra of one place.
 
@@ -411,3 +412,12 @@ def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float
                 if values.size and np.issubdtype(values.dtype, np.number) and np.isfinite(values[0]):
                     position[key] = float(values[0])
     return position
+
+
+READER: Final = Reader(
+    name="netCDF",
+    extensions=(".nc",),
+    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, and what follows the CF conventions.",
+    sniff=lambda head: recognises(head.data),
+    read=lambda path, site, bins: read(path, site=site, bins=bins),
+)
