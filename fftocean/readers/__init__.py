@@ -27,7 +27,7 @@ from fftocean.readers.realise import Realised, sea_from_spectrum
 if TYPE_CHECKING:
     from xarray import Dataset
 
-__all__ = ["FORMATS", "Realised", "Reader", "open", "sea_from_spectrum"]
+__all__ = ["FORMATS", "Reader", "Realised", "open", "sea_from_spectrum"]
 
 BINS = Count("", 8, 720)
 
@@ -74,7 +74,9 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     if not isinstance(path, (str, os.PathLike)):
         raise ReaderError(f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})")
     path = Path(os.fsdecode(path))
-    if "\0" not in str(path) and path.is_dir():
+    with files.refusing(path.name or str(path)):
+        folder = "\0" not in str(path) and path.is_dir()
+    if folder:
         path = _only_set(path)
     files.require_file(path)
     head = Head.of(path)

@@ -1,4 +1,4 @@
-"""Directional spectra from the directional moments that buoys report, unfolded by maximum entropy."""
+"""Directional spectra out of the directional moments that buoys report, by maximum entropy."""
 
 from typing import Any, Final
 
@@ -22,7 +22,8 @@ def unfold(s: Real, c1: Complex, c2: Complex, bins: int) -> tuple[Real, dict[str
 
     Args:
         s: (time, f) density [m2/Hz]; NaN is missing.
-        c1, c2: (time, f) r1 e^{i a1}, r2 e^{2 i a2}, of the directions FROM, clockwise from north; NaN is not measured.
+        c1, c2: (time, f) r1 e^{i a1}, r2 e^{2 i a2}, of the directions FROM, clockwise from north;
+            NaN is not measured.
         bins: directions round the compass.
 
     Returns:
@@ -56,12 +57,14 @@ def from_spread(mean: Real, spread: Real) -> Complex:
     return np.asarray(r1 * np.exp(1j * np.radians(mean)), dtype=np.complex128)
 
 
-def from_centred(mean: Real, spread: Real, skewness: Real, kurtosis: Real) -> tuple[Complex, Complex]:
+def from_centred(
+    mean: Real, spread: Real, skewness: Real, kurtosis: Real
+) -> tuple[Complex, Complex]:
     """
     Return both moments of the four parameters of Kuik et al., which Datawell's buoys report.
 
-    With the centred moments m1, m2 (cosine) and n2 (sine): sigma^2 = 2 (1 - m1), gamma = -n2 / ((1 - m2)/2)^(3/2),
-    delta = (6 - 8 m1 + 2 m2) / sigma^4; solved for the moments.
+    With the centred moments m1, m2 (cosine) and n2 (sine): sigma^2 = 2 (1 - m1), gamma = -n2 / ((1
+    - m2)/2)^(3/2), delta = (6 - 8 m1 + 2 m2) / sigma^4; solved for the moments.
 
     Source: Kuik, van Vledder & Holthuijsen, J. Phys. Oceanogr. 18 (1988) 1020, eq. 17 to 19.
     """

@@ -23,7 +23,7 @@ from fftocean.errors import ReaderError
 from fftocean.limits import Count
 from fftocean.readers import files, layout, near_misses
 from fftocean.readers.moments import compass, unfold
-from fftocean.readers.reader import Head, Reader
+from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
     from xarray import Dataset

@@ -1,10 +1,12 @@
 """
 NDBC's yearly archive with directions: five files of one buoy and year that belong together.
 
-`41010w2019.txt` holds S(f), `...d...` alpha1, `...i...` alpha2 [degrees], `...j...` r1 and `...k...` r2 in
-hundredths; all have the date and one column for each frequency. Any one of them stands for the set.
+`41010w2019.txt` holds S(f), `...d...` alpha1, `...i...` alpha2 [degrees], `...j...` r1 and
+`...k...` r2 in hundredths; all have the date and one column for each frequency. Any one of them
+stands for the set.
 
-Source: NDBC, Measurement Descriptions and Units, "Raw Spectral Wave Data" ("R1 and R2 are scaled by 100").
+Source: NDBC, Measurement Descriptions and Units, "Raw Spectral Wave Data" ("R1 and R2 are scaled by
+100").
 """
 
 import re
@@ -19,7 +21,9 @@ from fftocean.readers.reader import Head, Reader
 if TYPE_CHECKING:
     from xarray import Dataset
 
-_NAME: Final = re.compile(r"([0-9a-z]{5})([wdijk])([0-9]{4}.*)", re.IGNORECASE)
+_NAME: Final = re.compile(
+    r"([0-9a-z]{5})([wdijk])([0-9]{4}[^.]*(?:\.txt)?(?:\.gz)?)", re.IGNORECASE
+)
 _HUNDREDTHS: Final = ndbc._Column("r x 100", "hundredths", 110.0, (999.0, 9999.0))
 _COLUMNS: Final = {
     "w": ndbc._KINDS[".data_spec"],
@@ -31,7 +35,7 @@ _COLUMNS: Final = {
 
 
 def recognises(head: Head) -> bool:
-    """Return whether a file is one of a set: by its name, which alone tells the five apart, and its header."""
+    """Return whether a file is one of a set, by its header and its name."""
     header = ndbc._DATE.match(head.first_line)
     numbers = header is not None and re.match(r"[0-9.]", header[3]) is not None
     return numbers and _NAME.fullmatch(head.path.name) is not None
@@ -55,7 +59,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
     if not match:
         raise ReaderError(f"{path.name} must be named like 41010w2019.txt")
     names = {kind: f"{match[1]}{_like(match[2], kind)}{match[3]}" for kind in _COLUMNS}
-    found = {kind: path if kind == match[2].lower() else _beside(path, names[kind]) for kind in names}
+    found = {
+        kind: path if kind == match[2].lower() else _beside(path, names[kind]) for kind in names
+    }
     absent = [names[kind] for kind, other in found.items() if other is None]
     if found["w"] is not None and len(absent) == 4:
         return ndbc._undirected(ndbc._table(found["w"], _COLUMNS["w"]), "NDBC historical text")
@@ -73,7 +79,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
 
 
 def set_of(name: str) -> str | None:
-    """Return what the five files of a set have in common in their names, or None for the name of another file."""
+    """Return the name of the `w` file of a set, given that of any; None for other names."""
     match = _NAME.fullmatch(name)
     return match and f"{match[1]}w{match[3].removesuffix('.gz')}".lower()
 
@@ -85,7 +91,9 @@ def _like(letter: str, kind: str) -> str:
 def _beside(path: Path, name: str) -> Path | None:
     """Return the file of that name beside `path`, plain or packed, whichever `path` is."""
     plain = name.removesuffix(".gz")
-    return next((p for p in (path.with_name(plain), path.with_name(plain + ".gz")) if p.is_file()), None)
+    return next(
+        (p for p in (path.with_name(plain), path.with_name(plain + ".gz")) if p.is_file()), None
+    )
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":
@@ -96,7 +104,7 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
 READER: Final = Reader(
     name="NDBC archive with directions",
     extensions=(".txt",),
-    description="A year of a buoy: S(f) in 41010w2019.txt, directions in the d, i, j and k files beside it.",
+    description="A year of a buoy: 41010w2019.txt with the d, i, j and k files.",
     sniff=recognises,
     read=_read,
 )

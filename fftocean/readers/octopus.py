@@ -1,11 +1,13 @@
 """
 Octopus files: forecasts at one place, each a table of energies by direction and frequency.
 
-Seven lines of header, then for each time: names and values of bulk parameters, a line of frequencies, one line for
-each direction FROM with the energy [m2] of each bin, and two lines of sums, `fSpec` [m2] and `den` [m2/Hz]. The
-bands are those of `den`: from half way to half way between neighbours, and not beyond the outermost frequencies.
+Seven lines of header, then for each time: names and values of bulk parameters, a line of
+frequencies, one line for each direction FROM with the energy [m2] of each bin, and two lines of
+sums, `fSpec` [m2] and `den` [m2/Hz]. The bands are those of `den`: from half way to half way
+between neighbours, and not beyond the outermost frequencies.
 
-Source: the sample file of the wavespectra package (MIT); the sums in the file, which a reading must reproduce.
+Source: the sample file of the wavespectra package (MIT); the sums in the file, which a reading must
+reproduce.
 """
 
 import re
@@ -44,7 +46,8 @@ class _Rows:
         self._lines: Iterator[tuple[str, str]] = files.lines(path, blank=True)
 
     def maybe(self) -> list[str] | None:
-        for self.where, line in self._lines:
+        for where, line in self._lines:
+            self.where = where
             return [cell.strip() for cell in line.rstrip(",").split(",")]
         return None
 
@@ -94,23 +97,28 @@ def read(path: Path) -> "Dataset":
     seconds: list[np.datetime64] = []
     tables: list[Real] = []
     heights: list[float] = []
-    frequency = direction = np.empty(0)
+    frequency: Real = np.empty(0)
+    direction: Real = np.empty(0)
     for record in range(times):
-        moment, hs = _bulk(rows)
+        moment, height = _bulk(rows)
         f = np.array(rows.numbers(rows.keyed("freq", "the frequencies"), nf))
         d, table = _table(rows, nf, nd)
         for _ in _LAST:
             cells = rows.next("the sums fSpec and den")
             if cells[0].lower() not in _LAST:
-                raise ReaderError(f"{rows.where} must begin with fSpec or den, got {cells[0]!r:.40}")
+                raise ReaderError(
+                    f"{rows.where} must begin with fSpec or den, got {cells[0]!r:.40}"
+                )
         if record and not (np.array_equal(f, frequency) and np.array_equal(d, direction)):
             raise ReaderError(f"{rows.where}: record {record + 1} must have the axes of the first")
         frequency, direction = f, d
         seconds.append(moment)
         tables.append(table)
-        heights.append(hs)
+        heights.append(height)
     if (extra := rows.maybe()) is not None:
-        raise ReaderError(f"{rows.where} must be the end, after {times} records, got {extra[0]!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must be the end, after {times} records, got {extra[0]!r:.40}"
+        )
     which, repeated = layout.in_order(np.array(seconds))
     energy, hs = np.array(tables)[which], np.array(heights)[which]
     frequency, f_order = layout.frequencies(f"{path.name}: freq", frequency)
@@ -146,17 +154,23 @@ def _bulk(rows: _Rows) -> tuple[np.datetime64, float]:
     """Return the time and the significant wave height of a record."""
     names = [name.lower() for name in rows.next("a record")]
     if names[:2] != ["ccyymm", "ddhhmm"]:
-        raise ReaderError(f"{rows.where} must begin with CCYYMM,DDHHmm, got {','.join(names)!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must begin with CCYYMM,DDHHmm, got {','.join(names)!r:.40}"
+        )
     cells = [cell.lstrip("'") for cell in rows.next("the values of a record")]
     if len(cells) != len(names):
         raise ReaderError(f"{rows.where} must hold {len(names)} values, got {len(cells)}")
     text = "".join(cells[:2])
     if not re.fullmatch(r"[0-9]{12}", text[:12]) or len(text) not in (12, 14):
-        raise ReaderError(f"{rows.where} must begin with a time like 201803,110000, got {text!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must begin with a time like 201803,110000, got {text!r:.40}"
+        )
     try:
         time = datetime.strptime(text[:12], "%Y%m%d%H%M")
     except ValueError as error:
-        raise ReaderError(f"{rows.where} must begin with a time like 201803,110000 ({error})") from error
+        raise ReaderError(
+            f"{rows.where} must begin with a time like 201803,110000 ({error})"
+        ) from error
     if not 1900 <= time.year < 2200:
         raise ReaderError(f"{rows.where} must begin with a time between 1900 and 2200, got {text}")
     hs = np.nan
@@ -185,7 +199,7 @@ def _step(name: str, bearing: Real) -> float:
     return 360.0 / bearing.size
 
 
-def _read(path: Path, site: int, bins: int) -> "Dataset":  # noqa: ARG001: a table has its own directions
+def _read(path: Path, site: int, bins: int) -> "Dataset":  # noqa: ARG001
     Count("", 0, 0).check_whole("site", site)
     return read(path)
 

@@ -1,10 +1,12 @@
 """
-The CSV files of Sofar's Spotter buoys: one record a line, one column for each number of the spectrum.
+The CSV files of Sofar's Spotter buoys: one record a line, one column for each number of the
+spectrum.
 
-Read are `Epoch Time` [s since 1970], `Latitude`, `Longitude`, and by frequency `f_i` and `df_i` [Hz],
-`varianceDensity_i` [m2/Hz], and the moments `a1_i b1_i a2_i b2_i` of where waves go TO, counter-clockwise from east;
-without those `direction_i` (FROM, clockwise from north) and `directionalSpread_i` [degrees]. A line has its own
-`Significant Wave Height`, the sum of densities times df.
+Read are `Epoch Time` [s since 1970], `Latitude`, `Longitude`, and by frequency `f_i` and `df_i`
+[Hz], `varianceDensity_i` [m2/Hz], and the moments `a1_i b1_i a2_i b2_i` of where waves go TO,
+counter-clockwise from east; without those `direction_i` (FROM, clockwise from north) and
+`directionalSpread_i` [degrees]. A line has its own `Significant Wave Height`, the sum of densities
+times df.
 
 Source: Sofar Ocean, Spotter Technical Reference Manual, "Directional wave spectra".
 """
@@ -25,7 +27,17 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 _MISSING: Final = ("", "-", "nan", "NaN", "NAN", "null", "None")
-_BY_FREQUENCY: Final = ("f", "df", "varianceDensity", "a1", "b1", "a2", "b2", "direction", "directionalSpread")
+_BY_FREQUENCY: Final = (
+    "f",
+    "df",
+    "varianceDensity",
+    "a1",
+    "b1",
+    "a2",
+    "b2",
+    "direction",
+    "directionalSpread",
+)
 _ONCE: Final = {
     "time": "Epoch Time",
     "lat": "Latitude",
@@ -39,7 +51,11 @@ _APART: Final = 1.0  # largest difference of `direction` from the moments' own [
 def recognises(head: Head) -> bool:
     """Return whether the first line names a Spotter's columns."""
     first = head.first_line
-    return "Epoch Time" in first and "," in first and re.search(r"\bvarianceDensity_0\b|\bf_0\b", first) is not None
+    return (
+        "Epoch Time" in first
+        and "," in first
+        and re.search(r"\bvarianceDensity_0\b|\bf_0\b", first) is not None
+    )
 
 
 def read(path: Path, *, bins: int) -> "Dataset":
@@ -51,36 +67,52 @@ def read(path: Path, *, bins: int) -> "Dataset":
         bins: directions round the compass into which the moments are unfolded.
 
     Raises:
-        ReaderError: columns that are missing, lines without their numbers, frequencies that change, or directions
-            that do not agree with the moments.
+        ReaderError: columns that are missing, lines without their numbers, frequencies that change,
+            or directions that do not agree with the moments.
     """
     columns, records = _records(path, bins)
     f = records["f"]
     if not np.all(f == f[0]):
         line = int(np.flatnonzero(np.any(f != f[0], axis=1))[0]) + 2
-        raise ReaderError(f"{path.name}: line {line} must have the frequencies of line 2, got others")
+        raise ReaderError(
+            f"{path.name}: line {line} must have the frequencies of line 2, got others"
+        )
     time = records["time"][:, 0]
     if not np.all((time > 0.0) & (time < _LATEST)):
-        raise ReaderError(f"{path.name}: Epoch Time must be seconds since 1970 up to 2200, got {time[~((time > 0) & (time < _LATEST))][0]}")
+        raise ReaderError(
+            f"{path.name}: Epoch Time must be seconds since 1970 up to 2200, got "
+            f"{time[~((time > 0) & (time < _LATEST))][0]}"
+        )
     which, repeated = layout.in_order(np.rint(time))
     records = {name: values[which] for name, values in records.items()}
     frequency, order = layout.frequencies(f"{path.name}: f", f[0])
-    density, counts = layout.densities(f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz")
+    density, counts = layout.densities(
+        f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz"
+    )
     notes: dict[str, Any] = {**counts, "repeated_times": repeated, "sites": 1}
     bands = None
     width = np.gradient(frequency)
     if "df" in columns:
         width = records["df"][0, order]
-        if not np.all(records["df"] == records["df"][0]) or not np.all((width > 0.0) & (width < 1.0)):
-            raise ReaderError(f"{path.name}: df must be the same in all lines and between 0 and 1 Hz, got other")
+        if not np.all(records["df"] == records["df"][0]) or not np.all(
+            (width > 0.0) & (width < 1.0)
+        ):
+            raise ReaderError(
+                f"{path.name}: df must be the same in all lines and between 0 and 1 Hz, got other"
+            )
         bands = np.stack([frequency - 0.5 * width, frequency + 0.5 * width], axis=1)
         if bands[0, 0] < 0.0:
-            raise ReaderError(f"{path.name}: df must leave every band above 0 Hz, got df {width[0]:g} at {frequency[0]:g} Hz")
+            raise ReaderError(
+                f"{path.name}: df must leave every band above 0 Hz, got df {width[0]:g} at "
+                f"{frequency[0]:g} Hz"
+            )
     if "hs" in columns:
-        notes |= layout.compare_heights(path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4)
+        notes |= layout.compare_heights(
+            path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4
+        )
     c1, c2 = _moments(path.name, columns, records)
     direction = None
-    if c1 is not None:
+    if c1 is not None and c2 is not None:
         density, done = moments.unfold(density, c1[:, order], c2[:, order], bins)
         direction = moments.compass(bins)
         notes |= done
@@ -91,19 +123,27 @@ def read(path: Path, *, bins: int) -> "Dataset":
         density=density,
         direction=direction,
         time=np.rint(records["time"][:, 0]).astype("int64").astype("datetime64[s]"),
-        position={key: float(records[key][0, 0]) for key in ("lon", "lat") if key in columns and np.isfinite(records[key][0, 0])},
+        position={
+            key: float(records[key][0, 0])
+            for key in ("lon", "lat")
+            if key in columns and np.isfinite(records[key][0, 0])
+        },
         bands=bands,
         notes=notes,
     )
 
 
-def _moments(name: str, columns: dict[str, list[int]], records: dict[str, Real]) -> tuple[Complex, Complex] | tuple[None, None]:
+def _moments(
+    name: str, columns: dict[str, list[int]], records: dict[str, Real]
+) -> tuple[Complex, Complex] | tuple[None, None]:
     """Return both moments of directions FROM, clockwise from north, by what the file has."""
     has = {word for word in _BY_FREQUENCY if word in columns}
     if {"a1", "b1"} <= has:
         toward = records["a1"] + 1j * records["b1"]
-        c1 = np.asarray(np.exp(1.5j * np.pi) * np.conj(toward), dtype=np.complex128)  # from = 270 - toward
-        c2 = np.full_like(c1, np.nan)
+        c1 = np.asarray(
+            np.exp(1.5j * np.pi) * np.conj(toward), dtype=np.complex128
+        )  # from = 270 - toward
+        c2: Complex = np.full_like(c1, np.nan)
         if {"a2", "b2"} <= has:
             c2 = np.asarray(-np.conj(records["a2"] + 1j * records["b2"]), dtype=np.complex128)
         if "direction" in has:
@@ -113,12 +153,13 @@ def _moments(name: str, columns: dict[str, list[int]], records: dict[str, Real])
                 i, j = np.argwhere(wrong)[0]
                 raise ReaderError(
                     f"{name}: direction_{j} of record {i} must be 270 - atan2(b1, a1) degrees, "
-                    f"got {records['direction'][i, j]:g} against {np.degrees(np.angle(c1[i, j])) % 360.0:.6g}"
+                    f"got {records['direction'][i, j]:g} against "
+                    f"{np.degrees(np.angle(c1[i, j])) % 360.0:.6g}"
                 )
         return c1, c2
     if {"direction", "directionalSpread"} <= has:
-        c1 = moments.from_spread(records["direction"], records["directionalSpread"])
-        return c1, np.full_like(c1, np.nan)
+        first = moments.from_spread(records["direction"], records["directionalSpread"])
+        return first, np.full_like(first, np.nan)
     return None, None
 
 
@@ -134,8 +175,17 @@ def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Rea
     for where, line in rows:
         cells = [cell.strip() for cell in line.split(",")]
         if len(cells) != len(names):
-            raise ReaderError(f"{where} must hold {len(names)} cells, as line 1 does, got {len(cells)}")
-        records.append([np.nan if cells[i] in _MISSING else files.number(f"{where}, column {names[i]},", cells[i]) for i in wanted])
+            raise ReaderError(
+                f"{where} must hold {len(names)} cells, as line 1 does, got {len(cells)}"
+            )
+        records.append(
+            [
+                np.nan
+                if cells[i] in _MISSING
+                else files.number(f"{where}, column {names[i]},", cells[i])
+                for i in wanted
+            ]
+        )
         if len(records) * count * bins > layout.MAX_VALUES:
             raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
     if not records:
@@ -154,17 +204,24 @@ def _columns(where: str, names: list[str]) -> dict[str, list[int]]:
     place = {name: i for i, name in enumerate(names)}
     columns = {key: [place[word]] for key, word in _ONCE.items() if word in place}
     for word in _BY_FREQUENCY:
-        indices = []
+        indices: list[int] = []
         while f"{word}_{len(indices)}" in place:
             indices.append(place[f"{word}_{len(indices)}"])
         if indices:
             columns[word] = indices
-    for key, word in (("time", "Epoch Time"), ("f", "f_0"), ("varianceDensity", "varianceDensity_0")):
+    for key, word in (
+        ("time", "Epoch Time"),
+        ("f", "f_0"),
+        ("varianceDensity", "varianceDensity_0"),
+    ):
         if key not in columns:
             raise ReaderError(f"{where} must name a column {word}, got {', '.join(names)!r:.60}")
     for word in _BY_FREQUENCY:
         if word in columns and len(columns[word]) != len(columns["f"]):
-            raise ReaderError(f"{where} must name as many {word}_i as f_i ({len(columns['f'])}), got {len(columns[word])}")
+            raise ReaderError(
+                f"{where} must name as many {word}_i as f_i ({len(columns['f'])}), got "
+                f"{len(columns[word])}"
+            )
     return columns
 
 
@@ -176,7 +233,7 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
 READER: Final = Reader(
     name="Sofar Spotter CSV",
     extensions=(".csv",),
-    description="Records of a Spotter buoy, with moments of the directions and the bands `df` of each frequency.",
+    description="Records of a Spotter buoy, with moments of the directions.",
     sniff=recognises,
     read=_read,
 )

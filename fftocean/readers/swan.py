@@ -204,5 +204,5 @@ READER: Final = Reader(
     extensions=(".spec", ".sp2", ".spc"),
     description="Spectra by frequency and direction, of one or more places.",
     sniff=lambda head: recognises(head.first_line),
-    read=lambda path, site, bins: read(path, site=site),  # noqa: ARG005: a table has its own directions
+    read=lambda path, site, bins: read(path, site=site),  # noqa: ARG005
 )

@@ -1,9 +1,10 @@
 """
 Units of measurement as UDUNITS and the CF conventions spell them, for the few that wave files hold.
 
-A unit is a product of powers of metre, second, kilogram and radian times a number. Juxtaposition, `.`, `*` and `·`
-multiply; `/` and `per` divide; both bind alike and from left to right, as in UDUNITS. Powers are `m2`, `m^2`, `m**2`,
-`m^{2}`, `m²`. `log10(...)`, `lg(re ...)` and `ln(re ...)` are logarithms of a unit.
+A unit is a product of powers of metre, second, kilogram and radian times a number. Juxtaposition,
+`.`, `*` and `·` multiply; `/` and `per` divide; both bind alike and from left to right, as in
+UDUNITS. Powers are `m2`, `m^2`, `m**2`, `m^{2}`, `m²`. `log10(...)`, `lg(re ...)` and `ln(re ...)`
+are logarithms of a unit.
 
 Source: UDUNITS-2 Documentation, "Unit Grammar"; CF conventions, section 3.1.
 """
@@ -63,15 +64,32 @@ _NAMES: Final = {
     **dict.fromkeys(("Hz", "hz", "HZ", "hertz", "Hertz"), _HERTZ),
     **dict.fromkeys(("rad", "rads", "radian", "radians"), _RAD),
     **dict.fromkeys(
-        ("deg", "degr", "degree", "degrees", "degree_true", "degrees_true", "degree_T", "degrees_T", "degT", "°"),
+        (
+            "deg",
+            "degr",
+            "degree",
+            "degrees",
+            "degree_true",
+            "degrees_true",
+            "degree_T",
+            "degrees_T",
+            "degT",
+            "°",
+        ),
         _DEGREE,
     ),
     **dict.fromkeys(("kg", "kilogram", "kilograms"), Unit(1.0, {"kg": 1})),
     **dict.fromkeys(("J", "joule", "joules"), Unit(1.0, {"kg": 1, "m": 2, "s": -2})),
     **dict.fromkeys(("cycle", "cycles"), Unit()),
-    **dict.fromkeys(("cm", "centimeter", "centimetre", "centimeters", "centimetres"), Unit(1e-2, {"m": 1})),
-    **dict.fromkeys(("mm", "millimeter", "millimetre", "millimeters", "millimetres"), Unit(1e-3, {"m": 1})),
-    **dict.fromkeys(("km", "kilometer", "kilometre", "kilometers", "kilometres"), Unit(1e3, {"m": 1})),
+    **dict.fromkeys(
+        ("cm", "centimeter", "centimetre", "centimeters", "centimetres"), Unit(1e-2, {"m": 1})
+    ),
+    **dict.fromkeys(
+        ("mm", "millimeter", "millimetre", "millimeters", "millimetres"), Unit(1e-3, {"m": 1})
+    ),
+    **dict.fromkeys(
+        ("km", "kilometer", "kilometre", "kilometers", "kilometres"), Unit(1e3, {"m": 1})
+    ),
     **dict.fromkeys(("ft", "foot", "feet"), Unit(0.3048, {"m": 1})),
     **dict.fromkeys(("mHz", "millihertz"), Unit(1e-3, {"s": -1})),
     **dict.fromkeys(("fathom", "fathoms"), Unit(1.8288, {"m": 1})),
@@ -92,7 +110,9 @@ _TOKEN: Final = re.compile(
     rf"\s*(?:(?P<name>[A-Za-z_°]+(?:[+-]?[0-9]+)?)|(?P<number>{_NUMBER})"
     r"|(?:\*\*|\^)\s*(?P<power>[+-]?[0-9]+)|(?P<op>[*./·×()]))|\s*$"
 )
-_LOGARITHM: Final = re.compile(r"\s*(log10|lg|log|ln|lb|log2)\s*\((?:\s*re:?\s)?(.*)\)\s*", re.IGNORECASE)
+_LOGARITHM: Final = re.compile(
+    r"\s*(log10|lg|log|ln|lb|log2)\s*\((?:\s*re:?\s)?(.*)\)\s*", re.IGNORECASE
+)
 _ADDED: Final = re.compile(rf"(.*?)\+\s*({_NUMBER})\s*")
 _BASES: Final = {"log10": 10.0, "lg": 10.0, "log": 10.0, "ln": math.e, "lb": 2.0, "log2": 2.0}
 

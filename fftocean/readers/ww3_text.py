@@ -1,13 +1,13 @@
 """
-The transfer files of WAVEWATCH III's point output (ww3_outp, type 1, transfer file): spectra as formatted text.
+The transfer files of WAVEWATCH III's point output (ww3_outp, type 1, transfer file): spectra as
+formatted text.
 
-    'WAVEWATCH III SPECTRA'     25    24     1 'title'          counts of frequencies, directions, points
-    frequencies [Hz]; directions [radians] TO, clockwise from north
-    19680606 000000
-    'name      '  lat lon depth U10 direction, current direction
-    densities [m2/Hz/rad], the frequency fastest
+    'WAVEWATCH III SPECTRA'     25    24     1 'title'          counts of frequencies, directions,
+    points frequencies [Hz]; directions [radians] TO, clockwise from north 19680606 000000 'name
+    '  lat lon depth U10 direction, current direction densities [m2/Hz/rad], the frequency fastest
 
-Numbers stand in fixed columns and may touch (`33.62-118.32`); exponents beyond 99 have no letter (`0.123-100`).
+Numbers stand in fixed columns and may touch (`33.62-118.32`); exponents beyond 99 have no letter
+(`0.123-100`).
 
 Source: WAVEWATCH III manual, "Point output post-processor"; program ww3_outp, formats 901 to 946.
 """
@@ -30,7 +30,9 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 _MOST: Final = 10_000  # frequencies, directions, points
-_TITLE: Final = re.compile(r"'WAVEWATCH III SPECTRA'\s*(\d{1,6})\s+(\d{1,6})\s+(\d{1,6})\b.*", re.IGNORECASE)
+_TITLE: Final = re.compile(
+    r"'WAVEWATCH III SPECTRA'\s*(\d{1,6})\s+(\d{1,6})\s+(\d{1,6})\b.*", re.IGNORECASE
+)
 _TIME: Final = re.compile(r"(\d{8})\s+(\d{1,6})")
 _POINT: Final = re.compile(r"'([^']*)'(.*)")
 _NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+|[+-]\d{3}(?!\d))?")
@@ -50,7 +52,8 @@ class _Lines:
         self._lines: Iterator[tuple[str, str]] = files.lines(path)
 
     def maybe(self) -> str | None:
-        for self.where, line in self._lines:
+        for where, line in self._lines:
+            self.where = where
             return line
         return None
 
@@ -94,7 +97,8 @@ def read(path: Path, *, site: int) -> "Dataset":
         site: which of its points, from 0.
 
     Raises:
-        ReaderError: counts that do not agree, a point that is not the same at all times, a file that is cut.
+        ReaderError: counts that do not agree, a point that is not the same at all times, a file
+            that is cut.
         ParameterError: `site` is not in the file.
     """
     lines = _Lines(path)
@@ -104,15 +108,21 @@ def read(path: Path, *, site: int) -> "Dataset":
     nf, nd, points = (int(text) for text in match.groups())
     if not (2 <= nf <= _MOST and 4 <= nd <= _MOST and 1 <= points <= _MOST):
         raise ReaderError(
-            f"{lines.where} must count 2 to {_MOST} frequencies, 4 to {_MOST} directions and 1 to {_MOST} points, "
+            f"{lines.where} must count 2 to {_MOST} frequencies, 4 to {_MOST} directions and 1 to "
+            f"{_MOST} points, "
             f"got {nf}, {nd} and {points}"
         )
     site = Count("", 0, points - 1).check_whole("site", site)
-    frequency, f_order = layout.frequencies(f"{path.name}: the frequencies", lines.numbers(nf, "frequencies"))
+    frequency, f_order = layout.frequencies(
+        f"{path.name}: the frequencies", lines.numbers(nf, "frequencies")
+    )
     toward = lines.numbers(nd, "directions")
     if np.max(np.abs(toward)) > 2.0 * np.pi + 0.01:
-        raise ReaderError(f"{path.name}: the directions must be in radians, got {toward[np.argmax(np.abs(toward))]:g}")
-    bearing = np.mod(np.degrees(toward), 360.0) + 180.0
+        raise ReaderError(
+            f"{path.name}: the directions must be in radians, got "
+            f"{toward[np.argmax(np.abs(toward))]:g}"
+        )
+    bearing: Real = np.mod(np.degrees(toward), 360.0) + 180.0
     if nd > 36 or np.ptp(np.diff(np.sort(np.mod(bearing, 360.0)))) > 0.0:
         bearing = _even(bearing)
     direction, d_order = layout.directions(f"{path.name}: the directions", bearing)
@@ -133,7 +143,9 @@ def read(path: Path, *, site: int) -> "Dataset":
                 continue
             here = (name, numbers[0], numbers[1])
             if place is not None and here[0] != place[0]:
-                raise ReaderError(f"{lines.where}: point {site} must be {place[0]!r} at all times, got {name!r}")
+                raise ReaderError(
+                    f"{lines.where}: point {site} must be {place[0]!r} at all times, got {name!r}"
+                )
             place = place or here
             time.append(moment)
             depths.append(numbers[2])
@@ -156,12 +168,18 @@ def read(path: Path, *, site: int) -> "Dataset":
         time=np.array(time)[which],
         depth=np.where((depth > 0.0) & (depth < 1e5), depth, np.nan),
         position={"lon": place[2], "lat": place[1]},
-        notes={**counts, "site": site, "sites": points, "station": place[0], "repeated_times": repeated},
+        notes={
+            **counts,
+            "site": site,
+            "sites": points,
+            "station": place[0],
+            "repeated_times": repeated,
+        },
     )
 
 
 def _even(bearing: Real) -> Real:
-    """Give back the equal steps that three figures of each direction have lost, where they can have been equal."""
+    """Return equal steps where three figures of each direction can have hidden them."""
     step = 360.0 / bearing.size
     start = bearing[0]
     turn = 1.0 if np.mod(bearing[1] - start, 360.0) < 180.0 else -1.0
@@ -187,10 +205,15 @@ def _point(lines: _Lines, line: str) -> tuple[str, list[float]]:
     """Return a point's name, latitude, longitude, depth, and what follows."""
     match = _POINT.fullmatch(line)
     if not match:
-        raise ReaderError(f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}")
+        raise ReaderError(
+            f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}"
+        )
     numbers = lines.split(match[2])
     if len(numbers) < 3:
-        raise ReaderError(f"{lines.where} must hold latitude, longitude and depth of a point, got {len(numbers)} numbers")
+        raise ReaderError(
+            f"{lines.where} must hold latitude, longitude and depth of a point, got "
+            f"{len(numbers)} numbers"
+        )
     return match[1].strip(), numbers
 
 
@@ -199,5 +222,5 @@ READER: Final = Reader(
     extensions=(".spec", ".spc"),
     description="Point output of ww3_outp as text: 2-D spectra of one or more points.",
     sniff=recognises,
-    read=lambda path, site, bins: read(path, site=site),  # noqa: ARG005: a table has its own directions
+    read=lambda path, site, bins: read(path, site=site),  # noqa: ARG005
 )
