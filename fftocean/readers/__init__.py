@@ -82,7 +82,7 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     head = Head.of(path)
     for reader in FORMATS:
         if reader.sniff(head):
-            return layout.announce(reader.read(path, site, bins))
+            return layout.announce(_ended(reader.files(path), reader.read(path, site, bins)))
     if (what := near_misses.name(head)) is not None:
         raise ReaderError(f"{path.name} {what}")
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
@@ -116,3 +116,12 @@ def _only_set(folder: Path) -> Path:
             f"one NDBC buoy (41010.data_spec and its four, or 41010w2019.txt and its four), got {held}"
         )
     return folder / next(iter(sets.values()))
+
+
+def _ended(read: list[Path], made: "Dataset") -> "Dataset":
+    """Say in the attributes which of the text files that were read lack their final newline."""
+    if "netCDF" in made.attrs["source_format"]:
+        return made
+    if cut := [other.name for other in read if not files.has_final_newline(other)]:
+        made.attrs["unterminated"] = f"{', '.join(cut)}: the last line has no end, and was taken as whole"
+    return made

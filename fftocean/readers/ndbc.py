@@ -113,6 +113,16 @@ def _set_of(path: Path) -> Path:
     return found
 
 
+def files_of(path: Path) -> list[Path]:
+    """Return a file and those of its set that are beside it."""
+    if set_of(path.name) is None:
+        return [path]
+    first = _set_of(path)
+    stem = first.name.removesuffix(".gz").rpartition(".")[0]
+    others = [_sibling(first, stem + suffix) for suffix in _KINDS]
+    return [other for other in others if other]
+
+
 def _sibling(path: Path, name: str) -> Path | None:
     return next((p for p in (path.with_name(name), path.with_name(name + ".gz")) if p.is_file()), None)
 
@@ -265,4 +275,5 @@ READER: Final = Reader(
     description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), or a year of S(f).",
     sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
     read=_read,
+    files=files_of,
 )

@@ -55,13 +55,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
     Raises:
         ReaderError: files of the set that are missing, by name, or broken lines.
     """
-    match = _NAME.fullmatch(path.name)
-    if not match:
-        raise ReaderError(f"{path.name} must be named like 41010w2019.txt")
-    names = {kind: f"{match[1]}{_like(match[2], kind)}{match[3]}" for kind in _COLUMNS}
-    found = {
-        kind: path if kind == match[2].lower() else _beside(path, names[kind]) for kind in names
-    }
+    names, found = _set(path)
     absent = [names[kind] for kind, other in found.items() if other is None]
     if found["w"] is not None and len(absent) == 4:
         return ndbc._undirected(ndbc._table(found["w"], _COLUMNS["w"]), "NDBC historical text")
@@ -76,6 +70,21 @@ def read(path: Path, *, bins: int) -> "Dataset":
     for table in moments[2:]:
         table.values[:] *= 0.01
     return ndbc._directed(spectrum, moments, bins, "NDBC historical text with directions")
+
+
+def _set(path: Path) -> tuple[dict[str, str], dict[str, Path | None]]:
+    """Return the names of the five files of a set, and where they are, by kind."""
+    match = _NAME.fullmatch(path.name)
+    if not match:
+        raise ReaderError(f"{path.name} must be named like 41010w2019.txt")
+    names = {kind: f"{match[1]}{_like(match[2], kind)}{match[3]}" for kind in _COLUMNS}
+    own = match[2].lower()
+    return names, {kind: path if kind == own else _beside(path, names[kind]) for kind in names}
+
+
+def files_of(path: Path) -> list[Path]:
+    """Return a file and those of its set that are beside it."""
+    return [other for other in _set(path)[1].values() if other is not None]
 
 
 def set_of(name: str) -> str | None:
@@ -107,4 +116,5 @@ READER: Final = Reader(
     description="A year of a buoy: 41010w2019.txt with the d, i, j and k files.",
     sniff=recognises,
     read=_read,
+    files=files_of,
 )

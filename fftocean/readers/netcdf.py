@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fftocean.arrays import Real
+from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import circular, files, hdf5, layout, moments, package, units
+from fftocean.readers import bands, circular, files, hdf5, layout, moments, package, units
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -40,6 +40,9 @@ _SPECTRA: Final = {
     "sea_surface_wave_directional_variance_spectral_density": True,
     "sea_surface_wave_variance_spectral_density": False,
 }
+_FIRST: Final = "frequency1"
+_SECOND: Final = "frequency2"
+_WIDTHS: Final = ("df", "waveBandwidth", "bandwidth", "frequency_bandwidth")
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,6 +168,7 @@ def tidy(
     frequency, f_order = layout.frequencies(there, f[kept])
     f_order = np.flatnonzero(kept)[f_order]
     notes |= left_out
+    edges = _bands(raw, axes["freq"], frequency, f_order, source)
     if (logarithm := _logarithm(where, spectrum.attrs)) is not None and not family.log10:
         values = units.Unit(1.0, {}, logarithm.base, logarithm.offset).linear(values)
     scale = _per_degree(where, spectrum.attrs, family, directional)
@@ -203,6 +207,7 @@ def tidy(
         time=_times(raw, axes, picked, source),
         depth=_depth(raw, axes, picked, len(density)),
         position=_position(raw, picked),
+        bands=edges,
         notes={**counts, **notes},
     )
 
@@ -290,6 +295,40 @@ def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
     if unit is None or not unit.is_(s=-1):
         raise ReaderError(f"{where} must have units Hz or s-1, got {f.attrs.get('units')!r}")
     return where, values * unit.scale
+
+
+def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, source: str) -> Real | None:
+    """
+    Return the edges of the bands that the file states, (f, 2) [Hz], or None.
+
+    By CF's `bounds` attribute, WAVEWATCH III's `frequency1` and `frequency2`, or a width of each band.
+    """
+    f = raw[axis]
+    name = f.attrs.get("bounds", f.encoding.get("bounds"))
+    found: list[tuple[Hashable, DataArray]] = []
+    if name in raw.variables:
+        found = [(name, raw[name].isel({raw[name].dims[-1]: i})) for i in range(2) if raw[name].ndim == 2 and raw[name].shape[1] == 2]
+    elif _FIRST in raw.variables and _SECOND in raw.variables:
+        found = [(_FIRST, raw[_FIRST]), (_SECOND, raw[_SECOND])]
+    else:
+        width = next((w for w in _WIDTHS if w in raw.variables and raw[w].dims == (axis,)), None)
+        if width is None:
+            return None
+        where = f"{source}: variable {width}"
+        return bands.of_widths(where, frequency, _hertz(where, raw[width], f.attrs.get("units", "Hz"))[order])
+    if not found or any(edge.dims != (axis,) for _, edge in found):
+        raise ReaderError(f"{source}: variable {name or _FIRST} must hold two edges of the band of each {axis}")
+    edges = [_hertz(f"{source}: variable {name}", edge, f.attrs.get("units", "Hz"))[order] for name, edge in found]
+    return bands.checked(f"{source}: variable {found[0][0]}", frequency, np.stack(edges, axis=1))
+
+
+def _hertz(where: str, variable: "DataArray", unit: str) -> Real:
+    """Frequencies in Hz; bounds without a unit have that of their axis, as CF says."""
+    said = variable.attrs.get("units", unit)
+    parsed = units.parse(said)
+    if parsed is None or not parsed.is_(s=-1):
+        raise ReaderError(f"{where} must have units Hz or s-1, got {said!r:.60}")
+    return _numbers(where, variable) * parsed.scale
 
 
 def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real, bool]:

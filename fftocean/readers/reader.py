@@ -42,7 +42,7 @@ class Reader:
     """
     A file format that can be read.
 
-    Every field is required: a reader that lacks one raises TypeError or ValueError on import.
+    Every field but `files` is required: a reader that lacks one raises TypeError or ValueError on import.
     """
 
     name: str  # of the format, as in lists and errors
@@ -50,6 +50,7 @@ class Reader:
     description: str  # one sentence for the list of formats
     sniff: Callable[[Head], bool]  # return whether a file with this head is in the format
     read: Callable[[Path, int, int], "Dataset"]  # (path, site, bins) -> dataset in our layout
+    files: Callable[[Path], list[Path]] = lambda path: [path]  # all that are read with a file
 
     def __post_init__(self) -> None:
         if not self.name.strip() or not self.description.strip().endswith("."):

@@ -20,7 +20,7 @@ import numpy as np
 from fftocean.arrays import Complex, Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout, moments
+from fftocean.readers import bands, files, layout, moments
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -90,22 +90,13 @@ def read(path: Path, *, bins: int) -> "Dataset":
         f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz"
     )
     notes: dict[str, Any] = {**counts, "repeated_times": repeated, "sites": 1}
-    bands = None
+    edges = None
     width = np.gradient(frequency)
     if "df" in columns:
         width = records["df"][0, order]
-        if not np.all(records["df"] == records["df"][0]) or not np.all(
-            (width > 0.0) & (width < 1.0)
-        ):
-            raise ReaderError(
-                f"{path.name}: df must be the same in all lines and between 0 and 1 Hz, got other"
-            )
-        bands = np.stack([frequency - 0.5 * width, frequency + 0.5 * width], axis=1)
-        if bands[0, 0] < 0.0:
-            raise ReaderError(
-                f"{path.name}: df must leave every band above 0 Hz, got df {width[0]:g} at "
-                f"{frequency[0]:g} Hz"
-            )
+        if not np.all(records["df"] == records["df"][0]):
+            raise ReaderError(f"{path.name}: df must be the same in all lines, got others")
+        edges = bands.of_widths(f"{path.name}: df", frequency, width)
     if "hs" in columns:
         notes |= layout.compare_heights(
             path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4
@@ -128,7 +119,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
             for key in ("lon", "lat")
             if key in columns and np.isfinite(records[key][0, 0])
         },
-        bands=bands,
+        bands=edges,
         notes=notes,
     )
 
