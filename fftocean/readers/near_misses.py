@@ -67,7 +67,7 @@ _KNOWN: Final[tuple[tuple[Callable[[Head], bool], str], ...]] = (
         "is NMEA telegrams; export the spectra as netCDF or SWAN text",
     ),
     (
-        _within(r"^%\s+Run:.*Table:"),
+        _within(r"(?m)^%\s+Run:.*Table:"),
         "is a table of SWAN (TABLE), which holds no spectra; write them with SPECOUT",
     ),
     (

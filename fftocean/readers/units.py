@@ -107,8 +107,8 @@ _FOLDED: Final = {
 _SUPERSCRIPTS: Final = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _TOKEN: Final = re.compile(
-    rf"\s*(?:(?P<name>[A-Za-z_°]+(?:[+-]?[0-9]+)?)|(?P<number>{_NUMBER})"
-    r"|(?:\*\*|\^)\s*(?P<power>[+-]?[0-9]+)|(?P<op>[*./·×()]))|\s*$"
+    rf"\s*(?:(?P<name>[A-Za-z_°]+(?:[+-]?[0-9]+)?(?!\.?[0-9]))|(?P<number>{_NUMBER})"
+    r"|(?:\*\*|\^)\s*(?P<power>[+-]?[0-9]+)(?!\.?[0-9])|(?P<op>[*./·×()]))|\s*$"
 )
 _LOGARITHM: Final = re.compile(
     r"\s*(log10|lg|log|ln|lb|log2)\s*\((?:\s*re:?\s)?(.*)\)\s*", re.IGNORECASE

@@ -35,7 +35,8 @@ _TITLE: Final = re.compile(
 )
 _TIME: Final = re.compile(r"(\d{8})\s+(\d{1,6})")
 _POINT: Final = re.compile(r"'([^']*)'(.*)")
-_NUMBER: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+|[+-]\d{3}(?!\d))?")
+_PLAIN: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
+_NUMBER: Final = re.compile(r"[+-]?\d?\.\d+[+-]\d{3}(?![\d.])|" + _PLAIN.pattern)
 
 
 def recognises(head: Head) -> bool:
@@ -72,12 +73,12 @@ class _Lines:
             raise ReaderError(f"{self.where}: there must be {count} {wanted}, got {len(found)}")
         return np.array(found)
 
-    def split(self, line: str) -> list[float]:
+    def split(self, line: str, number: re.Pattern[str] = _NUMBER) -> list[float]:
         """Return the numbers of a line, which may touch."""
-        rest = _NUMBER.sub("", line)
+        rest = number.sub("", line)
         if rest.strip():
             raise ReaderError(f"{self.where} must hold numbers only, got {rest.split()[0]!r:.40}")
-        return [_value(match[0]) for match in _NUMBER.finditer(line)]
+        return [_value(match[0]) for match in number.finditer(line)]
 
 
 def _value(token: str) -> float:
@@ -208,7 +209,7 @@ def _point(lines: _Lines, line: str) -> tuple[str, list[float]]:
         raise ReaderError(
             f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}"
         )
-    numbers = lines.split(match[2])
+    numbers = lines.split(match[2], _PLAIN)
     if len(numbers) < 3:
         raise ReaderError(
             f"{lines.where} must hold latitude, longitude and depth of a point, got "
