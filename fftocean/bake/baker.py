@@ -30,7 +30,7 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
-from fftocean.export import formats
+from fftocean.export import engines, formats
 from fftocean.host import cores
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
@@ -134,14 +134,28 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
         JobError: the job asks for more than can be.
     """
     pictures.require_drawable(job)
+    require_usable(job)
     scene = Scene(job.downsampled(downsample))
     for name in scene.job.maps:
         shape = (frames, *scene.ocean.grid.shape, len(MAPS[name].names))
         try:
-            formats.require(scene.form.name, shape, scene.levels)
+            formats.require(scene.form.name, shape, scene.levels, gutter=scene.profile.gutter)
         except ParameterError as error:
             raise JobError(f"{job.source}: bake.format {scene.form.name!r} cannot hold the map {name!r}: {error}") from None
     return scene
+
+
+def require_usable(job: Job) -> None:
+    """
+    Refuse a format that the job's engine cannot use; nothing is written before.
+
+    Raises:
+        JobError: it cannot; the message names the format to choose.
+    """
+    try:
+        engines.profile_for(job.engine, job.format, job.normals)
+    except ParameterError as error:
+        raise JobError(f"{job.source}: bake.engine and bake.format: {error}") from None
 
 
 def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[Entry]:

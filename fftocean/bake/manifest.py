@@ -11,7 +11,7 @@ from fftocean.bake.frames import Scene
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
-from fftocean.export import profiles
+from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
 from fftocean.statistics import Statistics
 
@@ -56,6 +56,7 @@ def compose(
             "range": [min(low for low, _ in ranges), max(high for _, high in ranges)],
             "channel_ranges": ranges,
             **({} if low is None else {"scaled": {"low": low, "high": high}}),
+            "world": rules.world(scene.profile, m.kind),
             "shape": [*shape, len(m.names)],
             "levels": scene.levels,
         }
@@ -63,7 +64,7 @@ def compose(
         **order.header,
         "ocean": _tile(scene.ocean),
         "statistics": asdict(statistics),  # ordered beside delivered
-        "conventions": {**scene.profile.describe(raw=scene.form.raw), "lookup": _LOOKUP[job.lookup]},
+        "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "blend": dict(blend),
         "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes_over(rows)},
         "maps": entries,
