@@ -209,15 +209,7 @@ def assemble(
         facts["bounds"] = {side: profile.scale * value for side, value in bounds.items()}
         facts["bounds"]["unit"] = profile.unit
     special = {} if container is None else dict(container.facts(layout))
-    values: dict[str, float] = {
-        "size_x": facts["size"][0],
-        "size_y": facts["size"][1],
-        "nx": columns,
-        "ny": rows,
-        "loop": loop,
-        "start": start,
-        "frames": frames,
-    }
+    values = rules.numbers(profile, size, (columns, rows), frames, loop, start)
     rule = rules.sampling(profile)
     if "tiles" in special:
         rule |= rules.atlas(profile)
