@@ -35,6 +35,9 @@ __all__ = [
 
 atlas = tiles
 
+SCHEMA = 1
+"""Version of the sidecars: what a reader of another one must not guess at."""
+
 
 def require(name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gutter: int = 0) -> None:
     """
@@ -185,6 +188,7 @@ def assemble(
     frames, rows, columns, channels = shape
     words = [*names, *("" for _ in range(channels - len(names)))]
     facts: dict[str, Any] = {
+        "schema": SCHEMA,
         "file": form.file.replace("{stem}", stem),
         "format": form.caption,
         "frames": frames,
