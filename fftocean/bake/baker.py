@@ -31,6 +31,7 @@ from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
 from fftocean.export import engines, formats
+from fftocean.export.profiles import Profile
 from fftocean.host import cores
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
@@ -145,15 +146,15 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
     return scene
 
 
-def require_usable(job: Job) -> None:
+def require_usable(job: Job) -> Profile:
     """
-    Refuse a format that the job's engine cannot use; nothing is written before.
+    Return the conventions of a job's files; nothing is written before.
 
     Raises:
-        JobError: it cannot; the message names the format to choose.
+        JobError: the engine cannot use the format; the message names the format to choose.
     """
     try:
-        engines.profile_for(job.engine, job.format, job.normals)
+        return engines.profile_for(job.engine, job.format, job.normals)
     except ParameterError as error:
         raise JobError(f"{job.source}: bake.engine and bake.format: {error}") from None
 

@@ -9,7 +9,7 @@ from fftocean.bake import layout
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
-from fftocean.bake.manifest import extremes_over
+from fftocean.bake.manifest import extremes_over, played
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
@@ -30,8 +30,7 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
         OutputError: a file cannot be written.
         IntegrityError: a part is not any more what it was when it was written.
     """
-    loop, whole = scene.job.settings["ocean.loop"], len(rows) == scene.job.frames
-    loop = loop if whole else loop * order.step * len(rows) / scene.job.frames  # what the frames that are there take to play
+    loop = played(order, scene, len(rows))
     extremes = extremes_over(rows)
     bounds = {"horizontal": extremes["max_horizontal"], "vertical": extremes["max_height"]}
     written: dict[str, list[dict[str, Any]]] = {}

@@ -65,6 +65,7 @@ def compose(
         "ocean": _tile(scene.ocean),
         "statistics": asdict(statistics),  # ordered beside delivered
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
+        "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
         "blend": dict(blend),
         "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes_over(rows)},
         "maps": entries,
@@ -73,6 +74,18 @@ def compose(
         "frames": list(rows),
     }
     return checked(manifest)
+
+
+def _numbers(order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The numbers that the sampling rules name."""
+    grid, count = scene.ocean.grid, len(rows)
+    return rules.numbers(scene.profile, (grid.lx, grid.ly), (grid.nx, grid.ny), count, played(order, scene, count), rows[0]["t"])
+
+
+def played(order: Order, scene: Scene, count: int) -> float:
+    """How long the frames that are there take to play through [s]."""
+    loop: float = scene.job.settings["ocean.loop"]
+    return loop if count == scene.job.frames else loop * order.step * count / scene.job.frames
 
 
 _LOOKUP = {

@@ -22,7 +22,18 @@ class Refusal:
     instead: str  # the format to choose
 
 
-def _loader(note: str = "by the engine's own loader of pictures", **changes: Any) -> dict[str, Any]:
+PLAIN_LOADER = "by the engine's own loader of pictures"
+_PICTURES = "exr", "exr-float", "exr-atlas"
+_ARRAYS = "npz", "zarr"
+_PYTHON = "by your own Python code: row 0 of the array at v = 0"
+_TOOLS = "for your own tools on the way: the engine has no loader for it, and takes bin"
+PLAIN_BYTES = "by your own code, which uploads the bytes: row 0 at v = 0"
+_EIGHT_BITS = "it reads PNG with 8 bits"
+_NO_KTX2 = "it has no loader for a KTX 2.0 array of half floats"
+_NO_WORDS = "it has no filtered texture of 16-bit integers"
+
+
+def _loader(note: str = PLAIN_LOADER, **changes: Any) -> dict[str, Any]:
     """Return a cell: the engine's own loader opens the file."""
     return {"loaded": True, "note": note, **changes}
 
@@ -30,16 +41,6 @@ def _loader(note: str = "by the engine's own loader of pictures", **changes: Any
 def _upload(note: str) -> dict[str, Any]:
     """Return a cell: the user's code reads the bytes and uploads them, row 0 at v = 0."""
     return {"loaded": False, "first_v": 0, "note": note}
-
-
-_PICTURES = "exr", "exr-float", "exr-atlas"
-_ARRAYS = "npz", "zarr"
-_PYTHON = "by your own Python code: row 0 of the array at v = 0"
-_TOOLS = "for your own tools on the way: the engine has no loader for it, and takes bin"
-_BYTES = "by your own code, which uploads the bytes: row 0 at v = 0"
-_EIGHT_BITS = "it reads PNG with 8 bits"
-_NO_KTX2 = "it has no loader for a KTX 2.0 array of half floats"
-_NO_WORDS = "it has no filtered texture of 16-bit integers"
 
 
 def _row(**cells: dict[str, Any] | Refusal) -> dict[str, dict[str, Any] | Refusal]:
@@ -52,13 +53,13 @@ _WEB = _row(
     r16=Refusal(_NO_WORDS, "bin"),
     npz=_upload(_TOOLS),
     zarr=_upload(_TOOLS),
-    bin=_upload(_BYTES),
+    bin=_upload(PLAIN_BYTES),
 )
 
 CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
     "canonical": {
         **{name: _loader("as an image viewer shows it") for name in (*_PICTURES, "png16")},
-        **{name: _upload(_BYTES) for name in ("r16", *_ARRAYS, "bin", "ktx2")},
+        **{name: _upload(PLAIN_BYTES) for name in ("r16", *_ARRAYS, "bin", "ktx2")},
     },
     "blender": _row(
         exr=_loader(),
@@ -76,10 +77,10 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         exr_float=_loader("choose the texture format RGBA Float"),
         exr_atlas=_loader("cut into a Texture2DArray by the importer"),
         png16=Refusal("its importer makes 8 bits of PNG unless told otherwise", "exr"),
-        r16=_upload(f"{_BYTES}; or Terrain's Import Raw, Flip Vertically on: row 0 is north"),
+        r16=_upload(f"{PLAIN_BYTES}; or Terrain's Import Raw, Flip Vertically on: row 0 is north"),
         npz=_upload(_TOOLS),
         zarr=_upload(_TOOLS),
-        bin=_upload(_BYTES),
+        bin=_upload(PLAIN_BYTES),
         ktx2=Refusal(_NO_KTX2, "exr-atlas"),
     ),
     "unreal": _row(
@@ -90,7 +91,7 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         r16=_upload("Landscape's import from file: row 0 is the edge of least Y"),
         npz=_upload(_TOOLS),
         zarr=_upload(_TOOLS),
-        bin=_upload(_BYTES),
+        bin=_upload(PLAIN_BYTES),
         ktx2=Refusal(_NO_KTX2, "exr-atlas"),
     ),
     "godot": _row(
@@ -101,7 +102,7 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         r16=_upload("by a terrain plug-in or your own code: row 0 is the edge of least Z"),
         npz=_upload(_TOOLS),
         zarr=_upload(_TOOLS),
-        bin=_upload(_BYTES),
+        bin=_upload(PLAIN_BYTES),
         ktx2=Refusal("its KTX loader refuses arrays", "exr-atlas"),
     ),
     "bevy": {
@@ -122,9 +123,9 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
     },
     "three-exr": {
         **{name: _loader("by EXRLoader") for name in _PICTURES},
+        **{name: _upload("for your own tools on the way") for name in _ARRAYS},
         **{
-            name: Refusal("its rows are those of EXRLoader; engine three has the others", "exr")
-            for name in ("png16", "r16", "npz", "zarr", "bin", "ktx2")
+            name: Refusal("its rows are those of EXRLoader; engine three has the others", "exr") for name in ("png16", "r16", "bin", "ktx2")
         },
     },
     "babylon": {

@@ -35,6 +35,9 @@ __all__ = [
 
 atlas = tiles
 
+SCHEMA = 1
+"""Version of the sidecars: what a reader of another one must not guess at."""
+
 
 def require(name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gutter: int = 0) -> None:
     """
@@ -185,6 +188,7 @@ def assemble(
     frames, rows, columns, channels = shape
     words = [*names, *("" for _ in range(channels - len(names)))]
     facts: dict[str, Any] = {
+        "schema": SCHEMA,
         "file": form.file.replace("{stem}", stem),
         "format": form.caption,
         "frames": frames,
@@ -209,15 +213,7 @@ def assemble(
         facts["bounds"] = {side: profile.scale * value for side, value in bounds.items()}
         facts["bounds"]["unit"] = profile.unit
     special = {} if container is None else dict(container.facts(layout))
-    values: dict[str, float] = {
-        "size_x": facts["size"][0],
-        "size_y": facts["size"][1],
-        "nx": columns,
-        "ny": rows,
-        "loop": loop,
-        "start": start,
-        "frames": frames,
-    }
+    values = rules.numbers(profile, size, (columns, rows), frames, loop, start)
     rule = rules.sampling(profile)
     if "tiles" in special:
         rule |= rules.atlas(profile)

@@ -37,6 +37,36 @@ def sampling(profile: Profile) -> dict[str, str]:
     }
 
 
+def numbers(
+    profile: Profile,
+    size: tuple[float, float],
+    n: tuple[int, int],
+    frames: int,
+    loop: float,
+    start: float,
+) -> dict[str, float]:
+    """
+    Return the numbers that the rules of `sampling` name.
+
+    Args:
+        profile: conventions of the files.
+        size: of the tile along x and y [m].
+        n: texels of a frame along x and y.
+        frames: how many there are.
+        loop: what they take to play through [s].
+        start: time of the first [s].
+    """
+    return {
+        "size_x": profile.scale * size[0],
+        "size_y": profile.scale * size[1],
+        "nx": n[0],
+        "ny": n[1],
+        "loop": loop,
+        "start": start,
+        "frames": frames,
+    }
+
+
 def atlas(profile: Profile) -> dict[str, str]:
     """
     Return the rules by which frame `index` (whole, 0 to frames - 1) is found in an atlas.
