@@ -1,5 +1,5 @@
 // Babylon.js: what its loaders and materials make of a bake.
-import { base64, bytes, json, lookup } from './common.js';
+import { base64, bytes, formula, json, lookup } from './common.js';
 
 const B = globalThis.BABYLON;
 B.ExrLoaderGlobalConfiguration.FFLATEUrl = '/npm/fflate/umd/index.js'; // its default is a public server
@@ -15,7 +15,16 @@ const repeat = (texture) => Object.assign(texture, { wrapU: B.Texture.WRAP_ADDRE
 
 // One texture of a bake, as docs/engines.md says to load it.
 const LOADERS = {
-  'exr-float': (texture) => LOADERS.exr(texture),
+  'exr-atlas': (texture) => LOADERS.exr(texture),
+  'exr-float': async (texture) => {
+    const kept = B.ExrLoaderGlobalConfiguration.DefaultOutputType; // half: it would round single precision toward zero
+    B.ExrLoaderGlobalConfiguration.DefaultOutputType = B.EXROutputType.Float;
+    try {
+      return await LOADERS.exr(texture);
+    } finally {
+      B.ExrLoaderGlobalConfiguration.DefaultOutputType = kept;
+    }
+  },
   exr: ({ url }) =>
     new Promise((done, failed) => {
       const texture = new B.Texture(url, scene, true, undefined, BILINEAR, () => done(repeat(texture)), (m, e) => failed(new Error(`${m} ${e}`)));
@@ -32,27 +41,26 @@ const LOADERS = {
 const target = (width, height) =>
   new B.RenderTargetTexture('out', { width, height }, scene, false, true, B.Constants.TEXTURETYPE_FLOAT, false, B.Texture.NEAREST_SAMPLINGMODE);
 
-// The map at places of the world, by the rule: (places, 4).
-async function sample(texture, { rule, layer, places }, name) {
+// The map at places of the world, by the formulas: (places, 4).
+async function sample(texture, { sampling, meaning, places }, name) {
   const array = texture instanceof B.RawTexture2DArray;
   const at = new B.RawTexture(
-    Float32Array.from(places.flatMap((p) => [...p, 0])), places.length, 1, B.Constants.TEXTUREFORMAT_RGBA, scene, false, false,
+    Float32Array.from(places.flat()), places.length, 1, B.Constants.TEXTUREFORMAT_RGBA, scene, false, false,
     B.Texture.NEAREST_SAMPLINGMODE, B.Constants.TEXTURETYPE_FLOAT,
   );
   const wrapper = new B.EffectWrapper({
     engine,
     name,
     fragmentShader: `precision highp float; precision highp sampler2D; precision highp sampler2DArray;
-      uniform sampler2D places; uniform ${array ? 'sampler2DArray' : 'sampler2D'} map; uniform float layer;
-      ${lookup({ rule, array, output: 'gl_FragColor' })}`,
-    uniformNames: ['layer'],
+      uniform sampler2D places; uniform ${array ? 'sampler2DArray' : 'sampler2D'} map;
+      ${lookup({ sampling, meaning, array, output: 'gl_FragColor' })}`,
+    uniformNames: [],
     samplerNames: ['places', 'map'],
   });
   await wrapper.effect.whenCompiledAsync();
   wrapper.onApplyObservable.add(() => {
     wrapper.effect.setTexture('places', at);
     wrapper.effect.setTexture('map', texture);
-    wrapper.effect.setFloat('layer', layer);
   });
   const out = target(places.length, 1);
   new B.EffectRenderer(engine).render(wrapper, out);
@@ -72,14 +80,14 @@ function fromAbove([lx, ly], [nx, ny]) {
 }
 
 // A still tile of `size` seen from above, north up, a pixel a sample, in StandardMaterial: (rows, columns, 4), row 0 south.
-async function seen(texture, { rule, size, count, light, settings }) {
+async function seen(texture, { sampling, size, count, light, settings }) {
   const [lx, ly] = size, [nx, ny] = count;
   const corners = [[-lx, -ly], [2 * lx, -ly], [2 * lx, 2 * ly], [-lx, 2 * ly]]; // X and Z (north)
-  const uv = new Function('X', 'Y', 'Z', `return [${rule.u}, ${rule.v}];`);
+  const uv = (X, Z) => ['u', 'v'].map((name) => formula(sampling[name], { X, Z, ...sampling.values }));
   const mesh = new B.Mesh('tile', scene), vertices = new B.VertexData();
   vertices.positions = corners.flatMap(([x, z]) => [x, 0, z]);
   vertices.normals = corners.flatMap(() => [0, 1, 0]);
-  vertices.uvs = corners.flatMap(([x, z]) => uv(x, 0, z));
+  vertices.uvs = corners.flatMap(([x, z]) => uv(x, z));
   vertices.indices = [0, 1, 2, 0, 2, 3];
   vertices.applyToMesh(mesh);
   mesh.alwaysSelectAsActiveMesh = true;

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { read } from 'ktx-parse';
-import { base64, bytes, json, lookup } from './common.js';
+import { base64, bytes, formula, json, lookup } from './common.js';
 
 const renderer = new THREE.WebGLRenderer({ canvas: document.getElementById('canvas') });
 renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
@@ -26,6 +26,7 @@ function halves(buffer, columns, rows, frames) {
 // One texture of a bake, as docs/engines.md says to load it.
 const LOADERS = {
   exr: async ({ url }) => data(await new EXRLoader().loadAsync(url)),
+  'exr-atlas': (texture) => LOADERS.exr(texture),
   // without setDataType the loader rounds single precision to half, toward zero
   'exr-float': async ({ url }) => data(await new EXRLoader().setDataType(THREE.FloatType).loadAsync(url)),
   bin: async ({ url, sidecar }) => {
@@ -35,12 +36,6 @@ const LOADERS = {
   ktx2: async ({ url }) => {
     const file = read(new Uint8Array(await bytes(url)));
     return halves(file.levels[0].levelData.slice().buffer, file.pixelWidth, file.pixelHeight, file.layerCount);
-  },
-  // bare 16 bit steps: a number is lo + stored / 65535 (hi - lo)
-  r16: async ({ url, sidecar }) => {
-    const { columns, rows, lo, hi } = await json(sidecar);
-    const floats = Float32Array.from(new Uint16Array(await bytes(url)), (stored) => lo[0] + (stored / 65535) * (hi[0] - lo[0]));
-    return data(new THREE.DataTexture(floats, columns, rows, THREE.RedFormat, THREE.FloatType));
   },
 };
 
@@ -56,18 +51,18 @@ function rendered(scene, camera, width, height) {
   return out;
 }
 
-// The map at places of the world, by the rule: (places, 4).
-function sample(texture, { rule, layer, places }) {
+// The map at places of the world, by the formulas: (places, 4).
+function sample(texture, { sampling, meaning, places }) {
   const array = Boolean(texture.isDataArrayTexture);
-  const at = new THREE.DataTexture(Float32Array.from(places.flatMap((p) => [...p, 0])), places.length, 1, THREE.RGBAFormat, THREE.FloatType);
+  const at = new THREE.DataTexture(Float32Array.from(places.flat()), places.length, 1, THREE.RGBAFormat, THREE.FloatType);
   at.needsUpdate = true;
   const material = new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
-    uniforms: { places: { value: at }, map: { value: texture }, layer: { value: layer } },
+    uniforms: { places: { value: at }, map: { value: texture } },
     vertexShader: 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }',
     fragmentShader: `precision highp float; precision highp sampler2D; precision highp sampler2DArray;
-      uniform sampler2D places; uniform ${array ? 'sampler2DArray' : 'sampler2D'} map; uniform float layer; out vec4 colour;
-      ${lookup({ rule, array, output: 'colour' })}`,
+      uniform sampler2D places; uniform ${array ? 'sampler2DArray' : 'sampler2D'} map; out vec4 colour;
+      ${lookup({ sampling, meaning, array, output: 'colour' })}`,
     depthTest: false,
   });
   const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material);
@@ -78,14 +73,14 @@ function sample(texture, { rule, layer, places }) {
 }
 
 // A still tile of `size` seen from above, north up, a pixel a sample, in one of three's own materials: (rows, columns, 4), row 0 south.
-function seen(material, { rule, size, count }) {
+function seen(material, { sampling, size, count }) {
   const [lx, ly] = size, [nx, ny] = count;
   const corners = [[-lx, ly], [2 * lx, ly], [2 * lx, -2 * ly], [-lx, -2 * ly]]; // X and Z (south)
   const geometry = new THREE.BufferGeometry();
-  const uv = new Function('X', 'Y', 'Z', `return [${rule.u}, ${rule.v}];`);
+  const uv = (X, Z) => ['u', 'v'].map((name) => formula(sampling[name], { X, Z, ...sampling.values }));
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(corners.flatMap(([x, z]) => [x, 0, z]), 3));
   geometry.setAttribute('normal', new THREE.Float32BufferAttribute(corners.flatMap(() => [0, 1, 0]), 3));
-  geometry.setAttribute('uv', new THREE.Float32BufferAttribute(corners.flatMap(([x, z]) => uv(x, 0, z)), 2));
+  geometry.setAttribute('uv', new THREE.Float32BufferAttribute(corners.flatMap(([x, z]) => uv(x, z)), 2));
   geometry.setIndex([0, 1, 2, 0, 2, 3]);
   const scene = new THREE.Scene();
   scene.add(new THREE.Mesh(geometry, material));
