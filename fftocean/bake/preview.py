@@ -148,6 +148,8 @@ class _Moments:
         grids = _grids(ocean)
         self.first = grids[0]
         samples = sum(grid.nx * grid.ny for grid in grids)
+        if len(grids) > 1:
+            samples += len(grids) * whitecaps.SIDE_OF_SUM**2
         self.steps = int(min(max(whitecaps.STEPS * 2**19 / samples, 8), whitecaps.STEPS))
         self.step = whitecaps.MEMORY * foam.tau / self.steps
         still = all(tile.amplitudes.variance == 0.0 for tile in _oceans(ocean))

@@ -491,16 +491,20 @@ def _grain() -> Layer:
     # octaves from 2 m down to the texel, each as strong as the next
     filtered = np.where((k >= 6.0) & (k < _GRAIN_N / 3.0), np.maximum(k, 1.0) ** -1.25, 0.0)
     noise = np.fft.ifft2(np.fft.fft2(chance.standard_normal((_GRAIN_N, _GRAIN_N))) * filtered).real
-    rank = np.empty(noise.size)
-    rank[np.argsort(noise.ravel(), kind="stable")] = (np.arange(noise.size) + 0.5) / noise.size
-    levels = mips.chain(rank.reshape(noise.shape)[..., None].astype(np.float32))
+    levels = []
+    for level in mips.chain(noise[..., None]):
+        rank = np.empty(level.size)
+        rank[np.argsort(level.ravel(), kind="stable")] = (np.arange(level.size) + 0.5) / level.size
+        levels.append(rank.reshape(level.shape).astype(np.float32))
     return Layer((_GRAIN_SIZE, _GRAIN_SIZE), tuple(levels))
 
 
 def _broken(coverage: Real, x: Real, y: Real, footprint: Real) -> Real:
     """Return foam as patches that cover so much of the water; far away, where none is seen, evenly."""
     pattern = _points((_grain(),), x, y, footprint, ONE)[:, 0]
-    patches = np.clip((coverage - pattern) / _SOFT + 0.5, 0.0, 1.0) * (coverage > 0.0)
+    # so soft, and no softer than keeps the mean at the ends
+    soft = np.clip(2.0 * np.minimum(coverage, 1.0 - coverage), 1e-3, _SOFT)
+    patches = np.clip((coverage - pattern) / soft + 0.5, 0.0, 1.0) * (coverage > 0.0)
     even = np.clip(footprint / 1.0, 0.0, 1.0)
     result: Real = patches + even * (coverage - patches)
     return result

@@ -17,7 +17,7 @@ from fftocean.ocean import Frame
 
 SIDE = 256
 """Texels along each side of the foam's pattern, at most, for one tile."""
-SIDE_OF_SUM = 768
+SIDE_OF_SUM = 384
 """The same for a sum of tiles: the smaller ones are sampled over the largest."""
 MEMORY, STEPS = 3.0, 42
 """Decay times that foam is followed for before the first picture, and steps that are taken."""
