@@ -62,3 +62,8 @@ class SeaWarning(UserWarning):
 
 class CacheWarning(UserWarning):
     """Something in the user's cache is of no use, and is done without."""
+
+
+def how_to_install(extra: str) -> str:
+    """Return how to install an optional part of the package, which comes from a checkout."""
+    return f"in a checkout of fftocean, pip install '.[{extra}]'"

@@ -18,7 +18,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.bake.files import write_whole
 from fftocean.constants import GRAVITY
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, how_to_install
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
 from fftocean.physics.sea import Sea, WaveSystem
@@ -176,7 +176,8 @@ def style() -> AbstractContextManager[None]:
     try:
         from matplotlib import style
     except ImportError as error:
-        raise ParameterError(f"plots need matplotlib: pip install 'fftocean[plot]' ({error})") from error
+        hint = how_to_install("plot")
+        raise ParameterError(f"plots need matplotlib: {hint} ({error})") from error
     context: AbstractContextManager[None] = style.context(["default", _STYLE])
     return context
 

@@ -8,7 +8,7 @@ from fftocean.bake import layout, preview, whitecaps
 from fftocean.bake.files import write_whole
 from fftocean.bake.frames import Scene
 from fftocean.bake.job import Job
-from fftocean.errors import JobError
+from fftocean.errors import JobError, how_to_install
 from fftocean.foam import Foam
 from fftocean.statistics import Statistics
 
@@ -49,7 +49,7 @@ def require_drawable(job: Job) -> None:
     """
     if "spectrum" in job.pictures and importlib.util.find_spec("matplotlib") is None:
         raise JobError(
-            f"{job.source}: bake.pictures 'spectrum' needs matplotlib: pip install matplotlib"
+            f"{job.source}: bake.pictures 'spectrum' needs matplotlib: {how_to_install('plot')}"
         )
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fftocean.arrays import Integer, Real, RealLike
-from fftocean.errors import ReaderError, SeaWarning
+from fftocean.errors import ReaderError, SeaWarning, how_to_install
 from fftocean.limits import FREQUENCY
 
 if TYPE_CHECKING:
@@ -43,7 +43,10 @@ def science() -> Any:
 
 def missing(error: ImportError) -> ReaderError:
     """What to say when an optional package is not there."""
-    return ReaderError(f"xarray, h5netcdf and h5py must be installed to read spectra: pip install 'fftocean[science]' ({error})")
+    hint = how_to_install("science")
+    return ReaderError(
+        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
+    )
 
 
 def announce(made: "Dataset") -> "Dataset":
