@@ -27,10 +27,11 @@ from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import potential_factor
+from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
 from fftocean.limits import FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, FRAMES, TIME, keep_checked
-from fftocean.ocean import Frame, Ocean
+from fftocean.ocean import Ocean
 from fftocean.window import Window
 
 SPAN = 16

@@ -16,10 +16,11 @@ from fftocean.arrays import Real, require_memory
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT, FIELDS
+from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate, surface
 from fftocean.limits import FRAMES, Quantity
-from fftocean.ocean import Frame, Ocean, memory_needed, named, remade
+from fftocean.ocean import Ocean, memory_needed, named, remade
 
 PLACE = Quantity("m", -1e9, 1e9)
 WAVELENGTH = Quantity("m", 0.0, math.inf)

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import fftocean
-from fftocean.amplitudes import Band
 from fftocean.bake import layout
 from fftocean.bake.claim import differences, discard_work, read_checked
 from fftocean.bake.files import digest, read_json, read_whole, remove, sweep
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.parameters import PARAMETERS
 from fftocean.cascade import tile_jobs
+from fftocean.cells import Band
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
 from fftocean.grid import Grid
 

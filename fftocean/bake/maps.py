@@ -10,8 +10,10 @@ import numpy as np
 
 from fftocean import mips
 from fftocean.arrays import Real
+from fftocean.errors import ParameterError
 from fftocean.export.profiles import Kind
-from fftocean.ocean import Frame, Ocean
+from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
+from fftocean.ocean import Ocean
 
 GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 
@@ -20,7 +22,7 @@ GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 class Moment:
     """What there is of the water at one moment."""
 
-    frame: Frame
+    frame: Frame | EulerianFrame
     foam: Real | None  # coverage, (ny, nx), 0..1
     unresolved: Real | None  # slope covariance of the waves too short for the tile, (3,)
 
@@ -30,9 +32,9 @@ class Map:
     """
     A picture of the sea, in our own frame: row 0 south, x east, y north, z up, SI.
 
-    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its
-    coverage, (ny, nx) in 0..1; and, where slope covariance is, that of the waves too short for the
-    tile, from `unresolved`. A frame of `Eulerian` has the same names.
+    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its coverage, (ny, nx) in 0..1; and,
+    where slope covariance is, that of the waves too short for the tile, from `unresolved`. A frame of `Eulerian` has no
+    displacement and no stretch: a map that shows them has fields of its own for it, `by_place`, and draws them as 0.
     """
 
     needs: tuple[str, ...]  # fields of a frame
@@ -43,17 +45,21 @@ class Map:
     draw: Callable[[Moment], Iterable[Real]]  # the channels, each (ny, nx)
     needs_levels: tuple[str, ...] = ()  # further fields, for levels
     draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
+    by_place: tuple[str, ...] | None = None  # the fields needed of an `EulerianFrame`, where they are others
     adds: bool = True  # over the tiles of a cascade: linear in the waves, or a covariance of independent ones
 
-    def channels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
+    def needed(self, *, mips: bool, eulerian: bool) -> tuple[str, ...]:
+        """Return the fields to ask of a frame for the map, with its levels or without."""
+        if eulerian and self.by_place is not None:
+            return self.by_place
+        return (*self.needs, *(self.needs_levels if mips else ()))
+
+    def channels(self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
         """Return the picture, (ny, nx, channels), float32, C-contiguous."""
         return _stacked(self.draw(Moment(frame, foam, unresolved)))
 
-    def levels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
-        """
-        Return the picture and its smaller levels down to one texel, each (rows, columns, channels),
-        float32, C-contiguous.
-        """
+    def levels(self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
+        """Return the picture and its smaller levels down to one texel, each (rows, columns, channels), float32, C-contiguous."""
         moment = Moment(frame, foam, unresolved)
         levels = self.draw_levels(moment) if self.draw_levels else mips.chain(_stacked(self.draw(moment)))
         return [np.ascontiguousarray(level, dtype=np.float32) for level in levels]
@@ -78,26 +84,29 @@ MAPS: dict[str, Map] = {
     "displacement": Map(
         ("displace_x", "displace_y", "height"), "vector", ("x, choppiness applied", "y, choppiness applied", "height"), "m",
         "from where the water is at rest to where it is",
-        lambda m: (m.frame.displace_x * m.frame.choppiness, m.frame.displace_y * m.frame.choppiness, m.frame.height),
+        lambda m: (*_moved(m.frame), m.frame.height),
+        by_place=("height",),
     ),
     "normal": Map(
         ("normal",), "normal", ("x", "y", "z"), "1",
         "unit normal of the displaced surface, signed; of smaller levels, that of the mean slope",
         lambda m: np.moveaxis(m.frame.normal, -1, 0),
-        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m), m.frame.choppiness), adds=False,
+        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m.frame), m.frame.choppiness),
+        by_place=("normal", "slope_x", "slope_y"), adds=False,
     ),
     "derivative": Map(
         ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
         ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
         "slopes and stretches, which add up over tiles; without the shear the normal is about "
         "(-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
-        lambda m: (m.frame.slope_x, m.frame.slope_y, m.frame.stretch_xx * m.frame.choppiness, m.frame.stretch_yy * m.frame.choppiness),
+        lambda m: (m.frame.slope_x, m.frame.slope_y, *_stretched(m.frame)),
+        by_place=("slope_x", "slope_y"),
     ),
     "stretch": Map(
         ("stretch_xx", "stretch_xy", "stretch_yy"), "stretch",
         ("d displacement x/dx", "d displacement x/dy = d displacement y/dx", "d displacement y/dy"), "1",
         "gradient of the horizontal displacement, choppiness applied: sums over tiles give Jacobian, normal and foam",
-        lambda m: tuple(part * m.frame.choppiness for part in (m.frame.stretch_xx, m.frame.stretch_xy, m.frame.stretch_yy)),
+        lambda m: _gradient(m.frame),
     ),
     "jacobian": Map(
         ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
@@ -124,19 +133,30 @@ Every map that can be baked. By lookup:
 
 "lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it
 is now. "eulerian": about the water that is NOW at x, y, and the surface is a plain height field
-over x and y: displacement is (0, 0, height) and the stretches of the derivative and stretch maps
-are 0, so that what is displaced and lit by these maps is the same surface, and the slopes are
-dz/dx and dz/dy of it. Normals are the surface's own, jacobian, foam and velocity those of the water
-that is there.
+over x and y: displacement is (0, 0, height) and the stretches of the derivative map are 0, so that
+what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of
+it. Normals are the surface's own, jacobian, foam and velocity those of the water that is there. A
+height field has no stretch map.
 
 Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by the undisplaced
 position: see `tiles`.
 """
 
 
-def needed(names: Iterable[str], *, mips: bool = False) -> tuple[str, ...]:
-    """Return the fields to ask of a frame for some maps, with their levels or without."""
-    return tuple(dict.fromkeys(need for name in names for need in (*MAPS[name].needs, *(MAPS[name].needs_levels if mips else ()))))
+def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) -> tuple[str, ...]:
+    """
+    Return the fields to ask of a frame for some maps, with their levels or without.
+
+    Raises:
+        ParameterError: a map that an eulerian frame cannot show.
+    """
+    fields: dict[str, None] = {}
+    for name in names:
+        for need in MAPS[name].needed(mips=mips, eulerian=eulerian):
+            if eulerian and need not in BY_PLACE:
+                raise ParameterError(f"the map {name!r} cannot be baked with the lookup 'eulerian', as it shows {need}: {NOT_BY_PLACE}")
+            fields[need] = None
+    return tuple(fields)
 
 
 def unresolved(ocean: Ocean) -> Real:
@@ -144,8 +164,33 @@ def unresolved(ocean: Ocean) -> Real:
     return mips.unresolved_slopes(ocean)
 
 
-def _geometry(moment: Moment) -> tuple[Real, Real, Real, Real, Real]:
-    frame = moment.frame
+def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """The horizontal displacement, choppiness applied; 0 by place."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.height)
+        return nothing, nothing
+    return frame.displace_x * frame.choppiness, frame.displace_y * frame.choppiness
+
+
+def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """The stretch along x and along y, choppiness applied; 0 by place."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.slope_x)
+        return nothing, nothing
+    return frame.stretch_xx * frame.choppiness, frame.stretch_yy * frame.choppiness
+
+
+def _gradient(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real]:
+    """The gradient of the horizontal displacement, choppiness applied: xx, xy, yy."""
+    c = frame.choppiness
+    return frame["stretch_xx"] * c, frame["stretch_xy"] * c, frame["stretch_yy"] * c
+
+
+def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Real]:
+    """The slopes and stretches of the surface; by place, those of a height field."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.slope_x)
+        return frame.slope_x, frame.slope_y, nothing, nothing, nothing
     return frame.slope_x, frame.slope_y, frame.stretch_xx, frame.stretch_xy, frame.stretch_yy
 
 

@@ -128,9 +128,6 @@ def summary(listed: Mapping[str, Any]) -> list[str]:
     s = listed["statistics"]
     lines = [f"Hs {s['ordered']['hs']:.3g} m specified, {s['hs']:.3g} m realised by all tiles; Tp {s['ordered']['tp']:.3g} s"]
     lines.append(f"energy outside the bands: {outside(s)}")
-    if listed["extremes"]["folded"] > 0.0:
-        folded = listed["extremes"]["folded"]
-        lines.append(f"the summed water folds: {100.0 * folded:.2g} % of it, least Jacobian {listed['extremes']['min_jacobian']:.2f}")
     for tile in listed["tiles"]:
         (nx, ny), (lx, ly), band = tile["n"], tile["size"], tile["band"]
         lines.append(f"{tile['path']}: {tile_in_words(nx, ny, lx, ly, band)}")

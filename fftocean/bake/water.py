@@ -7,14 +7,16 @@ do not divide one another never meet twice in the same way. So the linear maps o
 baked, and the others are refused with the maps that they are formed from.
 """
 
+import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from fftocean.bake import blend, layout, listing, preview
-from fftocean.bake.baker import scene_for
+from fftocean import products
+from fftocean.bake import blend, layout, listing, pictures, preview
+from fftocean.bake.baker import require_usable, scene_for
 from fftocean.bake.claim import checked
 from fftocean.bake.files import write_whole
 from fftocean.bake.frames import Scene
@@ -25,6 +27,8 @@ from fftocean.bake.order import frames_of
 from fftocean.bake.parameters import BY_KEY
 from fftocean.cascade import Cascade, Tile, assembled
 from fftocean.errors import JobError, SeaWarning
+from fftocean.export import rules
+from fftocean.foam import SQUEEZE
 from fftocean.statistics import Statistics, measure
 from fftocean.window import Window
 
@@ -70,8 +74,7 @@ class Water:
             manifests: of the tiles, in order.
             pictures: of the summed water, by name.
         """
-        profile, form, cascade = self.scenes[0].profile, self.scenes[0].form, self.cascade
-        described = profile.describe(raw=form.raw)
+        profile, cascade = self.scenes[0].profile, self.cascade
         step = self.chosen[1] - self.chosen[0] if len(self.chosen) > 1 else 1
         bounds = {key: sum(m["extremes"][key] for m in manifests) for key in ("max_height", "max_horizontal")}
         return checked(
@@ -85,12 +88,13 @@ class Water:
                     "frames": len(self.chosen),
                 },
                 "statistics": asdict(self.statistics),  # specified beside realised
-                "conventions": described,
-                "how_to_add": f"Sample every tile with its own size: {described['samples']}. {HOW_TO_ADD}",
+                "conventions": rules.conventions(profile),
+                "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
+                "sampling": rules.cascade(profile),
                 "foam": self.job.foam,
                 "blend": blend.describe(cascade, max(1, round(self.job.frames / step))),
                 "extremes": {
-                    "unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1"},
+                    "unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1", "largest_choppiness": "1"},
                     **bounds,
                     **self._folding(),
                 },
@@ -101,15 +105,18 @@ class Water:
         )
 
     def _folding(self) -> dict[str, Any]:
-        """Return the least Jacobian and the folded share of the sum, on samples of some frames."""
+        """Return the folds and the least Jacobian of the sum, on samples of some frames."""
         n = min(max(self.cascade.oceans[0].grid.shape), SAMPLED)
         window = Window(self.cascade, n=n)
-        least, folded, shown = float("inf"), 0.0, self.chosen[:: max(1, len(self.chosen) // MOMENTS)]
-        for j in shown:
-            jacobian = window.loop_frame(j, self.job.frames, ("jacobian",)).jacobian
-            least, folded = min(least, float(jacobian.min())), folded + float((jacobian <= 0.0).mean())
-        sampled = f"of the summed water, {n} x {n} samples of the largest tile in {len(shown)} frames; bounds are sums over tiles"
-        return {"min_jacobian": least, "folded": folded / len(shown), "sampled": sampled}
+        shown = self.chosen[:: max(1, len(self.chosen) // MOMENTS)]
+        found = products.folding(window.loop_frame(j, self.job.frames, SQUEEZE) for j in shown)
+        largest = found.largest_choppiness
+        return {
+            "min_jacobian": found.min_jacobian,
+            "folded": found.share,
+            "largest_choppiness": largest if math.isfinite(largest) else None,
+            "sampled": f"of the summed water: {n} x {n} samples of the largest tile, {len(shown)} frames",
+        }
 
     def draw(self, folder: Path) -> dict[str, dict[str, Any]]:
         """
@@ -118,24 +125,14 @@ class Water:
         Raises:
             OutputError: one cannot be written.
         """
-        frames, drawn = self.job.frames, {}
+        frames, drawn, foam = self.job.frames, {}, pictures.foam_of(self.job)
         if "sheet" in self.job.pictures:
-            drawn["preview"] = (layout.SHEET, preview.contact_sheet(self._shown(), frames, self._caption()))
+            sizes = ", ".join(f"{ocean.grid.lx:g}" for ocean in self.cascade.oceans)
+            text = pictures.caption(self.job, self.statistics, f"tiles {sizes} m")
+            drawn["preview"] = (layout.SHEET, preview.contact_sheet(self.cascade, frames, text, **foam))
         if "animation" in self.job.pictures:
-            drawn["animation"] = (layout.ANIMATION, preview.animation(self._shown(), frames))
+            drawn["animation"] = (layout.ANIMATION, preview.animation(self.cascade, frames, **foam))
         return {key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)} for key, (name, data) in drawn.items()}
-
-    def _shown(self) -> Any:
-        """Return the summed water as the pictures take it: without waves that their samples cannot show."""
-        grid = self.cascade.oceans[0].grid
-        return Window(self.cascade, shortest=2.0 * max(grid.lx / grid.nx, grid.ly / grid.ny))
-
-    def _caption(self) -> str:
-        """Return one line for the contact sheet."""
-        s, sizes = self.statistics, ", ".join(f"{ocean.grid.lx:g}" for ocean in self.cascade.oceans)
-        assert s.ordered is not None  # a job has a sea
-        sea = f"Hs {s.ordered.hs:.2f} m specified, {s.hs:.2f} m realised   Tp {s.ordered.tp:.1f} s"
-        return f"{sea}   tiles {sizes} m   loop {self.cascade.loop:g} s"
 
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield what `info` says of a cascade: a name and a text each."""
@@ -160,6 +157,7 @@ def prepare(job: Job, tiles: Iterable[Tile], *, frames: str | None = None, downs
     if not isinstance(job, Job):
         raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
     job = summable(job)
+    require_usable(job)
     chosen = frames_of(frames, job.frames)
     try:
         given = list(tiles)
