@@ -106,7 +106,7 @@ def contents(path: Path) -> io.BytesIO:
     return held
 
 
-def lines(path: Path) -> Iterator[tuple[str, str]]:
+def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
     """
     The lines of a text file, each with its place in words (`buoy.txt: line 3`) for the error that may name it.
 
@@ -131,7 +131,7 @@ def lines(path: Path) -> Iterator[tuple[str, str]]:
                 text = raw.decode("utf-8").strip()
             except UnicodeDecodeError as error:
                 raise ReaderError(f"{where} must be UTF-8 text, got the byte {raw[error.start]:#04x} at {error.start}") from error
-            if empty:
+            if empty and not blank:
                 raise ReaderError(f"{empty} is empty")
             if not raw.endswith(b"\n"):
                 _require_whole_number(where, text)

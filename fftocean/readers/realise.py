@@ -20,7 +20,7 @@ from fftocean.readers.layout import announce
 from fftocean.readers.netcdf import tidy
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from xarray import DataArray, Dataset
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,13 +37,14 @@ class Realised:
     @classmethod
     def from_spectrum(
         cls,
-        dataset: "Dataset",
+        dataset: "Dataset | DataArray",
         *,
         time: int = 0,
         site: int = 0,
         depth: float | None = None,
         direction: float | None = None,
         spreading: Spreading | None = None,
+        negative: str = "refuse",
     ) -> "Realised":
         """
         Realise one spectrum of a dataset.
@@ -63,12 +64,14 @@ class Realised:
             depth: still-water depth [m]; None takes `dpt` of the dataset, and deep water where it has none.
             direction: toward which the waves go, counter-clockwise from +x [degrees]: for a spectrum without directions.
             spreading: how they spread: for a spectrum without directions, which needs both.
+            negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each frequency: for
+                directions that were drawn as a cut Fourier series (`wavespectra.read_ndbc`).
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
             ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
         """
-        spectrum = announce(tidy(dataset, site=site, time=time))
+        spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
         notes = [str(text) for key, text in spectrum.attrs.items() if key.endswith("_note")]
         depth = _depth(spectrum, depth, notes)
         frequency = np.asarray(spectrum["freq"].values)
@@ -147,16 +150,25 @@ def _depth(spectrum: "Dataset", depth: float | None, notes: list[str]) -> float:
 
 
 def sea_from_spectrum(
-    dataset: "Dataset",
+    dataset: "Dataset | DataArray",
     *,
     time: int = 0,
     site: int = 0,
     depth: float | None = None,
     direction: float | None = None,
     spreading: Spreading | None = None,
+    negative: str = "refuse",
 ) -> Sea:
     """The sea of one measured spectrum: `Realised.from_spectrum(...)`, which has the arguments, without its report."""
-    return Realised.from_spectrum(dataset, time=time, site=site, depth=depth, direction=direction, spreading=spreading).sea
+    return Realised.from_spectrum(
+        dataset,
+        time=time,
+        site=site,
+        depth=depth,
+        direction=direction,
+        spreading=spreading,
+        negative=negative,
+    ).sea
 
 
 def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real, Real]:
