@@ -162,9 +162,7 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     return turned[order], order
 
 
-def densities(
-    where: str, values: RealLike, unit: str, *, negative: str = "refuse"
-) -> tuple[Real, dict[str, Any]]:
+def densities(where: str, values: RealLike, unit: str, *, negative: str = "refuse") -> tuple[Real, dict[str, Any]]:
     """
     Check spectral densities: mask what is missing, forgive rounding, refuse the rest.
 
@@ -196,7 +194,7 @@ def densities(
         wrong &= e > LARGEST
     if np.any(wrong):
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
-        hint = ' (negative="clip" takes them as 0)' if e[place] < 0.0 else ""
+        hint = ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)' if e[place] < 0.0 else ""
         raise ReaderError(f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}")
     with np.errstate(invalid="ignore"):
         small = e < 0.0
