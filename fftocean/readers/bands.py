@@ -145,8 +145,7 @@ def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
     whole = float(np.sum(density * weights[:, 0]))
     if not (whole > 0.0 and want[0] > 0.0):
         return Lines(nodes, np.zeros(nodes.size), 1.0, (float(want[0]), float(want[1]), float(want[2])), 2)
-    values = density * (width / weights[:, 0])
-    matched, values = _with_moments(frequency, values, weights, want)
+    matched, values = _with_moments(frequency, density * (width / weights[:, 0]), weights, want)
     return Lines(nodes, values[place], float(want[0]) / whole, (float(want[0]), float(want[1]), float(want[2])), matched)
 
 

@@ -2,7 +2,9 @@
 
 import gzip
 import io
+import os
 import re
+import stat
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -47,9 +49,25 @@ def require_file(path: Path) -> None:
 
 
 @contextmanager
+def opened(path: Path) -> Iterator[IO[bytes]]:
+    """
+    Open a regular file, and wait for nothing: a pipe put in its place meanwhile is refused too.
+
+    Raises:
+        ReaderError: no regular file, or one that cannot be read.
+    """
+    with refusing(path.name):
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(descriptor, "rb") as file:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise ReaderError(f"the spectrum must be a regular file, got {str(path)!r}")
+        yield file
+
+
+@contextmanager
 def unpacked(path: Path) -> Iterator[IO[bytes]]:
     """The file's bytes as a stream, through gzip where they begin as gzip does (the name is not asked)."""
-    with refusing(path.name), path.open("rb") as raw:
+    with refusing(path.name), opened(path) as raw:
         if raw.read(2) == _GZIP:
             raw.seek(0)
             with gzip.GzipFile(fileobj=raw) as stream:
@@ -61,7 +79,7 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
 
 def is_packed(path: Path) -> bool:
     """Whether a file is gzip."""
-    with refusing(path.name), path.open("rb") as raw:
+    with refusing(path.name), opened(path) as raw:
         return raw.read(2) == _GZIP
 
 
@@ -78,11 +96,14 @@ def contents(path: Path) -> io.BytesIO:
     Raises:
         ReaderError: more than `MAX_BYTES`; no more than that is ever unpacked.
     """
+    held = io.BytesIO()
     with unpacked(path) as stream:
-        data = stream.read(MAX_BYTES + 1)
-    if len(data) > MAX_BYTES:
-        raise ReaderError(f"{path.name} must unpack to at most {MAX_BYTES >> 20} MiB, got more")
-    return io.BytesIO(data)
+        while part := stream.read(2**20):  # one call for all of it would allocate all that it may be
+            held.write(part)
+            if held.tell() > MAX_BYTES:
+                raise ReaderError(f"{path.name} must unpack to at most {MAX_BYTES >> 20} MiB, got more")
+    held.seek(0)
+    return held
 
 
 def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
@@ -136,7 +157,7 @@ def has_final_newline(path: Path) -> bool:
     """Tell a text file that ends with a newline; one that is packed is whole, as its own check sums say."""
     if is_packed(path):
         return True
-    with refusing(path.name), path.open("rb") as file:
+    with refusing(path.name), opened(path) as file:
         file.seek(-1, io.SEEK_END)
         return file.read(1) == b"\n"
 

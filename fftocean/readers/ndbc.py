@@ -158,6 +158,10 @@ def _directed(spectrum: _Table, moments: list[_Table], bins: int, source_format:
     if not time.size:
         raise ReaderError(f"{spectrum.name} and the files beside it must have records of the same times, got none")
     s, a1, a2, r1, r2 = (table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments))
+    if s.size * bins > layout.MAX_VALUES:
+        raise ReaderError(
+            f"{spectrum.name} must have at most {layout.MAX_VALUES} values, got {s.shape} by {bins} bins (ask for fewer bins)"
+        )
     s, counts = layout.densities(spectrum.name, s, "m2/Hz")
     c1, c2 = _moment(r1, a1, 1), _moment(r2, a2, 2)
     density, done = unfold(s, c1, c2, bins)

@@ -8,6 +8,7 @@ one that matters is missing or unknown, the file is refused: a sea turned round 
 Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data documentation, "Wave spectra".
 """
 
+import io
 import math
 import re
 import warnings
@@ -22,7 +23,17 @@ import numpy as np
 from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import bands, circular, files, hdf5, layout, moments, package, units
+from fftocean.readers import (
+    bands,
+    circular,
+    classic,
+    files,
+    hdf5,
+    layout,
+    moments,
+    package,
+    units,
+)
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -40,6 +51,8 @@ _SPECTRA: Final = {
     "sea_surface_wave_directional_variance_spectral_density": True,
     "sea_surface_wave_variance_spectral_density": False,
 }
+_NAMES: Final = ("d2fd", "efth", "ef", *circular.DENSITIES)
+_MOST_READ: Final = 2**31  # bytes unpacked for one place: ten seconds
 _FIRST: Final = "frequency1"
 _SECOND: Final = "frequency2"
 _WIDTHS: Final = ("df", "waveBandwidth", "bandwidth", "frequency_bandwidth")
@@ -81,16 +94,23 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, got CDF version {magic[3]} (convert it with nccopy)"
         )
     modern = magic.startswith(hdf5.MAGIC)
-    opened = files.contents(path) if files.is_packed(path) else path
     with _broken(path.name), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of two fill values, odd calendars: what matters is checked below
-        if modern:
-            hdf5.require_sound(path.name, opened)
-        # A stream of our own: given a path, the libraries map it or leave it open where they fail.
-        engine = "h5netcdf" if modern else "scipy"
-        stream = opened.open("rb") if isinstance(opened, Path) else opened
-        with stream, xr.open_dataset(stream, engine=engine, decode_timedelta=False) as raw:
-            return tidy(raw, site=site, source=path.name, bins=bins)
+        # A stream of our own: what was checked is what is read, and the libraries cannot map the file or leave it open where they fail.
+        with files.contents(path) if files.is_packed(path) else files.opened(path) as stream:
+            unread: list[str] = []
+            if modern:
+                unread = hdf5.require_sound(path.name, stream)
+            else:
+                classic.require_sound(path.name, stream)
+            size = stream.seek(0, io.SEEK_END)
+            stream.seek(0)
+            for name in unread:
+                if name in _NAMES:
+                    raise ReaderError(f"{path.name}: variable {name} must hold numbers, got another type")
+            engine = "h5netcdf" if modern else "scipy"
+            with xr.open_dataset(stream, engine=engine, decode_timedelta=False, drop_variables=unread) as raw:
+                return tidy(raw, site=site, source=path.name, bins=bins, file_bytes=size)
 
 
 @contextmanager
@@ -116,6 +136,7 @@ def tidy(
     source: str = "the dataset",
     bins: int = 72,
     negative: str = "refuse",
+    file_bytes: int | None = None,
 ) -> "Dataset":
     """
     Put an opened dataset of any known kind into our layout; one that is in it already comes out as it went in.
@@ -128,6 +149,7 @@ def tidy(
         source: what to call it in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
         negative: what to do with negative densities: "refuse" or "clip", see `layout.densities`.
+        file_bytes: size of the file from which values are yet to be read, where there is one.
 
     Raises:
         ReaderError: see the head of this file.
@@ -151,6 +173,8 @@ def tidy(
         raise ReaderError(f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}")
 
     picked, notes = _pick(where, spectrum, axes, site=site, time=time)
+    if file_bytes is not None:
+        _require_sane_read(where, spectrum, picked, file_bytes)
     spectrum = spectrum.isel(picked)
     if spectrum.size > layout.MAX_VALUES:
         raise ReaderError(
@@ -181,6 +205,8 @@ def tidy(
             # attributes through arithmetic: in its layout, once densities are per degree, directions are FROM, whatever `dir` says.
             goes_to = False
             notes["direction_note"] = f"{there} says that waves go to there; in this layout they come from there, and so it is taken"
+        values, bearing, repeated = package.once_round(values, bearing)
+        notes |= repeated
         if goes_to:
             bearing = np.mod(bearing, 360.0) + 180.0
         direction, d_order = layout.directions(there, bearing)
@@ -191,7 +217,13 @@ def tidy(
     unit = "m2/Hz/degree" if directional else "m2/Hz"
     density, counts = layout.densities(where, values, unit, negative=negative)
     if not directional:
-        pair = circular.find(raw, spectrum.name, source, lambda v: _table(source, v.isel(picked), order)[:, f_order])
+
+        def at_place(variable: "DataArray") -> Real:
+            if file_bytes is not None:
+                _require_sane_read(f"{source}: variable {variable.name}", variable, picked, file_bytes)
+            return _table(source, variable.isel(picked), order)[:, f_order]
+
+        pair = circular.find(raw, spectrum.name, source, at_place)
         if pair is not None:
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)
@@ -220,7 +252,7 @@ def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Rea
 
 def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
     """The variable with the spectra, and whether it says itself that it has directions."""
-    for name in ("d2fd", "efth", "ef", *circular.DENSITIES):
+    for name in _NAMES:
         if name in raw.data_vars:
             return raw[name], _SPECTRA.get(str(raw[name].attrs.get("standard_name")))
     found = [name for name, v in raw.data_vars.items() if v.attrs.get("standard_name") in _SPECTRA]
@@ -268,6 +300,19 @@ def _pick(
         if "time" in axes:
             picked[axes["time"]] = time
     return picked, {"site": site, "sites": sites}
+
+
+def _require_sane_read(where: str, spectrum: "DataArray", picked: Mapping[Hashable, int], file_bytes: int) -> None:
+    """Refuse values that take more unpacking than a file of this size can ask for, or than anybody will wait for."""
+    chunks = spectrum.encoding.get("chunksizes") or (1,) * spectrum.ndim
+    read = np.dtype(spectrum.encoding.get("dtype", spectrum.dtype)).itemsize
+    for dim, chunk in zip(spectrum.dims, chunks, strict=True):
+        read *= chunk * (1 if dim in picked else -(-spectrum.sizes[dim] // chunk))  # whole chunks are unpacked
+    if read > _MOST_READ or read > 2**20 + hdf5.MOST_RATIO * file_bytes:
+        raise ReaderError(
+            f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} MiB, and no more than its file "
+            f"of {file_bytes} bytes can hold, got {read >> 20} MiB (cut out the place with xarray)"
+        )
 
 
 def _numbers(where: str, variable: "DataArray") -> Real:

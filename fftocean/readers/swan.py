@@ -105,6 +105,8 @@ def read(path: Path, *, site: int) -> "Dataset":
         bearings = 270.0 - bearings  # toward, counter-clockwise from x, which is taken as east
         bearings = np.where(np.abs(bearings) > 360.0, np.mod(bearings, 360.0), bearings)
     direction, d_order = layout.directions(f"{lines.name}: {keyword}", bearings)
+    if frequency.size * direction.size > _MOST:
+        raise ReaderError(f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}")
     per_degree, fill = _quantity(lines)
 
     time: list[datetime] = []
@@ -156,10 +158,8 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
 def _block(lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, wanted: bool) -> Real:
     """One spectrum, (f, d), in the file's unit; only counted through where it is of another place."""
     word = keyword.split()[0]
-    if word == "ZERO":
-        return np.zeros(shape)
-    if word == "NODATA":
-        return np.full(shape, np.nan)
+    if word in ("ZERO", "NODATA"):
+        return np.full(shape if wanted else (0, 0), 0.0 if word == "ZERO" else np.nan)
     if word != "FACTOR":
         raise ReaderError(f"{lines.where} must be FACTOR, ZERO or NODATA, got {keyword!r:.40}")
     factor = files.number(lines.where, lines.next("the factor"))

@@ -5,12 +5,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import wavespectra  # noqa: F401  the accessor `spec`
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from written import DATA, FREQUENCY, TO, sea, ww3
-
-import wavespectra  # noqa: F401  the accessor `spec`
 
 from fftocean import readers
 from fftocean.errors import ReaderError
