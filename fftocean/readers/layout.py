@@ -198,7 +198,7 @@ def densities(where: str, values: RealLike, unit: str, *, negative: str = "refus
         wrong &= e > LARGEST
     if np.any(wrong):
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
-        hint = ' (negative="clip" takes them as 0)' if e[place] < 0.0 else ""
+        hint = ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)' if e[place] < 0.0 else ""
         raise ReaderError(f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}")
     with np.errstate(invalid="ignore"):
         small = e < 0.0

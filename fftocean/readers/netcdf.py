@@ -23,7 +23,17 @@ import numpy as np
 from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import bands, circular, classic, files, hdf5, layout, moments, package, units
+from fftocean.readers import (
+    bands,
+    circular,
+    classic,
+    files,
+    hdf5,
+    layout,
+    moments,
+    package,
+    units,
+)
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -196,6 +206,8 @@ def tidy(
             goes_to = not _left_over(raw[axes["dir"]].attrs, spectrum.attrs)
             taken = "go to there, and so it is taken" if goes_to else "come from there, and so it is taken: the attribute is left over"
             notes["direction_note"] = f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+        values, bearing, repeated = package.once_round(values, bearing)
+        notes |= repeated
         if goes_to:
             bearing = np.mod(bearing, 360.0) + 180.0
         direction, d_order = layout.directions(there, bearing)
@@ -206,7 +218,13 @@ def tidy(
     unit = "m2/Hz/degree" if directional else "m2/Hz"
     density, counts = layout.densities(where, values, unit, negative=negative)
     if not directional:
-        pair = circular.find(raw, spectrum.name, source, lambda v: _table(source, v, picked, order, file_bytes)[:, f_order])
+
+        def at_place(variable: "DataArray") -> Real:
+            if file_bytes is not None:
+                _require_sane_read(f"{source}: variable {variable.name}", variable, picked, file_bytes)
+            return _table(source, variable.isel(picked), order)[:, f_order]
+
+        pair = circular.find(raw, spectrum.name, source, at_place)
         if pair is not None:
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)
@@ -225,18 +243,9 @@ def tidy(
     )
 
 
-def _table(
-    source: str,
-    variable: "DataArray",
-    picked: Mapping[Hashable, int],
-    order: Sequence[Hashable],
-    file_bytes: int | None,
-) -> Real:
+def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Real:
     """The numbers of one place, (time, f), NaN where they are fill values."""
-    where = f"{source}: variable {variable.name}"
-    if file_bytes is not None:
-        _require_sane_read(where, variable, picked, file_bytes)
-    values = _numbers(where, variable.isel(picked).transpose(*order))
+    values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
     with np.errstate(invalid="ignore"):
         values[np.abs(values) > layout.FILL] = np.nan
     return np.atleast_2d(values)

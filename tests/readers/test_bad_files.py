@@ -286,7 +286,7 @@ def test_broken_historical_files(changes, message, tmp_path):
 @pytest.mark.parametrize("kind", "dijk")
 def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
     """They look just like densities; only the name tells, and names what is missing."""
-    with pytest.raises(ReaderError, match="missing: 44004w2000.txt"):
+    with pytest.raises(ReaderError, match=r"missing: 44004w2000\.txt"):
         readers.open(historical(tmp_path, name=f"44004{kind}2000.txt"))
 
 

@@ -238,7 +238,7 @@ def test_a_height_that_no_sea_has_is_refused():
 @pytest.mark.parametrize(
     ("what", "message"),
     [
-        (None, "must be an xarray.Dataset, or .*, got NoneType"),
+        (None, "must be an xarray.Dataset or DataArray, got NoneType"),
         (xr.DataArray([1.0]), "must have a frequency dimension"),
         (xr.Dataset({"hs": ((), 1.0)}), "must hold one wave spectrum .* got hs"),
         (xr.Dataset({"efth": (("x", "dir"), np.ones((3, 4)))}), "must have a frequency dimension"),
