@@ -1,9 +1,11 @@
 """Seas made from measured spectra: straight lines with the moments of the source's own bands, and our directions."""
 
 import math
+import numbers
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -72,7 +74,7 @@ class Realised:
             ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
         """
         spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
-        notes = [str(text) for key, text in spectrum.attrs.items() if key.endswith("_note")]
+        notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
         depth = _depth(spectrum, depth, notes)
         frequency = np.asarray(spectrum["freq"].values)
         own = np.asarray(spectrum["freq_bnds"].values) if "freq_bnds" in spectrum.coords else None
@@ -135,6 +137,43 @@ class Realised:
             tm02_source=math.sqrt(m0 / m2),
             notes=tuple(notes),
         )
+
+
+_COUNTED: Final = {
+    "rounded_negatives": "values a rounding below 0 were taken as 0",
+    "below_threshold_values": "values that the file leaves out for being almost nothing were taken as 0",
+    "limited_moments": "pairs of directional moments that no sea can have were drawn in",
+    "undirected_densities": "densities without a direction were spread all round",
+}
+"""The counts among a dataset's attributes that are worth saying; those of a reader are of all times."""
+
+
+def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
+    """
+    Return in words what attributes say of doubts, assumptions, and what was masked or repaired.
+
+    Args:
+        spectrum: one time of the dataset, in our layout.
+        given: the attributes of the dataset as its reader left them.
+    """
+    attrs = {**given, **spectrum.attrs}
+    notes = [str(text) for key, text in attrs.items() if str(key).endswith("_note")]
+    if "assumed" in attrs:
+        notes.append(f"assumed, for want of attributes: {attrs['assumed']}")
+    if "unterminated" in attrs:
+        notes.append(str(attrs["unterminated"]))
+    if masked := given.get("masked_values", 0):
+        notes.append(f"{masked} values of the file are missing")
+    for key, words in _COUNTED.items():
+        counts = (source.get(key, 0) for source in (given, spectrum.attrs))
+        if count := max(int(n) if isinstance(n, numbers.Integral) else 0 for n in counts):
+            notes.append(f"{count} {words}")
+    f = np.asarray(spectrum["freq"].values)
+    if f[0] > 0.15 and f[-1] > 3.0:
+        text = f"frequencies go from {f[0]:.3g} to {f[-1]:.3g} Hz, which is rare at sea: are they in rad/s?"
+        warnings.warn(text, SeaWarning, stacklevel=4)
+        notes.append(text)
+    return notes
 
 
 def _depth(spectrum: "Dataset", depth: float | None, notes: list[str]) -> float:
