@@ -62,6 +62,7 @@ def compose(
     manifest = {
         **order.header,
         "ocean": _tile(scene.ocean),
+        **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": asdict(statistics),  # ordered beside delivered
         "conventions": {**scene.profile.describe(raw=scene.form.raw), "lookup": _LOOKUP[job.lookup]},
         "blend": dict(blend),
