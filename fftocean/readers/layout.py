@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Integer, Real, RealLike
-from fftocean.errors import ParameterError, ReaderError, SeaWarning
+from fftocean.errors import ParameterError, ReaderError, SeaWarning, how_to_install
 from fftocean.limits import FREQUENCY
 
 if TYPE_CHECKING:
@@ -46,7 +46,10 @@ def science() -> Any:
 
 def missing(error: ImportError) -> ReaderError:
     """What to say when an optional package is not there."""
-    return ReaderError(f"xarray, h5netcdf and h5py must be installed to read spectra: pip install 'fftocean[science]' ({error})")
+    hint = how_to_install("science")
+    return ReaderError(
+        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
+    )
 
 
 def announce(made: "Dataset") -> "Dataset":

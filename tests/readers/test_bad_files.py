@@ -150,7 +150,7 @@ def test_a_heap_on_which_the_hdf5_library_would_walk_for_ever(tmp_path):
 @pytest.mark.parametrize("module", ["xarray", "h5py"])
 def test_without_the_extra_it_is_named(module, monkeypatch):
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(ReaderError, match=r"pip install 'fftocean\[science\]'"):
+    with pytest.raises(ReaderError, match=r"pip install '\.\[science\]'"):
         readers.open(DATA / "wavespectra.nc")
 
 
