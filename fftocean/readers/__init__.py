@@ -107,6 +107,18 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
     raise ReaderError(f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40}")
 
 
+def files_of(path: Path) -> list[Path]:
+    """
+    Return the files that `open` reads for a file: that one, and those beside it that belong to it.
+
+    Raises:
+        ReaderError: no regular file, or one that cannot be read.
+    """
+    files.require_file(path)
+    head = Head.of(path)
+    return next((list(reader.files(path)) for reader in FORMATS if reader.sniff(head)), [path])
+
+
 def _only_set(folder: Path) -> Path:
     """
     Return the file that stands for the one set of NDBC's files in a folder.

@@ -34,6 +34,7 @@ class Realised:
     factor: float  # m0 of the source's bands over that of straight lines through its densities [-]
     tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
     tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
+    depth_source: float | None = None  # the measurement's own water depth [m]; None where it has none
     notes: tuple[str, ...] = ()  # what was masked, repaired or assumed, in words
 
     @classmethod
@@ -75,7 +76,8 @@ class Realised:
         """
         spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
         notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
-        depth = _depth(spectrum, depth, notes)
+        own_depth = _own_depth(spectrum)
+        depth = _depth(own_depth, depth, notes)
         frequency = np.asarray(spectrum["freq"].values)
         own = np.asarray(spectrum["freq_bnds"].values) if "freq_bnds" in spectrum.coords else None
         compass = None
@@ -116,7 +118,9 @@ class Realised:
             )
         if not m0 > 0.0:
             warnings.warn("the spectrum holds no energy: the sea is exactly flat", SeaWarning, stacklevel=2)
-            return cls(sea=Sea(depth=depth), hs_source=0.0, factor=1.0, notes=(*notes, "the spectrum holds no energy"))
+            return cls(
+                sea=Sea(depth=depth), hs_source=0.0, factor=1.0, depth_source=own_depth, notes=(*notes, "the spectrum holds no energy")
+            )
         if lines.matched < 2:
             kept = "Hs and Tm01" if lines.matched else "Hs"
             notes.append(f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02")
@@ -135,6 +139,7 @@ class Realised:
             factor=lines.factor,
             tm01_source=m0 / m1,
             tm02_source=math.sqrt(m0 / m2),
+            depth_source=own_depth,
             notes=tuple(notes),
         )
 
@@ -176,12 +181,17 @@ def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
     return notes
 
 
-def _depth(spectrum: "Dataset", depth: float | None, notes: list[str]) -> float:
+def _own_depth(spectrum: "Dataset") -> float | None:
+    """Return the depth of the one time of a dataset in our layout, where it is known [m]."""
+    own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
+    return None if math.isnan(own) else own
+
+
+def _depth(own: float | None, depth: float | None, notes: list[str]) -> float:
     """Return the depth that is asked for, else the dataset's own, else deep water; and note which."""
     if depth is not None:
         return depth
-    own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
-    if math.isnan(own):
+    if own is None:
         notes.append("no depth is known: the water is taken as deep")
         return math.inf
     notes.append(f"the depth is the measurement's own, {own:g} m")
