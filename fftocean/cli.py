@@ -547,6 +547,9 @@ def _info(options: argparse.Namespace) -> int:
         else:
             table.add_row(key, f"{_words(value)} {units[key]}".rstrip())
     console.print(table)
+    for key, notes in job.measured_notes().items():
+        for note in notes:
+            console.print(Text(f"{key}: {_plain(note)}"))
     ordered = statistics.ordered
     assert ordered is not None  # a job has a sea
     table = Table(title="\nSea", title_justify="left", box=None, pad_edge=False)

@@ -1,6 +1,5 @@
 """A job: a sea, a tile of it, and what to write. Read from TOML, checked key by key, frozen."""
 
-import glob
 import hashlib
 import json
 import math
@@ -10,15 +9,18 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fftocean.bake.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
-from fftocean.bake.systems import systems_of, unknown_key
+from fftocean.bake.systems import measurement, systems_of, unknown_key
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import JONSWAP, TMA
 from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner
+
+if TYPE_CHECKING:
+    from fftocean.readers import Realised
 
 _KNOWN = (*BY_KEY, "sea.systems")
 MAX_BYTES = 64 * 1024
@@ -106,8 +108,53 @@ class Job:
         if at_sea:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # said once, when it is used
-                job.sea()
+                measured = job.measurements()
+                if "sea.depth" not in given:
+                    job = job._at_measured_depth(measured)
+                job.sea(measured)
         return job
+
+    def measurements(self) -> "dict[str, Realised]":
+        """
+        Return the measured spectra of sea.systems as they are realised, by the full names of their tables.
+
+        Raises:
+            JobError, ReaderError: as `systems.measurement`.
+        """
+        folder = Path(self.source).parent  # of the job file, where measured files are looked for; here, for a job without one
+        tables = {f"sea.systems[{i}]": table for i, table in enumerate(self.systems)}
+        return {key: measurement(key, table, folder) for key, table in tables.items() if "measured" in table and "spectrum" not in table}
+
+    def _at_measured_depth(self, measured: "Mapping[str, Realised]") -> "Job":
+        """Return the job in water as deep as its measured files say, where it names no sea.depth itself."""
+        depths = {key: m.depth_source for key, m in measured.items() if m.depth_source is not None}
+        if not depths:
+            return self
+        first, *others = depths.items()
+        for key, depth in others:
+            if not math.isclose(depth, first[1], rel_tol=1e-3):
+                raise JobError(
+                    f"{self.source}: sea.depth must be given where measured files differ in it, got {first[1]:g} m of {first[0]} "
+                    f"and {depth:g} m of {key}"
+                )
+        return self.replaced({"sea.depth": first[1]})
+
+    def measured_notes(self) -> dict[str, list[str]]:
+        """Return what was masked, repaired or assumed to make the measured systems, by the full names of their tables."""
+        notes = {}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the notes say it
+            measured = self.measurements()
+        for key, made in measured.items():
+            depth, own = self.settings["sea.depth"], made.depth_source
+            if own is None:
+                said = f"the file has no water depth; sea.depth is {depth:g} m"
+            elif math.isclose(own, depth, rel_tol=1e-9):
+                said = f"sea.depth is the file's own, {own:g} m"
+            else:
+                said = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
+            notes[key] = [said, *made.notes]
+        return notes
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":
         """
@@ -124,8 +171,8 @@ class Job:
         settings = {**self.settings, **{key: BY_KEY[key].check(value) for key, value in changes.items()}}
         return Job(settings, self.wind or _brings_wind(changes, self.source), self.systems, self.source)
 
-    def sea(self) -> Sea:
-        """The sea that is ordered."""
+    def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
+        """The sea that is ordered; `measured` as `measurements` returns them, where they are at hand."""
         s, depth = self.settings, self.settings["sea.depth"]
         waves: list[WaveSystem] = []
         try:
@@ -135,7 +182,9 @@ class Job:
                 waves.append(WaveSystem(spectrum=TMA(deep, depth), spreading=spreading, direction=s["sea.wind.direction"]))
             folder = Path(self.source).parent  # of the job file, where measured files are looked for; here, for a job without one
             for i, table in enumerate(self.systems):
-                waves += systems_of(f"sea.systems[{i}]", table, depth=depth, tension=s["sea.surface_tension"], folder=folder)
+                key = f"sea.systems[{i}]"
+                done = (measured or {}).get(key)
+                waves += systems_of(key, table, depth=depth, tension=s["sea.surface_tension"], folder=folder, measured=done)
             return Sea(*waves, depth=depth, surface_tension=s["sea.surface_tension"])
         except (JobError, ReaderError):
             raise
@@ -279,9 +328,10 @@ class Job:
 
 
 def measured_files(path: Path) -> list[Path]:
-    """A measured file, and those of directions that an NDBC buoy has beside it."""
-    stem = path.name.removesuffix(".gz").rpartition(".")[0] or path.name
-    return [path, *sorted(other for other in path.parent.glob(glob.escape(stem) + ".sw*") if other != path)]
+    """Return a measured file, and those that a buoy has beside it."""
+    from fftocean import readers
+
+    return [path, *sorted(other for other in readers.files_of(path) if other != path)]
 
 
 def _brings_wind(given: Mapping[str, Any], source: str) -> bool:

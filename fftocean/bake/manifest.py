@@ -64,6 +64,7 @@ def compose(
     manifest = {
         **order.header,
         "ocean": _tile(scene.ocean),
+        **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": plain(statistics),  # ordered beside delivered
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},

@@ -1,11 +1,13 @@
 """The tables [[sea.systems]] of a job: each a spectrum, a spreading and a direction, or a measurement out of a file."""
 
 import difflib
+import math
+import os
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from fftocean.errors import JobError, ParameterError
+from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.limits import (
     DEPTH,
     DIRECTION,
@@ -26,6 +28,9 @@ from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, PiersonMos
 from fftocean.physics.spreading import Blend, CosinePower, CosineSquared, DonelanBanner, LongCrested, Spreading
 from fftocean.physics.spreading_laws import CosineN, Hasselmann, Mitsuyasu, SwellElongation, WrappedNormal
 from fftocean.physics.wind_wavenumber import Elfouhaily, Phillips
+
+if TYPE_CHECKING:
+    from fftocean.readers import Realised
 
 Made = TypeVar("Made")
 Rules = Mapping[str, Quantity | None]
@@ -82,7 +87,9 @@ def spectra_in(depth: float, tension: float) -> dict[str, list[tuple[Rules, Call
     }
 
 
-def systems_of(key: str, table: Mapping[str, Any], *, depth: float, tension: float, folder: Path) -> tuple[WaveSystem, ...]:
+def systems_of(
+    key: str, table: Mapping[str, Any], *, depth: float, tension: float, folder: Path, measured: "Realised | None" = None
+) -> tuple[WaveSystem, ...]:
     """
     Make the wave systems of one table: one, or none where its spectrum is a calm.
 
@@ -91,6 +98,7 @@ def systems_of(key: str, table: Mapping[str, Any], *, depth: float, tension: flo
         table: as in the job file.
         depth, tension: of the sea's water [m], [N/m].
         folder: where the names of measured files start.
+        measured: the table's measurement, where it has been realised already.
 
     Raises:
         JobError: a key or value that it may not have.
@@ -106,7 +114,7 @@ def systems_of(key: str, table: Mapping[str, Any], *, depth: float, tension: flo
         )
     try:
         if "measured" in table:
-            return _measured(key, table, depth, folder)
+            return (measured or measurement(key, table, folder)).sea.systems
         direction = DIRECTION.check(f"{key}.direction", table.get("direction", 0.0))
         spreading = _one_of(f"{key}.spreading", table.get("spreading", {"kind": "blend"}), {k: [way] for k, way in SPREADINGS.items()})
         spectrum = _one_of(f"{key}.spectrum", table["spectrum"], spectra_in(depth, tension))
@@ -120,8 +128,19 @@ def systems_of(key: str, table: Mapping[str, Any], *, depth: float, tension: flo
         raise JobError(str(error)) from None
 
 
-def _measured(key: str, table: Mapping[str, Any], depth: float, folder: Path) -> tuple[WaveSystem, ...]:
-    """The wave systems of a measured spectrum; one without directions takes the table's."""
+def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
+    """
+    Realise the measured spectrum of one table; one without directions takes the table's.
+
+    Args:
+        key: the table's full name, for messages.
+        table: as in the job file, with `measured`.
+        folder: where the names of measured files start.
+
+    Raises:
+        JobError: a key or value that the table may not have, or that its file does not have.
+        ReaderError: a file that is not what it should be; the message names the key and the file.
+    """
     from fftocean import readers
 
     source = table["measured"]
@@ -133,8 +152,16 @@ def _measured(key: str, table: Mapping[str, Any], depth: float, folder: Path) ->
         direction = DIRECTION.check(f"{key}.direction", table["direction"])
     if "spreading" in table:
         spreading = _one_of(f"{key}.spreading", table["spreading"], {k: [way] for k, way in SPREADINGS.items()})
-    dataset = readers.open(folder / source["file"], site=site)
-    return readers.sea_from_spectrum(dataset, time=time, depth=depth, direction=direction, spreading=spreading).systems
+    where = f"{key}.measured, file {source['file']!r:.80}"
+    try:
+        if os.path.isdir(folder / source["file"]):  # noqa: PTH112  which is false for impossible names
+            raise ReaderError("must be a file, got a directory")
+        dataset = readers.open(folder / source["file"], site=site)
+        return readers.Realised.from_spectrum(dataset, time=time, depth=math.inf, direction=direction, spreading=spreading)
+    except ReaderError as error:
+        raise ReaderError(f"{where}: {error}") from None
+    except ParameterError as error:
+        raise JobError(f"{where}: {error}") from None
 
 
 def _one_of(key: str, table: Any, kinds: Mapping[str, list[tuple[Rules, Callable[..., Made]]]]) -> Made:

@@ -1,4 +1,4 @@
-"""Measured and modelled wave spectra, out of the files in which they come, into one layout and on into a `Sea`."""
+"""Measured and modelled wave spectra: their files, one layout for all, and on into a `Sea`."""
 
 import os
 from pathlib import Path
@@ -43,7 +43,7 @@ FORMATS: Final[tuple[Reader, ...]] = (
     datawell.READER,
     octopus.READER,
 )
-"""The formats that are read. The first whose `sniff` accepts a file reads it, so the special stand before the general."""
+"""The formats that are read; the first whose `sniff` accepts a file reads it."""
 
 MOST_IN_FOLDER: Final = 10_000
 """The most entries of a folder among which a set of files is looked for."""
@@ -51,23 +51,28 @@ MOST_IN_FOLDER: Final = 10_000
 
 def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dataset":
     """
-    Read the wave spectra of one place from a file of any known format, recognised by what is in it, plain or gzip.
+    Read the wave spectra of one place from a file of any known format, recognised by what is in it,
+    plain or gzip.
 
-    `FORMATS` lists what is known; docs/readers.md has an example of each. Files that belong together (the
-    five of an NDBC buoy) are given by any one of them, or by the folder that holds them and nothing else to read.
+    `FORMATS` lists what is known; docs/readers.md has an example of each. Files that belong
+    together (the five of an NDBC buoy) are given by any one of them, or by the folder that holds
+    them and nothing else to read.
 
     Args:
         path: the file.
         site: which place, from 0, where the file holds several; a grid is counted row by row.
-        bins: directions round the compass, for buoys, which report Fourier moments and not directions.
+        bins: directions round the compass, for buoys, which report Fourier moments and not
+            directions.
 
     Returns:
-        An xarray.Dataset with `efth` (time, freq, dir) [m2/Hz/degree], `freq` [Hz] ascending and `dir` [degrees] where waves come
-        FROM, clockwise from north; without directions `ef` (time, freq) [m2/Hz]. `dpt` (time) is the depth [m] where it is known.
-        Missing values are NaN and counted in the attributes. `layout.py` has it in full.
+        An xarray.Dataset with `efth` (time, freq, dir) [m2/Hz/degree], `freq` [Hz] ascending and
+        `dir` [degrees] where waves come FROM, clockwise from north; without directions `ef` (time,
+        freq) [m2/Hz]. `dpt` (time) is the depth [m] where it is known. Missing values are NaN and
+        counted in the attributes. `layout.py` has it in full.
 
     Raises:
-        ReaderError: whatever is wrong with the file: the message names it, the line or variable, and the value.
+        ReaderError: whatever is wrong with the file: the message names it, the line or variable,
+            and the value.
         ParameterError: `site` or `bins` out of range.
     """
     bins = BINS.check_whole("bins", bins)
@@ -79,16 +84,39 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     if folder:
         path = _only_set(path)
     files.require_file(path)
+    try:
+        return layout.announce(_read(path, site, bins))
+    except ReaderError as error:
+        text = files.printable(str(error))
+        if text == str(error):
+            raise
+        raise ReaderError(text) from error
+
+
+def _read(path: Path, site: int, bins: int) -> "Dataset":
+    """Return what the first reader that accepts a file makes of it."""
     head = Head.of(path)
     for reader in FORMATS:
         if reader.sniff(head):
-            return layout.announce(_ended(reader.files(path), reader.read(path, site, bins)))
+            return _ended(reader.files(path), reader.read(path, site, bins))
     if (what := near_misses.name(head)) is not None:
         raise ReaderError(f"{path.name} {what}")
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
         break
     known = ", ".join(reader.name for reader in FORMATS)
-    raise ReaderError(f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40} first")
+    raise ReaderError(f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40}")
+
+
+def files_of(path: Path) -> list[Path]:
+    """
+    Return the files that `open` reads for a file: that one, and those beside it that belong to it.
+
+    Raises:
+        ReaderError: no regular file, or one that cannot be read.
+    """
+    files.require_file(path)
+    head = Head.of(path)
+    return next((list(reader.files(path)) for reader in FORMATS if reader.sniff(head)), [path])
 
 
 def _only_set(folder: Path) -> Path:
@@ -103,7 +131,7 @@ def _only_set(folder: Path) -> Path:
         for entry in folder.iterdir():
             names.append(entry.name)
             if len(names) > MOST_IN_FOLDER:
-                raise ReaderError(f"{folder.name} must hold at most {MOST_IN_FOLDER} files to look for spectra in, got more")
+                raise ReaderError(f"{folder.name} must hold at most {MOST_IN_FOLDER} files, got more")
     sets: dict[str, str] = {}
     for name in sorted(names):
         key = ndbc_archive.set_of(name) or ndbc.set_of(name)
@@ -112,8 +140,10 @@ def _only_set(folder: Path) -> Path:
     if len(sets) != 1:
         held = f"those of {', '.join(sorted(sets))}"[:200] if sets else "none"
         raise ReaderError(
-            f"the spectrum must be a regular file, got {str(folder)!r} (a directory); a folder must hold the files of "
-            f"one NDBC buoy (41010.data_spec and its four, or 41010w2019.txt and its four), got {held}"
+            f"the spectrum must be a regular file, got {str(folder)!r} (a directory); a folder "
+            f"must hold the files of "
+            f"one NDBC buoy (41010.data_spec and its four, or 41010w2019.txt and its four), got "
+            f"{held}"
         )
     return folder / next(iter(sets.values()))
 

@@ -52,10 +52,10 @@ def find(raw: "Dataset", name: object, source: str, values: Callable[["DataArray
         if len(absent) == len(family):
             continue
         if absent:
-            raise ReaderError(f"{source} must hold all of {', '.join(family)}, or none; missing: {', '.join(absent)}")
+            raise ReaderError(f"{source} must hold all four moments or none; missing: {', '.join(absent)}")
         for word in family:
             if raw[word].dims != raw[name].dims:
-                raise ReaderError(f"{source}: variable {word} must have the dimensions of {name}, got {raw[word].dims}")
+                raise ReaderError(f"{source}: variable {word} must have the dimensions of {name}")
         return _ndbc(raw, source, values) if family is _NDBC else _cdip(raw, source, values)
     return None
 
@@ -65,7 +65,8 @@ def _ndbc(raw: "Dataset", source: str, values: Callable[["DataArray"], Real]) ->
     for word in _NDBC[:2]:
         unit = units.parse(raw[word].attrs.get("units", "degree"))
         if unit is None or not unit.is_(rad=1):
-            raise ReaderError(f"{source}: variable {word} must have units degrees, got {raw[word].attrs.get('units')!r:.40}")
+            said = raw[word].attrs.get("units")
+            raise ReaderError(f"{source}: variable {word} must be in degrees, got {said!r:.40}")
         angle = values(raw[word]) * unit.scale
         _require(f"{source}: variable {word}", angle, -2.0 * np.pi, 4.0 * np.pi, "radians")
         angles.append(angle)

@@ -61,7 +61,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
             continue
         tokens = [token.strip() for token in line.split(",")]
         if len(tokens) != 6:
-            raise ReaderError(f"{where} must hold 6 numbers (f, S, direction, spread, skewness, kurtosis), got {line!r:.40}")
+            raise ReaderError(f"{where} must hold 6 numbers between commas, got {line!r:.40}")
         numbers = [files.number(where, token) for token in tokens]
         if not -360.0 <= numbers[2] <= 720.0:
             raise ReaderError(f"{where}: the direction must be between -360 and 720 degrees, got {tokens[2]}")
@@ -71,7 +71,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
         if len(table) > layout.MAX_VALUES // bins:
             raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
     if len(table) < 2:
-        raise ReaderError(f"{path.name} must hold at least 2 frequencies after its {_HEADER} lines of header, got {len(table)}")
+        raise ReaderError(f"{path.name} must hold at least 2 frequencies, got {len(table)}")
     hs, largest = header[1] / 100.0, header[3]
     if not 0.0 <= largest <= layout.LARGEST * 360.0:
         raise ReaderError(f"{path.name}: line 4 must be a density of at least 0 m2/Hz, got {largest:g}")
@@ -95,6 +95,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
             **done,
             **layout.compare_heights(path.name, m0, np.array([hs]), 0.005),
             "stated_hs": hs,
+            "direction_reference": "true or magnetic north, as the receiver was set up",
             "sites": 1,
         },
     )

@@ -143,7 +143,8 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
         The directions in [0, 360), ascending, and the order that sorted them.
 
     Raises:
-        ReaderError: fewer than four, not finite, more than one turn, or the same direction twice (0 and 360 are the same).
+        ReaderError: fewer than four, not finite, more than one turn, the same direction twice (0 and 360 are the same), or all
+            of them within 2 pi degrees: no instrument or model has such a sector, and radians do.
     """
     d = np.asarray(values, dtype=np.float64).ravel()
     if d.size < 4:
@@ -160,6 +161,9 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
         raise ReaderError(
             f"{where} must hold each direction once (0 and 360 degrees are one), got {turned[order][int(np.argmax(same))]} twice"
         )
+    span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
+    if span <= 2.0 * np.pi + 1e-3:
+        raise ReaderError(f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: is it in radians?")
     return turned[order], order
 
 
@@ -195,7 +199,7 @@ def densities(where: str, values: RealLike, unit: str, *, negative: str = "refus
         wrong &= e > LARGEST
     if np.any(wrong):
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
-        hint = ' (negative="clip" takes them as 0)' if e[place] < 0.0 else ""
+        hint = ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)' if e[place] < 0.0 else ""
         raise ReaderError(f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}")
     with np.errstate(invalid="ignore"):
         small = e < 0.0

@@ -23,7 +23,17 @@ import numpy as np
 from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import bands, circular, classic, files, hdf5, layout, moments, package, units
+from fftocean.readers import (
+    bands,
+    circular,
+    classic,
+    files,
+    hdf5,
+    layout,
+    moments,
+    package,
+    units,
+)
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -41,6 +51,7 @@ _SPECTRA: Final = {
     "sea_surface_wave_directional_variance_spectral_density": True,
     "sea_surface_wave_variance_spectral_density": False,
 }
+_WAYS: Final = ("standard_name", "long_name", "convention")
 _NAMES: Final = ("d2fd", "efth", "ef", *circular.DENSITIES)
 _MOST_READ: Final = 2**31  # bytes unpacked for one place: ten seconds
 _FIRST: Final = "frequency1"
@@ -154,6 +165,7 @@ def tidy(
     if "freq" not in axes:
         raise ReaderError(f"{where} must have a frequency dimension, got {tuple(spectrum.dims)}")
     family = _family(spectrum, axes)
+    _require_sane_packing(where, spectrum)
     if "dir" in axes and family is _WAVESPECTRA and spectrum.sizes[axes["dir"]] == 1:
         spectrum = spectrum.isel({axes.pop("dir"): 0})  # how wavespectra holds a buoy without directions
         directional = False
@@ -191,10 +203,11 @@ def tidy(
     if directional:
         there, bearing, goes_to = _direction(raw, axes, family, source)
         if goes_to and family is _WAVESPECTRA and scale == 1.0:
-            # wavespectra's own readers turn directions and densities but leave WAVEWATCH's attributes on `dir`, where xarray keeps
-            # attributes through arithmetic: in its layout, once densities are per degree, directions are FROM, whatever `dir` says.
-            goes_to = False
-            notes["direction_note"] = f"{there} says that waves go to there; in this layout they come from there, and so it is taken"
+            goes_to = not _left_over(raw[axes["dir"]].attrs, spectrum.attrs)
+            taken = "go to there, and so it is taken" if goes_to else "come from there, and so it is taken: the attribute is left over"
+            notes["direction_note"] = f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+        values, bearing, repeated = package.once_round(values, bearing)
+        notes |= repeated
         if goes_to:
             bearing = np.mod(bearing, 360.0) + 180.0
         direction, d_order = layout.directions(there, bearing)
@@ -205,7 +218,13 @@ def tidy(
     unit = "m2/Hz/degree" if directional else "m2/Hz"
     density, counts = layout.densities(where, values, unit, negative=negative)
     if not directional:
-        pair = circular.find(raw, spectrum.name, source, lambda v: _table(source, v, picked, order, file_bytes)[:, f_order])
+
+        def at_place(variable: "DataArray") -> Real:
+            if file_bytes is not None:
+                _require_sane_read(f"{source}: variable {variable.name}", variable, picked, file_bytes)
+            return _table(source, variable.isel(picked), order)[:, f_order]
+
+        pair = circular.find(raw, spectrum.name, source, at_place)
         if pair is not None:
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)
@@ -220,22 +239,13 @@ def tidy(
         depth=_depth(raw, axes, picked, len(density)),
         position=_position(raw, picked),
         bands=edges,
-        notes={**counts, **notes},
+        notes={**counts, **_assumed(raw, spectrum, axes, family), **notes},
     )
 
 
-def _table(
-    source: str,
-    variable: "DataArray",
-    picked: Mapping[Hashable, int],
-    order: Sequence[Hashable],
-    file_bytes: int | None,
-) -> Real:
+def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Real:
     """The numbers of one place, (time, f), NaN where they are fill values."""
-    where = f"{source}: variable {variable.name}"
-    if file_bytes is not None:
-        _require_sane_read(where, variable, picked, file_bytes)
-    values = _numbers(where, variable.isel(picked).transpose(*order))
+    values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
     with np.errstate(invalid="ignore"):
         values[np.abs(values) > layout.FILL] = np.nan
     return np.atleast_2d(values)
@@ -316,6 +326,7 @@ def _coordinate(raw: "Dataset", axes: Mapping[str, Hashable], role: str, source:
     name = axes[role]
     if name not in raw.variables or raw[name].dims != (name,):
         raise ReaderError(f"{source}: dimension {name} must have a coordinate variable along itself, got none")
+    _require_sane_packing(f"{source}: variable {name}", raw[name])
     return f"{source}: variable {name}", raw[name]
 
 
@@ -375,11 +386,11 @@ def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
         unit = units.parse(d.attrs.get("units", "degree" if family.documented else ""))
         turn = np.nanmax(np.abs(values), initial=0.0)
         if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
+            if turn > 4.0 * np.pi + 1e-3:
+                raise ReaderError(f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in degrees?")
             values = np.degrees(values)
         elif unit is None or not unit.is_(rad=1):
             raise ReaderError(f"{where} must have units degree or radian, got {d.attrs.get('units')!r}")
-        elif values.size >= 8 and turn <= 2.0 * np.pi + 1e-3:
-            raise ReaderError(f"{where} must be in degrees, as it says, but spans {turn:.4g} in {values.size} steps: is it in radians?")
     return where, values, _goes_to(where, d.attrs, family)
 
 
@@ -396,7 +407,7 @@ def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
 def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
     """Whether directions are where waves go TO (true) or come FROM (false)."""
     said: dict[bool, str] = {}
-    for key in ("standard_name", "long_name", "convention"):
+    for key in _WAYS:
         text = str(attrs.get(key, ""))
         words = set(re.split(r"[^a-z]+", re.sub(r"(relative|respect|referred) to", "", text.lower())))
         if key == "standard_name" and text and "wave" not in words:
@@ -414,6 +425,42 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
             f"{where} must say whether waves come from there or go there (standard_name sea_surface_wave_from_direction or _to_direction)"
         )
     return family.goes_to
+
+
+def _left_over(direction: Mapping[str, Any], density: Mapping[str, Any]) -> bool:
+    """
+    Tell attributes that no longer hold: those of WAVEWATCH III on a dimension named `dir`.
+
+    The wavespectra package turns that model's directions round and makes densities per degree, but
+    leaves its attributes on `dir`, of which `globwave_name` and an axis "Z" are no other's.
+    """
+    return "globwave_name" in direction or direction.get("axis") == "Z" or "_variable_name" in density or density.get("units") is None
+
+
+def _require_sane_packing(where: str, variable: "DataArray") -> None:
+    """Refuse a scale or an offset that would make all values nothing, or no numbers."""
+    for key, low, high in (("scale_factor", 1e-30, 1e30), ("add_offset", 0.0, 1e30)):
+        number = np.asarray(variable.encoding.get(key, 1.0))
+        right = number.size == 1 and number.dtype.kind in "iuf" and bool(low <= abs(float(number.ravel()[0])) <= high)
+        if not right or (key == "scale_factor" and float(number.ravel()[0]) < 0.0):
+            rule = f"between {low:g} and {high:g}" if key == "scale_factor" else f"of a size up to {high:g}"
+            raise ReaderError(f"{where}: attribute {key} must be a number {rule}, got {variable.encoding.get(key)!r:.40}")
+
+
+def _assumed(raw: "Dataset", spectrum: "DataArray", axes: Mapping[str, Hashable], family: _Family) -> dict[str, str]:
+    """Say what attributes are silent about, and what was therefore taken from the format's documents."""
+    silent = []
+    if "units" not in spectrum.attrs and "GRIB_units" not in spectrum.attrs:
+        silent.append(f"densities per {family.per}" if "dir" in axes else "densities in m2/Hz")
+    if "units" not in raw[axes["freq"]].attrs:
+        silent.append("frequencies in Hz")
+    if "dir" in axes:
+        attrs = raw[axes["dir"]].attrs
+        if "units" not in attrs:
+            silent.append("directions in degrees")
+        if not re.search(r"(^|[^a-z])(to|towards?|from)([^a-z]|$)", " ".join(str(attrs.get(k, "")).lower() for k in _WAYS)):
+            silent.append("directions to which waves go" if family.goes_to else "directions from which waves come")
+    return {"assumed": f"{', '.join(silent)}, as {family.name} is documented"} if silent and family.documented else {}
 
 
 def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, directional: bool) -> float:

@@ -180,9 +180,7 @@ def _step(name: str, bearing: Real) -> float:
     """Return the width of the directions, which must be equal and go all round."""
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.ptp(steps) > 1e-3 * 360.0 / bearing.size:
-        raise ReaderError(
-            f"{name}: the directions must be equally spaced all round, got steps of {steps.min():g} to {steps.max():g} degrees"
-        )
+        raise ReaderError(f"{name}: the directions must be equally spaced all round, got {bearing[0]:g} ...")
     return 360.0 / bearing.size
 
 

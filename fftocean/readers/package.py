@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from fftocean.arrays import Real
 from fftocean.errors import ReaderError
-from fftocean.readers import layout, units
+from fftocean.readers import units
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -38,7 +39,7 @@ def as_dataset(given: Any, source: str) -> "Dataset":
     elif hasattr(given, "dims") and hasattr(given, "coords") and hasattr(given, "to_dataset"):
         dataset = _named(given, source)
     else:
-        raise ReaderError(f"{source} must be an xarray.Dataset, or the xarray.DataArray of its densities, got {type(given).__name__}")
+        raise ReaderError(f"{source} must be an xarray.Dataset or DataArray, got {type(given).__name__}")
     return _without_left_overs(dataset)
 
 
@@ -78,8 +79,6 @@ def _without_left_overs(dataset: "Dataset") -> "Dataset":
         if prose or (turned and np.ptp(dataset[axis].values) > 2.0 * np.pi + 1e-3):
             attrs["units"] = right
             dataset = dataset.assign_coords({axis: (axis, dataset[axis].values, attrs)})
-    if "dir" in dataset.coords and dataset["dir"].ndim == 1 and dataset["dir"].dtype.kind in "fiu":
-        dataset = _once_round(dataset, name)
     return dataset
 
 
@@ -88,14 +87,21 @@ def _per_angle(text: object) -> bool:
     return unit is not None and unit.is_(m=2, s=1, rad=-1)
 
 
-def _once_round(dataset: "Dataset", name: str) -> "Dataset":
-    """Leave out a last direction that repeats the first, as TRIAXYS tables have it."""
-    d = dataset["dir"].values
-    if d.size < 5 or "dir" not in dataset[name].dims or abs(abs(float(d[-1]) - float(d[0])) - 360.0) > 1e-6:
-        return dataset
-    if dataset[name].size > layout.MAX_VALUES:
-        return dataset
-    first, last = dataset[name].isel(dir=0).values, dataset[name].isel(dir=-1).values
-    top = float(np.nanmax(np.abs(first), initial=0.0))
-    same = np.allclose(first, last, rtol=0.0, atol=1e-3 * top + 1e-9, equal_nan=True)
-    return dataset.isel(dir=slice(0, -1)) if same else dataset
+def once_round(values: Real, bearing: Real) -> tuple[Real, Real, dict[str, Any]]:
+    """
+    Leave out a last direction that repeats the first, as TRIAXYS tables have it.
+
+    Args:
+        values: (time, f, d) densities.
+        bearing: (d,) directions [degrees].
+
+    Returns:
+        Both without it where it holds the same densities, and a note; both as they were where not.
+    """
+    if bearing.size < 5 or abs(abs(float(bearing[-1]) - float(bearing[0])) - 360.0) > 1e-6:
+        return values, bearing, {}
+    first, last = values[:, :, 0], values[:, :, -1]
+    top = float(np.max(np.abs(first), initial=0.0, where=np.isfinite(first)))
+    if not np.allclose(first, last, rtol=0.0, atol=1e-3 * top + 1e-9, equal_nan=True):
+        return values, bearing, {}
+    return values[:, :, :-1], bearing[:-1], {"repeated_directions": 1}

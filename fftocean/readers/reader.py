@@ -42,7 +42,7 @@ class Reader:
     """
     A file format that can be read.
 
-    Every field but `files` is required: a reader that lacks one raises TypeError or ValueError on import.
+    Every field but `files` is required: without one the import raises TypeError or ValueError.
     """
 
     name: str  # of the format, as in lists and errors

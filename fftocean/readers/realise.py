@@ -1,9 +1,11 @@
 """Seas made from measured spectra: straight lines with the moments of the source's own bands, and our directions."""
 
 import math
+import numbers
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -32,6 +34,7 @@ class Realised:
     factor: float  # m0 of the source's bands over that of straight lines through its densities [-]
     tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
     tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
+    depth_source: float | None = None  # the measurement's own water depth [m]; None where it has none
     notes: tuple[str, ...] = ()  # what was masked, repaired or assumed, in words
 
     @classmethod
@@ -72,8 +75,9 @@ class Realised:
             ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
         """
         spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
-        notes = [str(text) for key, text in spectrum.attrs.items() if key.endswith("_note")]
-        depth = _depth(spectrum, depth, notes)
+        notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
+        own_depth = _own_depth(spectrum)
+        depth = _depth(own_depth, depth, notes)
         frequency = np.asarray(spectrum["freq"].values)
         own = np.asarray(spectrum["freq_bnds"].values) if "freq_bnds" in spectrum.coords else None
         compass = None
@@ -114,7 +118,9 @@ class Realised:
             )
         if not m0 > 0.0:
             warnings.warn("the spectrum holds no energy: the sea is exactly flat", SeaWarning, stacklevel=2)
-            return cls(sea=Sea(depth=depth), hs_source=0.0, factor=1.0, notes=(*notes, "the spectrum holds no energy"))
+            return cls(
+                sea=Sea(depth=depth), hs_source=0.0, factor=1.0, depth_source=own_depth, notes=(*notes, "the spectrum holds no energy")
+            )
         if lines.matched < 2:
             kept = "Hs and Tm01" if lines.matched else "Hs"
             notes.append(f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02")
@@ -133,16 +139,59 @@ class Realised:
             factor=lines.factor,
             tm01_source=m0 / m1,
             tm02_source=math.sqrt(m0 / m2),
+            depth_source=own_depth,
             notes=tuple(notes),
         )
 
 
-def _depth(spectrum: "Dataset", depth: float | None, notes: list[str]) -> float:
+_COUNTED: Final = {
+    "rounded_negatives": "values a rounding below 0 were taken as 0",
+    "below_threshold_values": "values that the file leaves out for being almost nothing were taken as 0",
+    "limited_moments": "pairs of directional moments that no sea can have were drawn in",
+    "undirected_densities": "densities without a direction were spread all round",
+}
+"""The counts among a dataset's attributes that are worth saying; those of a reader are of all times."""
+
+
+def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
+    """
+    Return in words what attributes say of doubts, assumptions, and what was masked or repaired.
+
+    Args:
+        spectrum: one time of the dataset, in our layout.
+        given: the attributes of the dataset as its reader left them.
+    """
+    attrs = {**given, **spectrum.attrs}
+    notes = [str(text) for key, text in attrs.items() if str(key).endswith("_note")]
+    if "assumed" in attrs:
+        notes.append(f"assumed, for want of attributes: {attrs['assumed']}")
+    if "unterminated" in attrs:
+        notes.append(str(attrs["unterminated"]))
+    if masked := given.get("masked_values", 0):
+        notes.append(f"{masked} values of the file are missing")
+    for key, words in _COUNTED.items():
+        counts = (source.get(key, 0) for source in (given, spectrum.attrs))
+        if count := max(int(n) if isinstance(n, numbers.Integral) else 0 for n in counts):
+            notes.append(f"{count} {words}")
+    f = np.asarray(spectrum["freq"].values)
+    if f[0] > 0.15 and f[-1] > 3.0:
+        text = f"frequencies go from {f[0]:.3g} to {f[-1]:.3g} Hz, which is rare at sea: are they in rad/s?"
+        warnings.warn(text, SeaWarning, stacklevel=4)
+        notes.append(text)
+    return notes
+
+
+def _own_depth(spectrum: "Dataset") -> float | None:
+    """Return the depth of the one time of a dataset in our layout, where it is known [m]."""
+    own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
+    return None if math.isnan(own) else own
+
+
+def _depth(own: float | None, depth: float | None, notes: list[str]) -> float:
     """Return the depth that is asked for, else the dataset's own, else deep water; and note which."""
     if depth is not None:
         return depth
-    own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
-    if math.isnan(own):
+    if own is None:
         notes.append("no depth is known: the water is taken as deep")
         return math.inf
     notes.append(f"the depth is the measurement's own, {own:g} m")

@@ -72,8 +72,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
         line = int(np.flatnonzero(np.any(f != f[0], axis=1))[0]) + 2
         raise ReaderError(f"{path.name}: line {line} must have the frequencies of line 2, got others")
     time = records["time"][:, 0]
-    if not np.all((time > 0.0) & (time < _LATEST)):
-        raise ReaderError(f"{path.name}: Epoch Time must be seconds since 1970 up to 2200, got {time[~((time > 0) & (time < _LATEST))][0]}")
+    wrong = ~((time > 0.0) & (time < _LATEST))
+    if np.any(wrong):
+        raise ReaderError(f"{path.name}: Epoch Time must be seconds since 1970, got {time[wrong][0]}")
     which, repeated = layout.in_order(np.rint(time))
     records = {name: values[which] for name, values in records.items()}
     frequency, order = layout.frequencies(f"{path.name}: f", f[0])
@@ -179,7 +180,7 @@ def _columns(where: str, names: list[str]) -> dict[str, list[int]]:
             raise ReaderError(f"{where} must name a column {word}, got {', '.join(names)!r:.60}")
     for word in _BY_FREQUENCY:
         if word in columns and len(columns[word]) != len(columns["f"]):
-            raise ReaderError(f"{where} must name as many {word}_i as f_i ({len(columns['f'])}), got {len(columns[word])}")
+            raise ReaderError(f"{where} must name as many {word}_i as f_i, got {len(columns[word])}")
     return columns
 
 

@@ -174,6 +174,10 @@ def _block(lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, 
             raise ReaderError(f"{lines.where} must hold {row.size} densities, one a direction, got {len(tokens)}")
         if wanted:
             row[:] = [_density(lines.where, token, fill) for token in tokens]
+    if factor == 0.0 and wanted and np.any(block > 0.0):
+        raise ReaderError(
+            f"{lines.where}: the factor must be above 0 for densities that are not 0, got 0 (SWAN writes ZERO for a flat sea)"
+        )
     return block * factor
 
 

@@ -136,7 +136,7 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
         unit = lines.next("the unit").split()[0]
         if name in ("VaDens", "EnDens"):
             if (name, unit) not in _DENSITIES:
-                raise ReaderError(f"{lines.where}: the unit must be m2/Hz of VaDens or J/m2/Hz of EnDens, got {name} in {unit}")
+                raise ReaderError(f"{lines.where}: VaDens must be in m2/Hz, EnDens in J/m2/Hz, got {unit}")
             scale = _DENSITIES[name, unit]
         elif unit not in ("degr", "degrees", "deg"):
             raise ReaderError(f"{lines.where}: the unit of {name} must be degr, got {unit!r:.40}")
@@ -145,7 +145,7 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
         found.append((name, scale, files.number(lines.where, lines.next("the exception value").split()[0])))
     names = [name for name, _, _ in found]
     if len(set(names)) != len(names) or sum(n in ("VaDens", "EnDens") for n in names) != 1 or {"NDIR", "CDIR"} <= set(names):
-        raise ReaderError(f"{lines.where}: the quantities must be one density, one direction at most and a spread, got {', '.join(names)}")
+        raise ReaderError(f"{lines.where}: there must be one density and one direction at most")
     return found
 
 
@@ -169,7 +169,7 @@ def _block(
     for row in block:
         tokens = lines.next("a row of a frequency").split()
         if len(tokens) != len(quantities):
-            raise ReaderError(f"{lines.where} must hold {len(quantities)} numbers, one a quantity, got {len(tokens)}")
+            raise ReaderError(f"{lines.where} must hold {len(quantities)} numbers, got {len(tokens)}")
         row[:] = [_value(lines.where, token, *quantity) for token, quantity in zip(tokens, quantities, strict=True)]
     return block
 
@@ -180,7 +180,7 @@ def _value(where: str, token: str, name: str, scale: float, fill: float) -> floa
         return float("nan")
     low, high = {"NDIR": (-360.0, 720.0), "CDIR": (-360.0, 720.0), "DSPRDEGR": (0.0, 180.0)}.get(name, (0.0, np.inf))
     if not low <= value <= high:
-        raise ReaderError(f"{where}: {name} must be between {low:g} and {high:g} (or {fill:g}, missing), got {token}")
+        raise ReaderError(f"{where}: {name} must be between {low:g} and {high:g}, got {token}")
     return value
 
 

@@ -46,22 +46,26 @@ def read(path: Path) -> "Dataset":
     where, title = next(rows)
     keys: dict[str, tuple[str, str]] = {}
     table: list[list[float]] = []
+    nf = 0
     for where, line in rows:
         if "=" in line and not table:
             key, _, value = line.partition("=")
             keys[" ".join(key.split()).upper()] = (where, value.strip())
         else:
+            nf = nf or _count(path.name, keys, "NUMBER OF FREQUENCIES")
             table.append([files.number(where, token) for token in line.replace(",", " ").split()])
-            if len(table) > _MOST or len(table) * len(table[0]) > layout.MAX_VALUES:
-                raise ReaderError(f"{where}: more values than fit")
+            if len(table) > nf:
+                raise ReaderError(f"{where} must be the end, after {nf} rows, got more")
+            if len(table) * len(table[0]) > layout.MAX_VALUES:
+                raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
             if len(table[-1]) != len(table[0]):
-                raise ReaderError(f"{where} must hold {len(table[0])} numbers, as the rows before, got {len(table[-1])}")
+                raise ReaderError(f"{where} must hold {len(table[0])} numbers, got {len(table[-1])}")
     kind = _value(path.name, keys, "TYPE")[1].upper()
     if kind not in ("DIRECTIONAL SPECTRUM", "NON-DIRECTIONAL SPECTRUM"):
         raise ReaderError(f"{path.name} must be a DIRECTIONAL or NON-DIRECTIONAL SPECTRUM, got TYPE {kind!r:.40}")
-    nf = _count(path.name, keys, "NUMBER OF FREQUENCIES")
+    nf = nf or _count(path.name, keys, "NUMBER OF FREQUENCIES")
     if len(table) != nf:
-        raise ReaderError(f"{path.name} must hold {nf} rows, its NUMBER OF FREQUENCIES, got {len(table)}: is it cut?")
+        raise ReaderError(f"{path.name} must hold {nf} rows, got {len(table)}: is it cut?")
     spacing = _number(path.name, keys, "FREQUENCY SPACING (HZ)")
     first = _number(path.name, keys, "INITIAL FREQUENCY (HZ)")
     f = np.round(first + spacing * np.arange(nf), 9)
@@ -109,9 +113,7 @@ def _directed(name: str, keys: dict[str, tuple[str, str]], values: Real) -> tupl
     direction = start + step * np.arange(count)
     if abs(abs(direction[-1] - direction[0]) - 360.0) < 1e-3:
         if np.max(np.abs(values[:, 0] - values[:, -1])) > _REPEATED * np.max(np.abs(values), initial=1e-6):
-            raise ReaderError(
-                f"{name}: the columns of {direction[0]:g} and {direction[-1]:g} degrees must be equal, they are one direction"
-            )
+            raise ReaderError(f"{name}: columns {direction[0]:g} and {direction[-1]:g} degrees must be equal")
         values, direction = values[:, :-1], direction[:-1]
     return values, direction
 
@@ -123,7 +125,7 @@ def _column(name: str, values: Real, f: Real, spacing: float) -> Real:
     apart = np.abs(values[:, 0] - f)
     if np.max(apart) > 0.1 * abs(spacing):
         i = int(np.argmax(apart > 0.1 * abs(spacing)))
-        raise ReaderError(f"{name}: row {i + 1} must be at {f[i]:g} Hz, by first frequency and spacing, got {values[i, 0]:g}")
+        raise ReaderError(f"{name}: row {i + 1} must be at {f[i]:g} Hz, got {values[i, 0]:g}")
     return values[:, 1]
 
 

@@ -115,7 +115,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     frequency, f_order = layout.frequencies(f"{path.name}: the frequencies", lines.numbers(nf, "frequencies"))
     toward = lines.numbers(nd, "directions")
     if np.max(np.abs(toward)) > 2.0 * np.pi + 0.01:
-        raise ReaderError(f"{path.name}: the directions must be in radians, got {toward[np.argmax(np.abs(toward))]:g}")
+        raise ReaderError(f"{path.name}: the directions must be in radians, got {np.max(toward):g}")
     bearing: Real = np.mod(np.degrees(toward), 360.0) + 180.0
     if nd > 36 or np.ptp(np.diff(np.sort(np.mod(bearing, 360.0)))) > 0.0:
         bearing = _even(bearing)
@@ -200,7 +200,7 @@ def _point(lines: _Lines, line: str) -> tuple[str, list[float]]:
         raise ReaderError(f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}")
     numbers = lines.split(match[2], _PLAIN)
     if len(numbers) < 3:
-        raise ReaderError(f"{lines.where} must hold latitude, longitude and depth of a point, got {len(numbers)} numbers")
+        raise ReaderError(f"{lines.where} must hold latitude, longitude and depth of a point")
     return match[1].strip(), numbers
 
 

@@ -599,3 +599,86 @@ def test_refusals_are_value_errors():
     with pytest.raises(ValueError, match=r"ocean\.n"):
         Job.from_toml("ocean.n = 0")
     assert issubclass(JobError, ParameterError)
+
+
+# --- measured files ------------------------------------------------------------------------------------------------------------
+
+WW3 = str(SPECTRA_FILES / "ww3file.nc")
+
+
+def measured_job(*tables, **sea):
+    return Job.from_tree({"sea": {"systems": [{"measured": table} for table in tables], **sea}})
+
+
+def test_a_job_takes_the_depth_of_its_measured_file_unless_it_names_one():
+    import xarray as xr
+
+    with xr.open_dataset(WW3, engine="scipy") as raw:
+        own = [float(d) for d in raw.dpt.values[0]]
+    for site in (0, 1):
+        job = measured_job({"file": WW3, "site": site})
+        assert job.settings["sea.depth"] == job.sea().depth == own[site]
+        assert job.describe()["sea.depth"] == own[site]  # what a manifest says
+        assert f"sea.depth is the file's own, {own[site]:g} m" in job.measured_notes()["sea.systems[0]"]
+    for named in (50.0, math.inf):
+        job = measured_job({"file": WW3}, depth=named)
+        assert job.sea().depth == named
+        assert f"sea.depth is {named:g} m; the file's own is {own[0]:g} m" in job.measured_notes()["sea.systems[0]"]
+    later = measured_job({"file": WW3}).replaced({"sea.depth": 50.0})
+    assert later.sea().depth == 50.0
+    assert measured_job({"file": WW3}).replaced({"ocean.n": 32}).sea().depth == own[0]
+
+
+def test_the_wind_sea_stands_in_the_same_water():
+    job = Job.from_tree({"sea": {"wind": {"speed": 10.0}, "systems": [{"measured": {"file": WW3}}]}})
+    assert job.sea().systems[0].spectrum.depth == job.sea().depth == pytest.approx(106.587, abs=1e-3)
+
+
+def test_measured_files_of_different_depths_need_one_named():
+    with pytest.raises(JobError, match=r"sea\.depth must be given where measured files differ in it, got .* of sea\.systems\[0\] and"):
+        measured_job({"file": WW3, "site": 0}, {"file": WW3, "site": 1})
+    assert measured_job({"file": WW3, "site": 0}, {"file": WW3, "site": 1}, depth=80.0).sea().depth == 80.0
+    assert measured_job({"file": WW3}, {"file": WW3, "time": 1}).sea().depth == pytest.approx(106.6, abs=0.5)
+
+
+def test_a_file_without_depth_leaves_deep_water_and_says_so():
+    job = measured_job({"file": str(SPECTRA_FILES / "swanfile.spec")})
+    assert job.sea().depth == math.inf
+    assert "the file has no water depth; sea.depth is inf m" in job.measured_notes()["sea.systems[0]"]
+
+
+@pytest.mark.parametrize(
+    ("table", "error", "message"),
+    [
+        ({"file": "none.nc"}, ReaderError, r"sea\.systems\[1\]\.measured, file 'none\.nc': .* must be a file that exists"),
+        ({"file": WW3, "site": 2}, JobError, r"sea\.systems\[1\]\.measured, file '.*ww3file\.nc': site must be .* got 2"),
+        ({"file": WW3, "time": 99}, JobError, r"sea\.systems\[1\]\.measured, file '.*ww3file\.nc': time must be .* got 99"),
+        (
+            {"file": str(SPECTRA_FILES / "44004w2000.txt")},
+            JobError,
+            r"sea\.systems\[1\]\.measured, file '.*44004w2000\.txt': a spectrum without directions needs direction",
+        ),
+        ({"file": str(SPECTRA_FILES / "README.md")}, ReaderError, r"sea\.systems\[1\]\.measured, file '.*README\.md'"),
+        ({"file": str(SPECTRA_FILES)}, ReaderError, r"sea\.systems\[1\]\.measured, file '.*': must be a file, got a directory"),
+    ],
+)
+def test_errors_of_measured_files_name_the_key_and_the_file(table, error, message):
+    with pytest.raises(error, match=message):
+        measured_job({"file": WW3}, table)
+
+
+def test_what_was_assumed_of_a_measured_file_is_in_the_manifest_and_in_info(tmp_path, capsys):
+    from fftocean.bake.manifest import read_manifest
+    from fftocean.cli import main
+
+    tile = "[ocean]\nn = 16\nsize = 1000.0\nloop = 90.0\n[bake]\nframes = 1\nmaps = ['height']\n"
+    (tmp_path / "job.toml").write_text(f"[[sea.systems]]\nmeasured = {{ file = '{WW3}' }}\n{tile}")
+    job = Job.read(tmp_path / "job.toml")
+    fo.bake(job, tmp_path / "out")
+    manifest = read_manifest(tmp_path / "out")
+    assert manifest["measured"] == job.measured_notes()
+    assert "sea.depth is the file's own, 106.587 m" in manifest["measured"]["sea.systems[0]"]
+    assert manifest["ocean"]["depth"] == job.settings["sea.depth"]
+    assert fo.check(tmp_path / "out") == ()
+    assert main(["info", str(tmp_path / "job.toml")]) == 0
+    assert "sea.systems[0]: sea.depth is the file's own, 106.587 m" in " ".join(capsys.readouterr().out.split())

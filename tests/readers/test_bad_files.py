@@ -286,7 +286,7 @@ def test_broken_historical_files(changes, message, tmp_path):
 @pytest.mark.parametrize("kind", "dijk")
 def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
     """They look just like densities; only the name tells, and names what is missing."""
-    with pytest.raises(ReaderError, match="missing: 44004w2000.txt"):
+    with pytest.raises(ReaderError, match=r"missing: 44004w2000\.txt"):
         readers.open(historical(tmp_path, name=f"44004{kind}2000.txt"))
 
 
@@ -392,6 +392,7 @@ def swan(tmp_path, *changes):
         ([("^20200101.000000", "2020-01-01")], "must begin with a time like"),
         ([("^FACTOR", "FACTORS")], "must be FACTOR, ZERO or NODATA, got 'FACTORS'"),
         ([("^FACTOR\n.*", "FACTOR\nNaN")], "must hold a number here, got 'NaN'"),
+        ([("^FACTOR\n.*", "FACTOR\n0.0")], "the factor must be above 0 for densities that are not 0"),
         ([("^FACTOR\n.*", "FACTOR\n-1.0")], "the factor must be at least 0, got -1.0"),
         ([("^FACTOR\n.*", "FACTOR\n1e9")], "must be between 0 and 1e[+]06 m2/Hz/degree"),
         ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n-1 ")], r"a density must be at least 0 \(or -99, missing\), got -1"),
@@ -614,3 +615,53 @@ def test_errors_name_the_file_and_nothing_is_left_open(tmp_path):
     readers.open(path)
     descriptors = Path("/proc/self/fd")
     assert not any(os.path.realpath(fd) == str(path) for fd in descriptors.iterdir())
+
+
+# --- units that contradict the numbers -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("keyword", ["NDIR", "CDIR"])
+@pytest.mark.parametrize("count", [24, 6, 4])
+def test_radians_under_swans_degrees(keyword, count, tmp_path):
+    """All round, in radians: within 6.3 degrees, if they were degrees."""
+    step = 24 // count
+    text = write_swan(tmp_path / "a.spec", sea(), cartesian=keyword == "CDIR").read_text().splitlines()
+    at = text.index(keyword)
+    angles = [f"{np.radians(float(a)):.4f}" for a in text[at + 2 : at + 26 : step]]
+    first = next(i for i, line in enumerate(text) if line == "FACTOR") + 2
+    rows = [" ".join(line.split()[::step]) if i >= first and len(line.split()) == 24 else line for i, line in enumerate(text)]
+    for values, refused in ((angles, True), (text[at + 2 : at + 26 : step], False)):
+        (tmp_path / "a.spec").write_text("\n".join([*rows[: at + 1], f"{count:6d}", *values, *rows[at + 26 :]]) + "\n")
+        if refused:
+            with pytest.raises(ReaderError, match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* is it in radians\?"):
+                readers.open(tmp_path / "a.spec")
+        else:
+            assert readers.open(tmp_path / "a.spec").sizes["dir"] == count
+
+
+@pytest.mark.parametrize("count", [24, 6, 4])
+def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
+    data = ww3(sea()).isel(direction=slice(0, 24, 24 // count))
+    with pytest.raises(ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"):
+        readers.netcdf.tidy(with_values(data, "direction", np.radians))
+    with pytest.raises(ReaderError, match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees"):
+        readers.netcdf.tidy(with_attrs(data, "direction", units="radian"))
+
+
+@pytest.mark.parametrize("name", ["efth", "frequency", "direction"])
+@pytest.mark.parametrize("engine", ["scipy", "h5netcdf"])
+@pytest.mark.parametrize(
+    ("attrs", "message"),
+    [
+        ({"scale_factor": 0.0}, "scale_factor must be a number between 1e-30 and 1e"),
+        ({"scale_factor": 1e-40}, "scale_factor must be a number between"),
+        ({"scale_factor": -1.0}, "scale_factor must be a number between"),
+        ({"scale_factor": np.nan}, "scale_factor must be a number between"),
+        ({"add_offset": np.inf}, "add_offset must be a number of a size up to"),
+    ],
+)
+def test_absurd_packing(name, engine, attrs, message, tmp_path):
+    """A zero makes a flat sea of any file, a negative one turns it round."""
+    with_attrs(ww3(sea()), name, **attrs).to_netcdf(tmp_path / "a.nc", engine=engine)
+    with pytest.raises(ReaderError, match=rf"a\.nc: variable {name}: attribute {message}"):
+        readers.open(tmp_path / "a.nc")

@@ -6,7 +6,7 @@ import re
 
 import pytest
 from test_fuzz_readers import bent, require_dataset_or_refusal
-from written import DATA, sea
+from written import sea
 from written_more import (
     ndbc_netcdf,
     write_archive,
@@ -111,14 +111,14 @@ def lines_changed(text, *changes):
         ("station.spec", (" 45.00-130.00      30.0   5.00 270.0   0.10  90.0", " 45.00"), "latitude, longitude and depth"),
         ("station.spec", (r"^'P0        '(.*)\n(.*\n)", r"'P0        '\1\n x\n\2"), "must hold numbers only, got 'x'"),
         ("station.spec", (r"(20200101 060000\n)'P0", r"\1'Q0"), "must be 'P0' at all times, got 'Q0'"),
-        ("swan.sp1", ("^VaDens  variance", "VaDens\nm2/Hz/degr\n"), "the unit must be m2/Hz of VaDens"),
+        ("swan.sp1", ("^VaDens  variance", "VaDens\nm2/Hz/degr\n"), "VaDens must be in m2/Hz"),
         ("swan.sp1", ("^DSPRDEGR", "DSPRPOWER"), "must be one of VaDens, EnDens, NDIR, CDIR, DSPRDEGR, got 'DSPRPOWER'"),
         ("swan.sp1", ("^LOCATION     1", "LOCATION     7"), "must be LOCATION 1 or NODATA"),
         ("swan.sp1", ("^NDIR\ndegr", "NDIR\nrad"), "the unit of NDIR must be degr"),
-        ("swan.sp1", (r"(LOCATION     1\n  \S+  \S+)  \S+", r"\1"), "must hold 3 numbers, one a quantity, got 2"),
+        ("swan.sp1", (r"(LOCATION     1\n  \S+  \S+)  \S+", r"\1"), "must hold 3 numbers, got 2"),
         ("swan.sp1", (r"(LOCATION     1\n  \S+  \S+)  \S+", r"\1  200.0"), "DSPRDEGR must be between 0 and 180"),
-        ("swan.sp1", ("^NDIR\ndegr\n -0.9990E.03", "VaDens\nm2/Hz\n -99"), "must be one density, one direction at most"),
-        ("spotter.csv", ("varianceDensity_29", "density_29"), r"as many varianceDensity_i as f_i \(30\), got 29"),
+        ("swan.sp1", ("^NDIR\ndegr\n -0.9990E.03", "VaDens\nm2/Hz\n -99"), "must be one density and one direction at most"),
+        ("spotter.csv", ("varianceDensity_29", "density_29"), "as many varianceDensity_i as f_i, got 29"),
         ("spotter.csv", ("Epoch Time", "Epoch"), "known format"),
         ("spotter.csv", ("df_3 ", "df_2 "), "must name each column once, got 'df_2' twice"),
         ("spotter.csv", ("^1577836800,", "1577836800,1,"), "line 2 must hold 274 cells, as line 1 does, got 275"),
@@ -127,19 +127,19 @@ def lines_changed(text, *changes):
         ("datawell.spt", (r"(\n|^)10\r\n", "ten\n"), "known format"),
         ("datawell.spt", (r",(-?[0-9.]+)\r\n", "\r\n"), "must hold 6 numbers"),
         ("datawell.spt", (r"^(0\.0345\S*?,\S*?),[0-9.]+,", r"\1,999.0,"), "the direction must be between -360 and 720 degrees, got 999"),
-        ("triaxys.DIRSPEC", ("NUMBER OF FREQUENCIES = 40", "NUMBER OF FREQUENCIES = 41"), "must hold 41 rows, .* got 40: is it cut"),
+        ("triaxys.DIRSPEC", ("NUMBER OF FREQUENCIES = 40", "NUMBER OF FREQUENCIES = 41"), "must hold 41 rows, got 40: is it cut"),
         ("triaxys.DIRSPEC", ("NUMBER OF DIRECTIONS = 25", "NUMBER OF DIRECTIONS = 24"), "must be 24 directions 15 degrees apart"),
         ("triaxys.DIRSPEC", ("^TYPE\t= DIRECTIONAL", "TYPE\t= MEAN"), "must be a DIRECTIONAL or NON-DIRECTIONAL SPECTRUM"),
         ("triaxys.DIRSPEC", ("^DATE .*", "DATE = yesterday"), "DATE must be like 2018-01-31 21:00"),
         ("triaxys.DIRSPEC", ("^FREQUENCY SPACING .*\n", ""), r"must state FREQUENCY SPACING \(HZ\)"),
-        ("triaxys.DIRSPEC", (r"(\d\.\d+E-0\d)$", "9.9E+00"), "the columns of 0 and 360 degrees must be equal"),
-        ("triaxys.NONDIRSPEC", ("^0.100 ", "0.190 "), "row 11 must be at 0.1 Hz, by first frequency and spacing, got 0.19"),
+        ("triaxys.DIRSPEC", (r"(\d\.\d+E-0\d)$", "9.9E+00"), "columns 0 and 360 degrees must be equal"),
+        ("triaxys.NONDIRSPEC", ("^0.100 ", "0.190 "), "row 11 must be at 0.1 Hz, got 0.19"),
         ("octopus.oct", ("^nrecs,2", "nrecs,3"), "ends where a record must follow: the file is cut short"),
         ("octopus.oct", ("^nrecs,2", "nrecs,1"), "must be the end, after 1 records"),
         ("octopus.oct", ("^nrecs,2", "nrecs,many"), "must begin with a whole number"),
         ("octopus.oct", ("^ndir,24", "ndir,23"), "must begin with fSpec or den"),
         ("octopus.oct", ("^202001,'01", "202013,'01"), "must begin with a time like 201803,110000"),
-        ("octopus.oct", ("^22.5,", "23.5,"), "the directions must be equally spaced all round"),
+        ("octopus.oct", ("^22.5,", "23.5,"), "record 2 must have the axes of the first"),
         ("12345w2020.txt", ("^2020 01 01 00 00 ", "2020 01 01 00 00 -1 "), "must hold 30 values after the date, got 31"),
     ],
 )  # fmt: skip
@@ -154,7 +154,12 @@ def test_what_is_wrong_is_named(name, change, message, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "head", [b"'WAVEWATCH III SPECTRA' 5000 5000 5000 ''\n", b"TRIAXYS BUOY DATA REPORT\n", b"a\nnfreqs,9999\nndir,9999\nnrecs,9999\n"]
+    "head",
+    [
+        b"'WAVEWATCH III SPECTRA' 5000 5000 5000 ''\n",
+        b"TRIAXYS BUOY DATA REPORT\n",
+        b"a\nnfreqs,9999\nndir,9999\nnrecs,9999\n",
+    ],
 )
 def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
     """A header can declare any size, and a packed file hold any number of lines: refused within a few MB."""
@@ -164,10 +169,27 @@ def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
     tracemalloc.start()
     with pytest.raises(ReaderError, match="bomb"):
         readers.open(tmp_path / "bomb.gz")
-    assert tracemalloc.get_traced_memory()[1] < 400 * 2**20
+    assert tracemalloc.get_traced_memory()[1] < 64 * 2**20
     tracemalloc.stop()
 
 
-def test_samples_are_what_they_were():
-    """The fuzzing above is of written files; the real ones are read whole."""
-    assert readers.open(DATA / "octopusfile.oct").sizes["time"] == 2
+def test_names_out_of_a_broken_file_neither_fill_nor_steer_the_terminal(tmp_path):
+    """A variable's name may be anything: a bent length makes it half of the header, with all its zeros."""
+    raw = ndbc_netcdf(ORDER).rename(mean_wave_dir="\x1b[2J" + "x" * 900)
+    raw.to_netcdf(tmp_path / "buoy.nc", engine="scipy")
+    raw["spectral_wave_density"].attrs["units"] = "\x1b[2J" + "y" * 900
+    raw.to_netcdf(tmp_path / "other.nc", engine="scipy")
+    for name in ("buoy.nc", "other.nc"):
+        with pytest.raises(ReaderError) as caught:
+            readers.open(tmp_path / name)
+        assert str(caught.value).isprintable()
+        assert str(caught.value).startswith(name)
+        assert len(str(caught.value)) <= 480
+    assert readers.files.printable("a\tb\x1b[2J\u202e") == r"a\tb\x1b[2J\u202e"
+
+
+def test_octopus_directions_must_go_round(tmp_path):
+    path = write_octopus(tmp_path / "a.oct", ORDER)
+    path.write_text(path.read_text().replace("\n22.5,", "\n23.5,"))
+    with pytest.raises(ReaderError, match=r"a\.oct: the directions must be equally spaced all round"):
+        readers.open(path)

@@ -62,7 +62,7 @@ def test_partitions_are_counted_as_places(spectra):
 
 
 def test_energies_of_bins_are_no_densities(spectra):
-    with pytest.raises(ReaderError, match="must hold densities .* got energy in 'm2'"):
+    with pytest.raises(ReaderError, match=r"must hold densities .* got energy in 'm2'"):
         fo.Sea.from_spectrum(spectra.spec.to_energy())
 
 
@@ -70,7 +70,11 @@ def test_left_over_attributes_give_way(ws):
     """`oned` keeps the unit of directions, `read_ncswan` radians on degrees, `read_wwm` prose as units."""
     bare = readers.netcdf.tidy(ww3(sea())).drop_vars("freq_bnds", errors="ignore")
     want = readers.Realised.from_spectrum(bare).hs_source
-    for axis, unit in (("dir", "radians"), ("dir", "list of wave directions"), ("freq", "list of wave frequencies")):
+    for axis, unit in (
+        ("dir", "radians"),
+        ("dir", "list of wave directions"),
+        ("freq", "list of wave frequencies"),
+    ):
         data = bare.assign_coords({axis: (axis, bare[axis].values, {"units": unit})})
         made = readers.Realised.from_spectrum(data)
         assert made.hs_source == pytest.approx(want, rel=1e-12)
@@ -101,7 +105,10 @@ def test_negative_lobes_are_refused_or_clipped_as_the_user_says(ws):
     assert float(theirs.efth.min()) < -0.001
     with pytest.raises(ReaderError, match=r'got -[0-9.e-]+ at .*negative="clip"'):
         fo.Sea.from_spectrum(theirs)
-    with pytest.warns(SeaWarning, match=r"[0-9]+ negative densities .* were taken as 0, the energy of each frequency kept"):
+    with pytest.warns(
+        SeaWarning,
+        match=r"[0-9]+ negative densities .* were taken as 0, the energy of each frequency kept",
+    ):
         made = readers.Realised.from_spectrum(theirs, negative="clip")
     assert made.hs_source == pytest.approx(float(theirs.isel(time=0).efth.spec.hs(tail=False)), rel=1e-9)
     assert any("negative densities" in note for note in made.notes)

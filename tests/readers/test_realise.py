@@ -154,18 +154,70 @@ def test_times_and_places_are_picked():
             sea_from_spectrum(ww3(sea()), **which)
 
 
-def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round():
-    """The wavespectra package turns directions and leaves `sea_surface_wave_to_direction` on them: FROM all the same, with a warning."""
+@pytest.mark.parametrize("left", [{"globwave_name": "direction"}, {"axis": "Z"}])
+def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round(left):
+    """The wavespectra package turns directions and leaves WAVEWATCH's attributes on them: FROM all the same, with a warning."""
     data = by_hand(sea(toward=70.0).density[0])
     want = sea_from_spectrum(data).systems[0].direction
     assert want == pytest.approx(20.0, abs=0.5)
     data.efth.attrs["units"] = "m2 s degree-1"
-    data.dir.attrs["standard_name"] = "sea_surface_wave_to_direction"
-    with pytest.warns(SeaWarning, match="says that waves go to there"):
+    data.dir.attrs.update({"standard_name": "sea_surface_wave_to_direction"} | left)
+    with pytest.warns(SeaWarning, match="the attribute is left over"):
         assert sea_from_spectrum(data).systems[0].direction == want
     # Per radian it has not been through that package's hands: then the attribute is right.
     data.efth.attrs["units"] = "m2 s rad-1"
     assert abs(sea_from_spectrum(data).systems[0].direction - want) == pytest.approx(180.0)
+
+
+def test_an_explicit_direction_is_believed_and_said():
+    """In a layout whose documents say FROM, a file that says TO, and its unit, and that no package left it behind."""
+    data = by_hand(sea(toward=70.0).density[0])
+    want = sea_from_spectrum(data).systems[0].direction
+    data.efth.attrs["units"] = "m2 s degree-1"
+    data.dir.attrs["standard_name"] = "sea_surface_wave_to_direction"
+    with pytest.warns(SeaWarning, match="go to there, and so it is taken"):
+        made = Realised.from_spectrum(data)
+    assert abs(made.sea.systems[0].direction - want) == pytest.approx(180.0)
+    assert any("go to there, and so it is taken" in note for note in made.notes)
+    data.dir.attrs["standard_name"] = "sea_surface_wave_from_direction"
+    assert sea_from_spectrum(data).systems[0].direction == want
+
+
+def test_what_attributes_do_not_say_is_noted():
+    """Nothing is said in a dataset made by hand; all is in what WAVEWATCH writes."""
+    (note,) = (n for n in Realised.from_spectrum(by_hand(sea().density[0])).notes if "assumed" in n)
+    for word in ("densities per degree", "frequencies in Hz", "directions in degrees", "directions from which waves come"):
+        assert word in note
+    assert not any("assumed" in n for n in Realised.from_spectrum(ww3(sea())).notes)
+    by_number = Realised.from_spectrum(era5(sea()), site=1).notes
+    assert any("directions to which waves go" in n for n in by_number)
+    assert any("almost nothing" in n for n in by_number)
+
+
+def test_what_a_reader_masked_or_repaired_is_still_said_of_the_sea(tmp_path):
+    path = write_ndbc(tmp_path, r1=1.05)
+    made = Realised.from_spectrum(readers.open(path))
+    limited = readers.open(path).attrs["limited_moments"]
+    assert limited > 0
+    assert f"{limited} pairs of directional moments that no sea can have were drawn in" in made.notes
+    assert "no depth is known: the water is taken as deep" in made.notes
+    assert "the depth is the measurement's own, 30 m" in Realised.from_spectrum(ww3(sea())).notes
+    assert not any("depth" in note for note in Realised.from_spectrum(ww3(sea()), depth=20.0).notes)
+
+
+def test_half_a_circle_is_closed_with_nothing_and_said():
+    half = np.arange(0.0, 190.0, 10.0)
+    density = np.tile(np.sin(np.radians(half)) + 1e-3, (3, 1))
+    made = Realised.from_spectrum(by_hand(density, frequency=np.array([0.05, 0.1, 0.15]), toward=half))
+    assert "directions leave out 160 degrees of the circle: nothing comes from there" in made.notes
+
+
+def test_frequencies_that_may_be_in_radians_are_doubted():
+    """0.22 to 3.5, as rad/s under the name of Hz; a buoy's do not reach so far, nor does a tank's begin so low as a buoy's."""
+    data = by_hand(1e-3 * sea().density[0], frequency=2.0 * np.pi * FREQUENCY)
+    with pytest.warns(SeaWarning, match=r"frequencies go from 0\.217 to 3\.44 Hz, which is rare at sea: are they in rad/s\?"):
+        made = Realised.from_spectrum(data)
+    assert any("rad/s" in note for note in made.notes)
 
 
 def test_a_buoys_sea_has_its_spread(tmp_path):
@@ -186,7 +238,7 @@ def test_a_height_that_no_sea_has_is_refused():
 @pytest.mark.parametrize(
     ("what", "message"),
     [
-        (None, "must be an xarray.Dataset, or .*, got NoneType"),
+        (None, "must be an xarray.Dataset or DataArray, got NoneType"),
         (xr.DataArray([1.0]), "must have a frequency dimension"),
         (xr.Dataset({"hs": ((), 1.0)}), "must hold one wave spectrum .* got hs"),
         (xr.Dataset({"efth": (("x", "dir"), np.ones((3, 4)))}), "must have a frequency dimension"),

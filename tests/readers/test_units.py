@@ -104,8 +104,17 @@ def test_a_sea_of_any_spelling(unit):
     s = 0.3 * (f / 0.1) ** -5 * np.exp(-1.25 * (f / 0.1) ** -4)
     name = "sea_surface_wave_variance_spectral_density"
     data = xr.Dataset(
-        {"waveEnergyDensity": (("waveTime", "waveFrequency"), s[None], {"units": unit, "standard_name": name})},
-        {"waveFrequency": ("waveFrequency", f, {"units": "hertz"}), "waveTime": [np.datetime64("2020-01-01", "ns")]},
+        {
+            "waveEnergyDensity": (
+                ("waveTime", "waveFrequency"),
+                s[None],
+                {"units": unit, "standard_name": name},
+            )
+        },
+        {
+            "waveFrequency": ("waveFrequency", f, {"units": "hertz"}),
+            "waveTime": [np.datetime64("2020-01-01", "ns")],
+        },
     )
     made = fo.Sea.from_spectrum(data, direction=0.0, spreading=fo.CosineSquared())
     assert made.hs == pytest.approx(4.0 * np.sqrt(s.sum() * 0.01), rel=1e-6)

@@ -58,11 +58,23 @@ def write_swan_1d(path: Path, order: Order, *, cartesian: bool = False, energy: 
     mean = (270.0 - mean) % 360.0 if cartesian else mean
     scale = 1025.0 * 9.81 if energy else 1.0
     out = ["SWAN   1     Swan standard spectral file, version", "$ a comment", "TIME", " 1   code"]
-    out += ["LONLAT", " 2  number", " -30.0 45.0", " -31.0 46.0", "AFREQ   absolute", f" {FREQUENCY.size}"]
+    out += [
+        "LONLAT",
+        " 2  number",
+        " -30.0 45.0",
+        " -31.0 46.0",
+        "AFREQ   absolute",
+        f" {FREQUENCY.size}",
+    ]
     out += [f" {f:.9f}" for f in FREQUENCY]
     out += ["QUANT", " 3  number"]
     out += ["EnDens", "J/m2/Hz"] if energy else ["VaDens  variance", "m2/Hz  unit"]
-    out += ["  -0.9900E+02  exception value", "CDIR" if cartesian else "NDIR", "degr", " -0.9990E+03"]
+    out += [
+        "  -0.9900E+02  exception value",
+        "CDIR" if cartesian else "NDIR",
+        "degr",
+        " -0.9990E+03",
+    ]
     out += ["DSPRDEGR  spreading", "degr", " -0.9000E+01"]
     for i, stamp in enumerate(stamps()):
         out.append(stamp.replace("-", "").replace(":", "").replace("T", ".") + "   date and time")
@@ -112,7 +124,15 @@ def write_datawell(path: Path, order: Order) -> Path:
     hs = 400.0 * np.sqrt(np.sum(s * np.gradient(FREQUENCY)))
     head = [10, f"{hs:.1f}", 4.5, f"{s.max():.9E}", 25.0, 19.6, 7, -0.17, 0.37, 0.26, 213.8, 68.2]
     lines = [str(v) for v in head]
-    for f, e, m, d, g, k in zip(FREQUENCY, s / s.max(), np.degrees(mean) % 360.0, np.degrees(sigma), skewness, kurtosis, strict=True):
+    for f, e, m, d, g, k in zip(
+        FREQUENCY,
+        s / s.max(),
+        np.degrees(mean) % 360.0,
+        np.degrees(sigma),
+        skewness,
+        kurtosis,
+        strict=True,
+    ):
         lines.append(f"{f:.9f},{e:.9E},{m:.6f},{d:.6f},{g:.6f},{k:.6f}")
     path.write_text("\r\n".join(lines) + "\r\n")
     return path
@@ -121,13 +141,23 @@ def write_datawell(path: Path, order: Order) -> Path:
 def write_triaxys(path: Path, order: Order, *, directed: bool = True) -> Path:
     """A table on equal frequencies, from 0 Hz: `order` at 0.01 Hz steps, drawn in straight lines."""
     f = 0.01 * np.arange(40)
-    table = np.stack([np.interp(f, FREQUENCY, column, left=0.0, right=0.0) for column in order.density[0].T], axis=1)
+    table = np.stack(
+        [np.interp(f, FREQUENCY, column, left=0.0, right=0.0) for column in order.density[0].T],
+        axis=1,
+    )
     bearing = np.arange(FROM.size + 1) * STEP
     at = [int(np.argmin(np.abs((FROM - b - 7.5 + 180.0) % 360.0 - 180.0))) for b in bearing]
     table = table[:, at]  # turned by 7.5 degrees, so that it begins at north
     kind = "DIRECTIONAL SPECTRUM" if directed else "NON-DIRECTIONAL SPECTRUM"
-    lines = ["TRIAXYS BUOY DATA REPORT - TAS01970 - TAB01401 - 4830.0000N13030.0000W", "VERSION = WV"]
-    lines += [f"TYPE\t= {kind}", "DATE    = 2020-01-01 00:00(UTC)", f"NUMBER OF FREQUENCIES = {f.size}"]
+    lines = [
+        "TRIAXYS BUOY DATA REPORT - TAS01970 - TAB01401 - 4830.0000N13030.0000W",
+        "VERSION = WV",
+    ]
+    lines += [
+        f"TYPE\t= {kind}",
+        "DATE    = 2020-01-01 00:00(UTC)",
+        f"NUMBER OF FREQUENCIES = {f.size}",
+    ]
     lines += ["INITIAL FREQUENCY (Hz) = 0.000", "FREQUENCY SPACING (Hz) = 0.010"]
     if directed:
         lines += [f"NUMBER OF DIRECTIONS = {bearing.size}", "DIRECTION SPACING (DEG) = 15"]
@@ -144,7 +174,12 @@ def write_octopus(path: Path, order: Order) -> Path:
     """Energies of bins of direction FROM and frequency, bands half way to the neighbours."""
     width = np.diff(EDGES)
     came = np.argsort(FROM)
-    lines = ["Forecast", f"nfreqs,{FREQUENCY.size}", f"ndir,{FROM.size}", f"nrecs,{len(order.density)}"]
+    lines = [
+        "Forecast",
+        f"nfreqs,{FREQUENCY.size}",
+        f"ndir,{FROM.size}",
+        f"nrecs,{len(order.density)}",
+    ]
     lines += ["Latitude, 45.0", "Longitude, -30.0", "Depth,30.0"]
     for stamp, density in zip(stamps(), order.density, strict=True):
         energy = density * width[:, None] * STEP
@@ -213,7 +248,11 @@ def cdip(order: Order) -> xr.Dataset:
     name = "sea_surface_wave_variance_spectral_density"
     return xr.Dataset(
         {
-            "waveEnergyDensity": (dims, undirected(order), {"units": "meter^2 second", "standard_name": name}),
+            "waveEnergyDensity": (
+                dims,
+                undirected(order),
+                {"units": "meter^2 second", "standard_name": name},
+            ),
             "waveMeanDirection": (dims, np.degrees(np.angle(c1)) % 360.0, {"units": "degreeT"}),
             "waveA1Value": (dims, c1.real),
             "waveB1Value": (dims, c1.imag),
