@@ -84,10 +84,21 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     if folder:
         path = _only_set(path)
     files.require_file(path)
+    try:
+        return layout.announce(_read(path, site, bins))
+    except ReaderError as error:
+        text = files.printable(str(error))
+        if text == str(error):
+            raise
+        raise ReaderError(text) from error
+
+
+def _read(path: Path, site: int, bins: int) -> "Dataset":
+    """Return what the first reader that accepts a file makes of it."""
     head = Head.of(path)
     for reader in FORMATS:
         if reader.sniff(head):
-            return layout.announce(_ended(reader.files(path), reader.read(path, site, bins)))
+            return _ended(reader.files(path), reader.read(path, site, bins))
     if (what := near_misses.name(head)) is not None:
         raise ReaderError(f"{path.name} {what}")
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so

@@ -19,6 +19,9 @@ MAX_BYTES: Final = 256 * 2**20
 MAX_LINE: Final = 2**20
 """The longest line: 65 000 directions of a SWAN row."""
 
+MAX_MESSAGE: Final = 480
+"""The longest error message, in characters."""
+
 _GZIP = b"\x1f\x8b"
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 
@@ -160,6 +163,17 @@ def has_final_newline(path: Path) -> bool:
     with refusing(path.name), opened(path) as file:
         file.seek(-1, io.SEEK_END)
         return file.read(1) == b"\n"
+
+
+def printable(text: str) -> str:
+    """
+    Return an error message that a terminal can show, whatever names a broken file holds.
+
+    Control characters, which could also steer the terminal, are written as escapes, and what is
+    longer than `MAX_MESSAGE` is cut.
+    """
+    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return shown if len(shown) <= MAX_MESSAGE else shown[: MAX_MESSAGE - 4] + " ..."
 
 
 def number(where: str, token: str) -> float:

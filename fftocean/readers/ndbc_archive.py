@@ -13,6 +13,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
 from fftocean.readers import ndbc
@@ -64,6 +66,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
         )
     spectrum, *moments = (ndbc._table(other, _COLUMNS[kind]) for kind, other in found.items() if other is not None)
     for table in moments[2:]:
+        largest = float(np.max(table.values, initial=0.0, where=~np.isnan(table.values)))
+        if 0.0 < largest <= 1.0:  # no sea is as broad as that at all frequencies
+            raise ReaderError(f"{table.name} must hold r in hundredths, got none above {largest:g}")
         table.values[:] *= 0.01
     return ndbc._directed(spectrum, moments, bins, "NDBC historical text with directions")
 

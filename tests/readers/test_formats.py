@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from written import DATA, FREQUENCY, TIMES, TO, sea, write_ndbc, ww3
 from written_more import (
+    EDGES,
     FROM,
     cdip,
     fourier,
@@ -83,6 +84,7 @@ def test_octopus(tmp_path):
     data = readers.open(write_octopus(tmp_path / "a.oct", ORDER))
     came = np.argsort(FROM)
     assert data.efth.values == pytest.approx(ORDER.density[:, :, came], rel=1e-4, abs=1e-9)
+    assert data.freq_bnds.values == pytest.approx(np.stack([EDGES[:-1], EDGES[1:]], axis=1), rel=1e-8)
     assert data.dir.values == pytest.approx(FROM[came])
     assert (float(data.dpt[0]), float(data.lat), float(data.lon)) == (30.0, 45.0, -30.0)
     assert "height_note" not in data.attrs
@@ -180,6 +182,17 @@ def test_ndbc_archive_given_by_its_folder_or_packed(tmp_path):
         shutil.copyfile(other, tmp_path / other.name.replace("12345", "54321"))
     with pytest.raises(ReaderError, match=r"one NDBC buoy .* got those of 12345w2020.txt, 54321w2020.txt"):
         readers.open(tmp_path)
+
+
+def test_an_archive_that_is_not_in_hundredths_is_refused(tmp_path):
+    """A hundredth of the coherences would spread the sea all round, and look like a sea."""
+    path = write_archive(tmp_path, ORDER)
+    other = tmp_path / "12345j2020.txt"
+    head, *rows = other.read_text().splitlines()
+    rows = [" ".join(row.split()[:5] + [f"{float(v) / 100.0:.4f}" for v in row.split()[5:]]) for row in rows]
+    other.write_text("\n".join([head, *rows]) + "\n")
+    with pytest.raises(ReaderError, match=r"12345j2020.txt must hold r in hundredths, got none above 0.9"):
+        readers.open(path)
 
 
 def test_missing_files_of_an_archive_set_are_named(tmp_path):
@@ -352,7 +365,7 @@ def test_triaxys_of_a_buoy(wavespectra, tmp_path):
 
 @pytest.mark.filterwarnings("ignore")
 def test_wavewatch_text_of_a_model(wavespectra, tmp_path):
-    """Theirs takes the first rounded step of direction, 10.03 degrees, for the width of all: 0.15 % of Hs."""
+    """Theirs takes the first rounded step, 9.74 degrees, for the width of all: 1.3 % less Hs."""
     ours = readers.open(DATA / "ww3station.spec.gz")
     theirs = wavespectra.read_ww3_station(str(unpacked("ww3station.spec", tmp_path)))
     assert np.diff(ours.dir.values) == pytest.approx(10.0, abs=1e-4)

@@ -173,6 +173,21 @@ def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
     tracemalloc.stop()
 
 
+def test_names_out_of_a_broken_file_neither_fill_nor_steer_the_terminal(tmp_path):
+    """A variable's name may be anything: a bent length makes it half of the header, with all its zeros."""
+    raw = ndbc_netcdf(ORDER).rename(mean_wave_dir="\x1b[2J" + "x" * 900)
+    raw.to_netcdf(tmp_path / "buoy.nc", engine="scipy")
+    raw["spectral_wave_density"].attrs["units"] = "\x1b[2J" + "y" * 900
+    raw.to_netcdf(tmp_path / "other.nc", engine="scipy")
+    for name in ("buoy.nc", "other.nc"):
+        with pytest.raises(ReaderError) as caught:
+            readers.open(tmp_path / name)
+        assert str(caught.value).isprintable()
+        assert str(caught.value).startswith(name)
+        assert len(str(caught.value)) <= 480
+    assert readers.files.printable("a\tb\x1b[2J\u202e") == r"a\tb\x1b[2J\u202e"
+
+
 def test_octopus_directions_must_go_round(tmp_path):
     path = write_octopus(tmp_path / "a.oct", ORDER)
     path.write_text(path.read_text().replace("\n22.5,", "\n23.5,"))
