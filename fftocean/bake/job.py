@@ -172,7 +172,7 @@ class Job:
         return Job(settings, self.wind or _brings_wind(changes, self.source), self.systems, self.source)
 
     def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
-        """The sea that is ordered; `measured` as `measurements` returns them, where they are at hand."""
+        """Return the sea that is specified; `measured` as `measurements` returns them, where they are at hand."""
         s, depth = self.settings, self.settings["sea.depth"]
         waves: list[WaveSystem] = []
         try:

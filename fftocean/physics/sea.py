@@ -195,8 +195,8 @@ class Sea:
         """
         The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the wavespectra package.
 
-        Linear between its frequencies and directions, with exactly the source's own variance. `readers.Realised.from_spectrum` has
-        the same arguments, their meaning, and reports the factor that this took.
+        Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own bands.
+        `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was masked, repaired or assumed.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.

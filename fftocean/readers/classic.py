@@ -80,32 +80,32 @@ class _Header:
         return data
 
     def whole(self) -> int:
-        """A whole number of 4 bytes."""
+        """Return a whole number of 4 bytes."""
         return int(struct.unpack(">I", self._read(4))[0])
 
     def whole_up_to(self, most: int, where: str) -> int:
-        """A count."""
+        """Return a count."""
         count = self.whole()
         if count > most:
             raise ReaderError(f"{where} must have at most {most} dimensions, variables or attributes, got {count}")
         return count
 
     def items(self, tag: int) -> int:
-        """The head of a list: how many items it has."""
+        """Return how many items a list has."""
         found, count = self.whole(), self.whole_up_to(MOST_ITEMS, self.name)
         if found not in (0, tag) or (found == 0 and count):
             raise ReaderError(f"{self.name} cannot be read as netCDF: a list of its header has the tag {found}, not {tag}")
         return count
 
     def text(self) -> str:
-        """A name."""
+        """Return a name."""
         length = self.whole()
         if length > 4096:
             raise ReaderError(f"{self.name} cannot be read as netCDF: a name must be at most 4096 bytes long, got {length}")
         return self._read(length + -length % 4)[:length].decode("utf-8", "replace")
 
     def bytes_of_type(self, where: str) -> int:
-        """The size of one value of a type."""
+        """Return the size of one value of a type."""
         code = self.whole()
         if code not in _SIZES:
             raise ReaderError(f"{where} must be of a type between 1 and 6, got {code}")

@@ -69,7 +69,7 @@ def opened(path: Path) -> Iterator[IO[bytes]]:
 
 @contextmanager
 def unpacked(path: Path) -> Iterator[IO[bytes]]:
-    """The file's bytes as a stream, through gzip where they begin as gzip does (the name is not asked)."""
+    """Open the file's bytes as a stream, through gzip where they begin as gzip does (the name is not asked)."""
     with refusing(path.name), opened(path) as raw:
         if raw.read(2) == _GZIP:
             raw.seek(0)
@@ -81,7 +81,7 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
 
 
 def is_packed(path: Path) -> bool:
-    """Whether a file is gzip."""
+    """Return whether a file is gzip."""
     with refusing(path.name), opened(path) as raw:
         return raw.read(2) == _GZIP
 
@@ -157,7 +157,7 @@ def _require_whole_number(where: str, line: str) -> None:
 
 
 def has_final_newline(path: Path) -> bool:
-    """Tell a text file that ends with a newline; one that is packed is whole, as its own check sums say."""
+    """Return whether a text file ends with a newline; a packed one is whole, as its own check sums say."""
     if is_packed(path):
         return True
     with refusing(path.name), opened(path) as file:

@@ -157,7 +157,7 @@ def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _names(group: Any) -> list[bytes]:
-    """The names of a group's links, at most as many as may be."""
+    """Return the names of a group's links, at most as many as may be."""
     found: list[bytes] = []
 
     def note(key: bytes) -> bool | None:
@@ -200,7 +200,7 @@ def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
 
 
 def _is_numeric(h5py: Any, item: Any) -> bool:
-    """Whether a variable holds plain whole or floating-point numbers."""
+    """Return whether a variable holds plain whole or floating-point numbers."""
     return item.get_type().get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT)
 
 

@@ -368,7 +368,7 @@ def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, sour
 
 
 def _hertz(where: str, variable: "DataArray", unit: str) -> Real:
-    """Frequencies in Hz; bounds without a unit have that of their axis, as CF says."""
+    """Return frequencies in Hz; bounds without a unit have that of their axis, as CF says."""
     said = variable.attrs.get("units", unit)
     parsed = units.parse(said)
     if parsed is None or not parsed.is_(s=-1):
