@@ -179,8 +179,8 @@ class Synthesis:
         size = magnitudes(amplitudes)
         pairs = rows_of_the_table()
         # The transform's rounding errors are shared out between a pair: a power of two makes them equals. A field smaller still beside
-        # its partner (in a sea nearly along one axis) gets errors of 1e-31 of the partner in single precision.
-        reach = 80 if self._dtype == np.float32 else 400
+        # its partner (in a sea nearly along one axis) gets errors of 1e-34 of the partner in single precision.
+        reach = 90 if self._dtype == np.float32 else 500
         self._weights: dict[tuple[str, ...], float] = {
             pair: balance(size[pair[0]], size[pair[1]], reach) for pair in pairs if len(pair) == 2
         }
