@@ -251,6 +251,7 @@ def test_all_given_waves_have_finite_fields_that_are_right(n, size, depth, waves
         try:
             ocean = fo.Ocean.from_modes(held, n=n, size=size, depth=depth, dtype=dtype)
         except fo.ParameterError as error:
-            assert "waves must keep" in str(error)
+            if "waves must keep" not in str(error):
+                raise
         else:
             fields_against_the_direct_sum(ocean)
