@@ -19,7 +19,7 @@ from fftocean.arrays import Real
 from fftocean.bake.files import write_whole
 from fftocean.cells import Cells
 from fftocean.constants import GRAVITY
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, how_to_install
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
 from fftocean.physics.panels import gauss, split
@@ -178,7 +178,8 @@ def style() -> AbstractContextManager[None]:
     try:
         from matplotlib import style
     except ImportError as error:
-        raise ParameterError(f"plots need matplotlib: pip install 'fftocean[plot]' ({error})") from error
+        hint = how_to_install("plot")
+        raise ParameterError(f"plots need matplotlib: {hint} ({error})") from error
     context: AbstractContextManager[None] = style.context(["default", _STYLE])
     return context
 

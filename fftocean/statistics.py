@@ -9,13 +9,16 @@ from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.cells import WHOLE, Band, Cells
+from fftocean.errors import ParameterError, described
 from fftocean.grid import Grid
-from fftocean.limits import LOOP
+from fftocean.kernels import interpolate
+from fftocean.limits import FRAMES, LOOP
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
 from fftocean.physics.panels import direction_panels, energetic_frequencies, frequency_panels, gauss, parts_of
 from fftocean.physics.sea import Sea
 from fftocean.physics.spreading import LongCrested
+from fftocean.products import Folding, folding_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +64,18 @@ class Statistics:
     sampling_error: float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
     loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
+    folding: Folding  # of the water at its choppiness, in the moments that were looked at
+
+    def __repr__(self) -> str:
+        specified = "" if self.ordered is None else f" of {self.ordered.hs:.3g} m specified"
+        return (
+            f"Statistics(hs={self.hs:.3g} m{specified}, tp={self.tp:.3g} s, mean_direction={self.mean_direction:.4g}, "
+            f"spread={self.spread:.3g} degrees, folded={self.folding.share:.2g}, "
+            f"largest_choppiness={self.folding.largest_choppiness:.3g})"
+        )
 
 
-def measure(ocean: Ocean | Cascade) -> Statistics:
+def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     """
     Measure what an ocean delivers, or all tiles of a cascade together.
 
@@ -72,12 +84,18 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
 
     Args:
         ocean: any ocean, or a cascade: its tiles have different waves, so their energies add up.
+        frames: in how many moments to look for folds: equally spaced over the loop, or over ten peak periods.
 
     Returns:
         `Statistics`.
 
+    Raises:
+        ParameterError: neither an ocean nor a cascade, or a number of frames out of range.
+
     Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as Young 1995.
     """
+    if not isinstance(ocean, (Ocean, Cascade)):
+        raise ParameterError(f"what is measured must be an Ocean or a Cascade, got {described(ocean)}")
     tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
     ahead, astern, omega, theta = (np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True))
     energy = np.concatenate([ahead, astern])
@@ -87,10 +105,11 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
     below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
     above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
     sampling, snapshot = _scatter([tile.amplitudes for tile in tiles])
+    tp = _peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega]))
     return Statistics(
         m0=m0,
         hs=4.0 * math.sqrt(m0),
-        tp=_peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega])),
+        tp=tp,
         mean_direction=direction,
         spread=spread,
         ordered=None if sea is None else ordered(sea),
@@ -100,7 +119,55 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
         sampling_error=sampling,
         snapshot_error=snapshot,
         loop=None if len(tiles) > 1 or ocean.loop is None else loop_error(first.amplitudes, ocean.loop),
+        folding=_folding(tiles, FRAMES.check_whole("frames", frames), 10.0 * tp),
     )
+
+
+_STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
+_PLACES = 2**16
+"""The places at which the water of several tiles is added up to look for folds."""
+
+
+def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
+    """
+    Return the folds of the water of all tiles together, in `count` moments over the loop, or over `span` [s].
+
+    One tile is looked at in all its samples. Several are added up at places of the finest one's samples, drawn over the width of
+    the largest: the others, whose waves are longer, are interpolated between their own samples.
+    """
+    period = tiles[0].loop if len({tile.loop for tile in tiles}) == 1 else None
+    places = _places(tiles)
+    total: Folding | None = None
+    for j in range(count):
+        if period is None:
+            frames = [tile.frame(j * span / count, _STRETCHES) for tile in tiles]
+        else:
+            frames = [tile.loop_frame(j, count, _STRETCHES) for tile in tiles]
+        if len(frames) == 1:
+            xx, xy, yy = (frames[0][name] for name in _STRETCHES)
+        else:
+            summed = np.zeros((_PLACES, 3))
+            for frame, (u, v) in zip(frames, places, strict=True):
+                texels = np.stack([frame[name] for name in _STRETCHES], axis=-1)
+                interpolate.bilinear(texels, u, v, summed)
+            xx, xy, yy = (np.ascontiguousarray(column)[None] for column in summed.T)
+        one = folding_of(xx, xy, yy, tiles[0].choppiness)
+        total = one if total is None else total + one
+    assert total is not None  # there is one moment at least
+    return total
+
+
+def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
+    """The same places in samples of each tile: of the finest, whole numbers."""
+    if len(tiles) == 1:
+        return []
+    large, fine = tiles[0].grid, tiles[-1].grid
+    draw = np.random.default_rng(0)  # where to look, which has no part in the sea
+    x = np.floor(draw.uniform(0.0, large.lx * fine.nx / fine.lx, _PLACES)) * (fine.lx / fine.nx)
+    y = np.floor(draw.uniform(0.0, large.ly * fine.ny / fine.ly, _PLACES)) * (fine.ly / fine.ny)
+    grids = [tile.grid for tile in tiles]
+    scaled = [(x * (g.nx / g.lx) % g.nx, y * (g.ny / g.ly) % g.ny) for g in grids[:-1]]
+    return [*scaled, (np.rint(x * (fine.nx / fine.lx)) % fine.nx, np.rint(y * (fine.ny / fine.ly)) % fine.ny)]
 
 
 def ordered(sea: Sea) -> SeaState:

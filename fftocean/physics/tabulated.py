@@ -63,6 +63,10 @@ class TabulatedSpreading:
         """The frequencies of the table [rad/s]."""
         return tuple((2.0 * np.pi * self._f).tolist())
 
+    def __repr__(self) -> str:
+        f = self.frequency
+        return f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, {len(self.direction)} directions)"
+
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `omega` and `theta`, which broadcast, [1/rad]."""
         f, angle = np.broadcast_arrays(np.asarray(omega, dtype=np.float64) / (2.0 * np.pi), np.asarray(theta, dtype=np.float64))
