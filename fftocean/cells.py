@@ -245,7 +245,7 @@ class Cells:
             )  # fmt: skip
             cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), band)
             c, s = np.cos(theta), np.sin(theta)
-            with np.errstate(divide="ignore"):
+            with np.errstate(divide="ignore", over="ignore"):
                 ends = low_x[cell] / c, high_x[cell] / c, low_y[cell] / s, high_y[cell] / s
             first = np.maximum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
             last = np.minimum(np.maximum(ends[0], ends[1]), np.maximum(ends[2], ends[3]))
