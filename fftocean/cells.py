@@ -48,10 +48,13 @@ QUADRANTS = ((1, 1), (1, -1), (-1, -1), (-1, 1))
 TOLERANCE = 1e-3
 """Of a sea's variance: by how much the cells and the continuous integral may differ."""
 
-_ACROSS = (0.16, 0.8, 1.6, 2.6)  # size of a cell, in quarters of a panel, up to which 1, 2, 3, 4 points a side give 1e-3 to 1e-4
+_POINTS = (1, 2, 3, 4, 6)  # Gauss points a side ...
+_ACROSS = (0.16, 0.8, 1.6, 2.6, 4.5)  # ... that give 1e-3 to 1e-4 of a bell's top in cells up to so many quarters of a panel
 _TAIL = 0.22  # the scale on which k^-4 changes, as a share of k: 1/sqrt(20)
 _BLOCK = 2**15  # evaluations of a density at a time: what stays in cache
 _CELLS = 256  # cells covered by rays at a time
+_RAYS = 2**13  # rays at a time
+_SHORT = 0.35  # of a panel: a piece for which 4 points do, to 1e-6
 
 
 class Cells:
@@ -116,7 +119,7 @@ class Cells:
         total = 0.0
         for part, theta, weight, edge in self.rays(half_x, half_y, band):
             last = np.maximum(np.minimum(np.minimum(edge, band[1]), part.k[-1]), band[0])
-            total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last, 8)))
+            total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last)))
         return total
 
     def rays(self, half_x: float, half_y: float, band: Band = WHOLE) -> Iterator[tuple["Part", Real, Real, Real]]:
@@ -195,9 +198,9 @@ class Cells:
             angular, broken = part.angularly(theta, half)
             rays = rough | broken | (np.maximum(radial, angular) > _ACROSS[-1])
             across = np.maximum(radial, np.max(np.where(rays, 0.0, angular), axis=0))
-            levels = np.where(np.all(rays, axis=0), 0, 1 + np.searchsorted(_ACROSS[:-1], across))
-            for p in (1, 2, 3, 4):
-                cells = np.flatnonzero(levels == p)
+            levels = np.where(np.all(rays, axis=0), len(_POINTS), np.searchsorted(_ACROSS[:-1], across))
+            for level, p in enumerate(_POINTS):
+                cells = np.flatnonzero(levels == level)
                 at_a_time = max(1, _BLOCK // (4 * p * p))
                 for start in range(0, cells.size, at_a_time):
                     some = cells[start : start + at_a_time]
@@ -242,15 +245,14 @@ class Cells:
             )  # fmt: skip
             cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), band)
             c, s = np.cos(theta), np.sin(theta)
-            with np.errstate(divide="ignore"):
+            with np.errstate(divide="ignore", over="ignore"):
                 ends = low_x[cell] / c, high_x[cell] / c, low_y[cell] / s, high_y[cell] / s
             first = np.maximum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
             last = np.minimum(np.maximum(ends[0], ends[1]), np.maximum(ends[2], ends[3]))
             first, last = np.maximum(first, band[0]), np.minimum(np.minimum(last, band[1]), part.k[-1])
-            for order, these in ((8, last > 1.15 * first), (4, last <= 1.15 * first)):
-                chosen = np.flatnonzero(these & (last > first))
-                energy = part.along_rays(theta[chosen], weight[chosen], first[chosen], last[chosen], order)
-                out[some] += np.bincount(cell[chosen], energy, low_x.size)
+            chosen = np.flatnonzero(last > first)
+            energy = part.along_rays(theta[chosen], weight[chosen], first[chosen], last[chosen])
+            out[some] = np.bincount(cell[chosen], energy, low_x.size)
         return out
 
     def _rays(self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band) -> tuple[Index, Real, Real]:
@@ -266,23 +268,29 @@ class Cells:
             from_heading = np.remainder(part.direction - heading + np.pi, 2.0 * np.pi) - np.pi
             cell = np.flatnonzero((corners[0] <= from_heading) & (from_heading <= corners[3]))
             return cell, np.full(cell.size, part.direction), np.ones(cell.size)
+        nearest = np.hypot(*(np.maximum(np.maximum(low, -high), 0.0) for low, high in ((low_x, high_x), (low_y, high_y))))
+        farthest = np.hypot(np.maximum(-low_x, high_x), np.maximum(-low_y, high_y))
         breaks = [*corners]
-        for edge in band:  # where the circle |k| = edge meets the lines through the sides
-            if 0.0 < edge < math.inf:
-                for side in (low_x, high_x):
-                    across = np.sqrt(np.maximum(edge**2 - side**2, 0.0))
-                    breaks += [turned(side, across), turned(side, -across)]
-                for side in (low_y, high_y):
-                    across = np.sqrt(np.maximum(edge**2 - side**2, 0.0))
-                    breaks += [turned(across, side), turned(-across, side)]
+        for edge in {*band, *part.rings(0.15 * min(self.dkx, self.dky))}:
+            met = (nearest < edge) & (edge < farthest)
+            if np.any(met):  # where the circle |k| = edge meets the lines through the sides
+                across = [np.sqrt(np.maximum(edge**2 - side**2, 0.0)) for side in sides]
+                points = [(x, sign * y) for x, y in zip(sides[:2], across[:2], strict=True) for sign in (-1.0, 1.0)]
+                points += [(sign * x, y) for x, y in zip(across[2:], sides[2:], strict=True) for sign in (-1.0, 1.0)]
+                breaks += [np.where(met, turned(x, y), corners[0]) for x, y in points]
         ends: Real = np.sort(np.clip(breaks, corners[0], corners[3]), axis=0) + heading
         low, high = ends[:-1].T.ravel(), ends[1:].T.ravel()
         cell = np.repeat(np.arange(heading.size), ends.shape[0] - 1)
         wide = np.flatnonzero(high > low)
         piece, low, high = split(low[wide], high[wide], part.theta_fine)
         cell = cell[wide][piece]
-        theta, weight = gauss(low, high)
-        return np.repeat(cell, theta.shape[1]), theta.ravel(), weight.ravel()
+        short = high - low <= _SHORT * _length_around(part.theta_fine, low, high)
+        found = []
+        for order, these in ((4, short), (8, ~short)):
+            theta, weight = gauss(low[these], high[these], order)
+            found.append((np.repeat(cell[these], order), theta.ravel(), weight.ravel()))
+        cell, theta, weight = (np.concatenate(column) for column in zip(*found, strict=True))
+        return cell, theta, weight
 
 
 @dataclass(slots=True, init=False)
@@ -296,6 +304,7 @@ class Part:
     direction: float  # [rad]
     long_crested: bool
     knows_waves: bool  # the spectrum need not invert the dispersion relation
+    energy: Real  # of each frequency panel [m^2]
     variance: float  # [m^2]
     mainly: float  # of that, up to a thousand peaks: finite whatever the tail [m^2]
     unity: float  # integral of D over theta where it is farthest from 1
@@ -316,7 +325,7 @@ class Part:
         self.k = dispersion.wavenumber(omega.edges, self.depth, self.tension)
         self.k_jumps = dispersion.wavenumber(omega.jumps, self.depth, self.tension)
         some, energy = energetic_frequencies(system, omega.edges)
-        self.variance = float(np.sum(energy))
+        self.energy, self.variance = energy, float(np.sum(energy))
         self.mainly = float(np.sum(energy[omega.edges[1:] <= 1e3 * float(system.spectrum.peak)]))
         self.theta = self.theta_jumps = self.theta_fine = np.zeros(0)
         self.unity = 1.0
@@ -346,20 +355,29 @@ class Part:
             return s
         return s * self.system.spreading(omega, theta - self.direction, float(self.system.spectrum.peak))
 
-    def along_rays(self, theta: Real, weight: Real, first: Real, last: Real, order: int) -> Real:
+    def along_rays(self, theta: Real, weight: Real, first: Real, last: Real) -> Real:
         """Return the variance along rays, from `first` to `last` [rad/m] on each, times its weight, (rays,)."""
         out = np.zeros(theta.size)
-        at_a_time = max(1, _BLOCK // (2 * order))
-        for start in range(0, theta.size, at_a_time):
-            some = slice(start, start + at_a_time)
+        for start in range(0, theta.size, _RAYS):
+            some = slice(start, start + _RAYS)
             ray, low, high = split(first[some], last[some], self.k)
-            for part in range(0, ray.size, 8 * at_a_time):
-                piece = slice(part, part + 8 * at_a_time)
-                k, w = gauss(low[piece], high[piece], order)
-                density = self.density(k, theta[some][ray[piece], None])
-                np.add.at(out[some], ray[piece], np.sum(density * w, axis=1))
+            panel = np.clip(np.searchsorted(self.k, 0.5 * (low + high)) - 1, 0, self.energy.size - 1)
+            short = high - low <= _SHORT * (self.k[panel + 1] - self.k[panel])
+            for order, these in ((4, short), (8, ~short)):
+                pieces = np.flatnonzero(these & (self.energy[panel] > 0.0))
+                for first_piece in range(0, pieces.size, _BLOCK // order):
+                    piece = pieces[first_piece : first_piece + _BLOCK // order]
+                    k, w = gauss(low[piece], high[piece], order)
+                    density = self.density(k, theta[some][ray[piece], None])
+                    np.add.at(out[some], ray[piece], np.sum(density * w, axis=1))
         out *= weight
         return out
+
+    def rings(self, narrow: float) -> list[float]:
+        """The edges of the frequency panels narrower than `narrow`, and the jumps: a cell's energy bends where they cross its sides."""
+        narrow_panels = np.flatnonzero(np.diff(self.k) < narrow)
+        narrow_panels = narrow_panels[self.energy[narrow_panels] > 1e-6 * self.variance]
+        return np.unique(np.concatenate([self.k[narrow_panels], self.k[narrow_panels + 1], self.k_jumps])).tolist()  # type: ignore[no-any-return]
 
     def radially(self, nearest: Real, farthest: Real) -> tuple[Real, Flags]:
         """How large cells are beside their frequency panels, in quarters of one, and which of them one or two panels do not hold."""
@@ -378,6 +396,12 @@ def _beside(edges: Real, jumps: Real, low: Real, high: Real, most: Real | float)
     for jump in jumps:
         rough |= (low < jump) & (jump < high)
     return (high - low) / scale, rough
+
+
+def _length_around(edges: Real, low: Real, high: Real) -> Real:
+    """The lengths of the intervals between edges in which some shorter ones lie; inf outside."""
+    lengths: Real = np.concatenate([[np.inf], np.diff(edges), [np.inf]])[np.searchsorted(edges, 0.5 * (low + high))]
+    return lengths
 
 
 def _crossings(half_x: float, half_y: float, edge: float) -> list[float]:

@@ -167,6 +167,10 @@ class Ocean:
         limit = float(np.sqrt(np.finfo(self.dtype).max)) / max(self.choppiness, 1.0)  # the Jacobian multiplies two of them
         if not 2.0 * most < limit:
             raise ParameterError(f"waves must keep every field below {limit:.0e} to be computed in {self.dtype}, got {2.0 * most:.0e}")
+        steepest = 2.0 * float(np.sum(reach * k * (1.0 + potential_factor(k, a.depth) * k))) * max(self.choppiness, 1.0)
+        limit = float(np.finfo(self.dtype).max) ** 0.25  # a normal's length takes fourth powers of them
+        if not steepest < limit:
+            raise ParameterError(f"waves must keep slopes and stretches below {limit:.0e} in {self.dtype}, got {steepest:.0e}")
 
     @property
     def depth(self) -> float:

@@ -36,24 +36,23 @@ def density_by_hand(sea, kx, ky):
 @pytest.mark.parametrize(("mx", "my"), [(1, 0), (2, 1), (-1, 3), (5, 4), (30, 10)])
 def test_cell_variance_is_the_integral_over_the_cell(sea, mx, my):
     """
-    Against adaptive quadrature of the density written out by hand. The midpoint rule with 8 points to the narrowest feature is
-    good to (0.3)^2/24 = 0.4 % of the peak density; cells on a flank are held to the largest cell.
+    Against adaptive quadrature of the density written out by hand: Gauss points in cells or along rays, 1e-3 of a cell.
     """
     dk = 2.0 * np.pi / 400.0
     truth = integrate.dblquad(
         lambda y, x: density_by_hand(sea, x, y), (mx - 0.5) * dk, (mx + 0.5) * dk, (my - 0.5) * dk, (my + 0.5) * dk, epsrel=1e-6
     )[0]
     ours = cell_variance(sea, np.array([mx]), np.array([my]), dk, dk)[0]
-    assert ours == pytest.approx(truth, rel=5e-3, abs=1e-6 * sea.variance)
+    assert ours == pytest.approx(truth, rel=1e-3, abs=1e-6 * sea.variance)
 
 
 @pytest.mark.parametrize("sea", [WIND_SEA, SWELL], ids=["wind", "swell"])
 @pytest.mark.parametrize(("n", "size"), [(64, 200.0), (64, 1000.0), ((128, 64), (400.0, 200.0)), (31, 150.0), (256, 60.0)])
 def test_a_tile_keeps_the_energy_of_its_band(sea, n, size):
-    """Held + lost = ordered: the cells' sum against the polar integral outside the band, which shares nothing with it but S and D."""
+    """Held + lost = ordered: the cells' sum against integrals along rays outside the band."""
     grid = Grid.of(n, size)
     held = seed_amplitudes(sea, grid).variance
-    assert held + sum(outside_band(sea, grid)) == pytest.approx(sea.variance, rel=1e-3)  # trapezoids of the polar integral: 2e-4
+    assert held + sum(outside_band(sea, grid)) == pytest.approx(sea.variance, rel=1e-5)  # panels: 1e-6 each
 
 
 def test_finer_grids_keep_every_wave_to_the_bit():
@@ -154,10 +153,3 @@ def test_a_sea_that_is_not_a_number_is_refused():
     sea = fo.Sea(fo.WaveSystem(spectrum=fo.CustomSpectrum(lambda w: np.where(w > 1.0, np.nan, 1.0), peak=0.5)))
     with pytest.raises(fo.ParameterError, match="finite"):
         seed_amplitudes(sea, Grid.of(32, 100.0))
-
-
-def test_an_infinitely_narrow_system_keeps_its_energy():
-    """s = 1e4 on a small tile: the sub-sampling follows the narrowest feature. 2e-3: 128 parts at most beside k = 0."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=6.0), spreading=fo.CosinePower(s=1e4), direction=17.0))
-    grid = Grid.of(64, 150.0)
-    assert seed_amplitudes(sea, grid).variance + sum(outside_band(sea, grid)) == pytest.approx(sea.variance, rel=2e-3)

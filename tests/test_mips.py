@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy import integrate
 
 import fftocean as fo
 from fftocean import mips
@@ -164,3 +165,18 @@ def test_who_has_no_waves_beyond():
     narrow = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=8.0), spreading=fo.CosinePower(s=1e4), direction=33.3))
     beyond = mips.unresolved_slopes(fo.Ocean(narrow, n=16, size=100.0))
     assert beyond[1] / beyond[0] == pytest.approx(math.tan(math.radians(33.3)), rel=1e-2)  # all along one direction
+
+
+@pytest.mark.parametrize("direction", [0.0, 33.0])
+def test_short_waves_of_one_direction(direction):
+    """All slopes along the waves: the integral of k^2 S, by QUADPACK, from the edge of the rectangle on; a narrow bell has the same."""
+    spectrum = fo.JONSWAP.from_wind(speed=10.0, fetch=100e3)
+    grid = Grid.of((48, 30), (24.0, 30.0))
+    c, s = math.cos(math.radians(direction)), math.sin(math.radians(direction))
+    reach_x, reach_y = grid.reach
+    edge = min((reach_x + 0.5) * grid.dkx / c, (reach_y + 0.5) * grid.dky / s if s else math.inf)
+    low, high = math.sqrt(9.80665 * edge), math.sqrt(9.80665 * 2 * np.pi / 0.05)
+    truth = integrate.quad(lambda w: (w * w / 9.80665) ** 2 * float(spectrum(w)), low, high)[0]
+    for spreading in (fo.LongCrested(), fo.WrappedNormal(spread=0.1)):
+        sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction))
+        assert mips.beyond(sea, grid, 0.05) == pytest.approx(truth * np.array([c * c, c * s, s * s]), abs=1e-4 * truth)

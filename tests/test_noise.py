@@ -72,3 +72,29 @@ def test_phasors_have_unit_modulus_and_the_normals_phase(waves):
     xi, unit = noise.complex_normals(7, *waves), noise.unit_phasors(7, *waves)
     assert np.max(np.abs(np.abs(unit) - 1.0)) < 1e-15
     assert np.max(np.abs(xi / np.abs(xi) - unit)) < 1e-14  # a few roundings
+
+
+def test_no_two_wavenumbers_share_a_draw(waves):
+    """Philox is a bijection of counters, and a wave's (mx, my) is its counter: 106 bits of 160,000 waves, all different."""
+    first, second = noise._uniforms(7, *waves)
+    assert np.unique(np.column_stack([first, second]), axis=0).shape[0] == waves[0].size
+    assert np.unique(first).size == waves[0].size  # 53 bits: two alike would happen once in 10^6 seeds
+    edge = np.array([-32768, -32767, -1, 0, 1, 32767, 32768])
+    mx, my = (a.ravel() for a in np.meshgrid(edge, edge))
+    assert np.unique(np.column_stack(noise._uniforms(0, mx, my)), axis=0).shape[0] == edge.size**2
+
+
+@pytest.mark.parametrize("word", [0, 0xFFFFFFFF])
+def test_the_rarest_words_give_finite_waves(word, monkeypatch):
+    """The logarithm is that of a number in (0, 1]: 2^-53 at least, which makes 8.6; 1 at most, which makes 0."""
+    monkeypatch.setattr(noise, "philox", lambda counter, _: (np.full_like(counter[0], word),) * 4)
+    xi = noise.complex_normals(3, np.arange(4), np.arange(4))
+    assert np.abs(xi) == pytest.approx(np.sqrt(2.0 * 53.0 * np.log(2.0)) if word == 0 else 0.0, rel=1e-12)
+    assert np.all(np.isfinite(noise.unit_phasors(3, np.arange(4), np.arange(4))))
+
+
+def test_blocks_of_waves_have_the_same_bits(waves, monkeypatch):
+    whole = noise.complex_normals(7, *waves)
+    monkeypatch.setattr(noise, "_BLOCK", 1000)
+    assert np.array_equal(noise.complex_normals(7, *waves), whole)
+    assert noise.complex_normals(7, np.zeros((2, 1), int), np.arange(3)).shape == (2, 3)

@@ -474,3 +474,21 @@ def test_nice_periods_are_round_in_range_and_apart(low, high):
     assert np.all((omega >= low) & (omega <= high))
     assert np.all(np.diff(omega) >= 0.1 * (high - low))
     assert all(len(f"{period:.1e}") == len("1.5e+00") and float(f"{period:.1e}") == period for period in periods)
+
+
+@pytest.mark.parametrize(
+    "spreading",
+    [
+        fo.LongCrested(),
+        fo.CosinePower(s=1e6),
+        fo.CustomSpreading(lambda _, t, __: np.exp(-0.5 * ((t - 1.101) / 2e-3) ** 2), breaks=[1.101]),
+    ],
+    ids=["long-crested", "1e6", "beside"],
+)
+def test_the_picture_of_directions_keeps_the_energy_of_narrow_seas(spreading):
+    """Its cells add up to the integral of S, whatever the direction: midpoints in frequency, 1e-3."""
+    spectrum = fo.JONSWAP.from_sea_state(hs=2.0, tp=8.0)
+    sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=10.07))
+    frequency, theta, density = plots._polar_spectrum(sea, 0.5)
+    total = np.sum(density) * (frequency[1] - frequency[0]) * math.degrees(theta[1] - theta[0])
+    assert total == pytest.approx(fo.moments.moment(spectrum, 0, 0.0, np.pi), rel=1e-3)

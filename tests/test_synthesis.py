@@ -5,6 +5,8 @@ import time
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import fftocean as fo
 from fftocean.fields import FIELDS, multiplier
@@ -152,3 +154,104 @@ def test_whoever_is_interrupted_waits_for_the_others():
 def test_bad_thread_counts_are_refused(threads):
     with pytest.raises(fo.ParameterError, match="threads must be"):
         fo.Ocean(SEA, n=8, size=10.0, threads=threads)
+
+
+def fields_against_the_direct_sum(ocean):
+    """Hold every field to 1e-6 (1e-12 in double precision) of its own largest value; return the largest value of each."""
+    omega = float(np.max(ocean.modes().omega, initial=1.0))
+    t = 0.37 / omega
+    x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
+    truth = fo.gerstner.surface(ocean, x, y, t)
+    frame = ocean.frame(t, (*FIELDS, "normal", "jacobian"))
+    assert all(np.all(np.isfinite(frame[name])) for name in frame.fields)
+    top = {name: float(np.max(np.abs(getattr(truth, name)))) for name in FIELDS}
+    # Waves below 1e-30 of the largest are left out in single precision (1e-154 in double), and so is what they make of a field, be it
+    # all of it; 1e-22 (1e-140) of its partner in the complex row or its kind allows for wavenumbers far apart.
+    bound, floor, least = (1e-6, 1e-22, 1e-36) if ocean.dtype == "float32" else (1e-12, 1e-140, 1e-302)
+    for pair in PAIRS:
+        for name in pair:
+            near = {*pair, *(other for other in FIELDS if other.partition("_")[0] == name.partition("_")[0])}
+            allowed = max(bound * top[name], floor * max(top[other] for other in near), least)
+            assert np.max(np.abs(frame[name].astype(np.float64) - getattr(truth, name))) <= allowed, (name, ocean.dtype)
+    c, xx, xy, yy = ocean.choppiness, truth.stretch_xx, truth.stretch_xy, truth.stretch_yy
+    largest = np.max((1.0 + c * np.abs(xx)) * (1.0 + c * np.abs(yy)) + (c * xy) ** 2)  # a difference of two products
+    assert np.max(np.abs(frame.jacobian - ((1.0 + c * xx) * (1.0 + c * yy) - (c * xy) ** 2))) <= 4.0 * bound * largest
+    assert np.linalg.norm(frame.normal.astype(np.float64), axis=-1) == pytest.approx(1.0, rel=1e-5)
+    return top
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("beside", [0.0, 1e-300, 1e-200, 1e-60, 1e-40, 1e-30, 1e-20, 1e-10, 1e-3])
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_a_field_that_is_tiny_beside_its_partner_is_finite_and_right(along, beside, dtype):
+    """One wave along an axis, another along the other one of any size: single precision overflowed where they were 1e-38 apart."""
+    a, b = [(3, 0, 1.0, 0.3), (0, 2, beside, 1.0)] if along == "x" else [(0, 3, 1.0, 0.3), (2, 0, beside, 1.0)]
+    top = fields_against_the_direct_sum(fo.Ocean.from_modes([a, b], n=(16, 12), size=(60.0, 90.0), dtype=dtype))
+    assert top["slope_y" if along == "x" else "slope_x"] <= beside
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("amplitude", [1e-310, 1e-300, 1e-44, 1e-38, 1e-20, 1e4])
+def test_waves_at_the_ends_of_the_range(amplitude, dtype):
+    fields_against_the_direct_sum(fo.Ocean.from_modes([(1, 2, amplitude, 0.3), (-3, 1, 0.1 * amplitude, 2.0)], n=16, size=1e3, dtype=dtype))
+
+
+def test_no_wave_across_makes_no_field_across():
+    frame = fo.Ocean.from_modes([(3, 0, 1.0, 0.3), (-5, 0, 0.3, 1.0)], n=16, size=60.0).frame(1.0, tuple(FIELDS))
+    assert not any(np.any(frame[name]) for name in ("slope_y", "displace_y", "stretch_xy", "stretch_yy", "velocity_y"))
+
+
+SAMPLES = st.one_of(st.sampled_from([1, 2, 3, 5, 8, 13]), st.integers(1, 24))
+SPREADINGS = st.one_of(
+    st.floats(-1.0, 2.2).map(lambda x: fo.WrappedNormal(spread=10.0**x)),
+    st.floats(-3.0, 6.0).map(lambda x: fo.CosinePower(s=10.0**x)),
+    st.floats(0.0, 1.0).map(lambda w: fo.Blend(fo.LongCrested(), fo.CosineSquared(), weight=w)),
+    st.sampled_from([fo.LongCrested(), fo.DonelanBanner(), fo.CosineN(n=0.0), fo.Mitsuyasu(speed=10.0)]),
+)
+DEPTHS = st.sampled_from([math.inf, 1e-6, 0.01, 1.0, 30.0])
+
+
+def widths(low, high):
+    return st.floats(math.log10(low), math.log10(high)).map(lambda x: 10.0**x)
+
+
+@settings(max_examples=20, deadline=None, derandomize=True)
+@given(
+    n=st.tuples(SAMPLES, SAMPLES),
+    lengths=widths(0.3, 30.0),
+    aspect=st.one_of(st.just(1.0), widths(1e-3, 1e3)),
+    spreading=SPREADINGS,
+    direction=st.one_of(st.sampled_from([0.0, 90.0, 45.0, 180.0, 1e6]), st.floats(-400.0, 400.0)),
+    tp=widths(0.05, 900.0),
+    depth=DEPTHS,
+    choppiness=st.floats(0.0, 10.0),
+    draw=st.sampled_from(["gaussian", "fixed"]),
+)
+def test_every_sea_has_finite_fields_that_are_right(n, lengths, aspect, spreading, direction, tp, depth, choppiness, draw):
+    """Any tile, odd, prime, oblong or of one sample; any spreading and direction: a refusal, or fields that are the direct sum's."""
+    wavelength = 9.80665 * tp**2 / (2.0 * math.pi)
+    spectrum = fo.JONSWAP.from_sea_state(hs=min(0.02 * wavelength, 100.0), tp=tp)
+    sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction), depth=depth)
+    size = tuple(min(max(lengths * wavelength * a, 1e-3), 1e7) for a in (1.0, aspect))
+    for dtype in ("float32", "float64"):
+        fields_against_the_direct_sum(fo.Ocean(sea, n=n, size=size, choppiness=choppiness, dtype=dtype, amplitudes=draw))
+
+
+WAVES = st.lists(
+    st.tuples(st.integers(-11, 11), st.integers(-11, 11), st.one_of(st.just(0.0), widths(1e-300, 1e4)), st.floats(-7.0, 7.0)), max_size=6
+)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(n=st.tuples(SAMPLES, SAMPLES), size=st.tuples(widths(1e-3, 1e7), widths(1e-3, 1e7)), depth=DEPTHS, waves=WAVES)
+def test_all_given_waves_have_finite_fields_that_are_right(n, size, depth, waves):
+    """Waves of any size beside each other: a refusal where a field would overflow, or fields that are the direct sum's."""
+    held = [w for w in waves if (w[0] or w[1]) and all(abs(m) <= (samples - 1) // 2 for m, samples in zip(w[:2], n, strict=True))]
+    for dtype in ("float32", "float64"):
+        try:
+            ocean = fo.Ocean.from_modes(held, n=n, size=size, depth=depth, dtype=dtype)
+        except fo.ParameterError as error:
+            if "waves must keep" not in str(error):
+                raise
+        else:
+            fields_against_the_direct_sum(ocean)

@@ -121,8 +121,9 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
 
 def _apart(edges: Iterable[float], least: float) -> Real:
     """The same edges, ascending, without those that stand on another but for rounding."""
-    edges = np.unique(np.fromiter(edges, dtype=np.float64))
-    return edges[np.concatenate([[True], np.diff(edges) > least * np.abs(edges[1:])])]
+    ascending = np.unique(np.fromiter(edges, dtype=np.float64))
+    kept: Real = ascending[np.concatenate([[True], np.diff(ascending) > least * np.abs(ascending[1:])])]
+    return kept
 
 
 def _graded(sampled: Sampled, feature: float, reach: float, top: Real) -> Real:

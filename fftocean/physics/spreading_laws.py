@@ -282,15 +282,15 @@ _DEGREE = 16  # of the table's polynomials
 @lru_cache(maxsize=64)
 def _panels(breaks: tuple[float, ...], order: int) -> Panels:
     """
-    Return Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0 and every break, and end there.
+    Return Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0, twelve toward every break.
 
     At +-pi the root of a cosine ends in (pi - |theta|)^2s, which no polynomial follows where s is small: there theta runs as the
     sixth power of the node, and the root becomes smooth.
     """
-    halves = np.pi * 0.5 ** np.arange(1, 11)
-    edges = np.concatenate([np.pi * np.array([0.0, 0.75, 0.875, 1.0]), halves])
+    edges = np.pi * np.concatenate([[0.0, 0.75, 0.875, 1.0], 0.5 ** np.arange(1, 11)])
     named = wrapped(np.array(breaks, dtype=np.float64))
-    toward = wrapped(np.concatenate([named + side * halves[:, None] for side in (-1.0, 0.0, 1.0)], axis=None))
+    closer = np.concatenate([[0.0], np.pi * 0.5 ** np.arange(1, 13)])
+    toward = wrapped(np.concatenate([named + side * closer[:, None] for side in (-1.0, 1.0)], axis=None))
     edges = np.unique(np.concatenate([edges, -edges, toward]))
     edges = edges[np.concatenate([[True], np.diff(edges) > 1e-12])]
     edges[-1] = np.pi
