@@ -7,6 +7,7 @@ import pytest
 from formulas import value_of
 
 import fftocean as fo
+from fftocean.bake import baker
 from fftocean.bake.check import check
 from fftocean.bake.load import load
 from fftocean.bake.tiles import bake_tiles
@@ -16,6 +17,13 @@ from fftocean.export import engines, rules
 from fftocean.export.formats import FORMATS
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """No integrals over the sea."""
+    still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
+    monkeypatch.setattr(baker, "measure", lambda _: still)
 
 
 def job(**changes):

@@ -49,7 +49,7 @@ def through(name, sequence):
 
 
 @EVERY
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ["canonical", "unreal"])  # in metres, in centimetres: all that a format could notice
 @pytest.mark.parametrize(("kind", "channels"), [("height", 1), ("vector", 3), ("derivative", 4)])
 def test_stored_and_read_back(name, profile, kind, channels):
     """float32 to the bit, half to half an ulp, sixteen bits to half a step; and restored, the same of our own map."""
@@ -108,13 +108,13 @@ def test_the_same_pixels_are_the_same_bytes(name, monkeypatch):
     ],
     ids=["transposed", "planar", "strided", "upside-down", "mirrored", "misaligned"],
 )
-@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
-def test_arrays_of_any_layout_give_their_own_pixels(name, view, dtype):
+def test_arrays_of_any_layout_give_their_own_pixels(name, view):
     """OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing."""
-    plain = np.arange(5 * 7 * 3, dtype=dtype).reshape(5, 7, 3)
-    assert encode(name, view(plain), **options(name, plain)) == encode(name, plain, **options(name, plain))
-    got = decode(name, encode(name, view(plain), **options(name, plain)), shape=plain.shape, **options(name, plain))
-    assert np.array_equal(np.rint(got), plain)
+    for dtype in (np.float16, np.float32, np.float64):
+        plain = np.arange(5 * 7 * 3, dtype=dtype).reshape(5, 7, 3)
+        assert encode(name, view(plain), **options(name, plain)) == encode(name, plain, **options(name, plain))
+        got = decode(name, encode(name, view(plain), **options(name, plain)), shape=plain.shape, **options(name, plain))
+        assert np.array_equal(np.rint(got), plain)
 
 
 @EVERY

@@ -171,7 +171,7 @@ def water():
             for name, m in MAPS.items():
                 frames = []
                 for j in (FIRST, FIRST + COUNT // FRAMES):
-                    frame = source.loop_frame(j, COUNT, tuple(m.needs) or ("height",))
+                    frame = source.loop_frame(j, COUNT, (*m.needed(mips=False, eulerian=lookup == "eulerian"), "height"))
                     foam = 1 / (1 + np.exp(-frame.height)) if name == "foam" else None
                     frames.append(m.channels(frame, foam, np.array([0.02, -0.01, 0.03])).copy())
                 found[tile, lookup, name] = np.stack(frames)
