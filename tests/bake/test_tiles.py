@@ -378,7 +378,7 @@ def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
 
 def test_from_the_command_line(tmp_path, capsys):
     folder = str(tmp_path / "sea")
-    flags = ["bake", "-o", folder, "--frames", "1", "--maps", "height", "--executor", "serial"]
+    flags = ["bake", "-o", folder, "--frames", "1", "--maps", "height", "--executor", "serial", "--set", 'bake.pictures=["sheet"]']
     tiles = ["--tiles", "16:100,16:15"]
     assert main([*flags, *tiles]) == 0
     out = capsys.readouterr().out
@@ -397,7 +397,20 @@ def test_from_the_command_line(tmp_path, capsys):
 
 
 def test_a_dry_run_says_what_the_run_writes(tmp_path, capsys):
-    flags = ["bake", "-o", str(tmp_path / "sea"), "--frames", "3", "--executor", "serial", "--tiles", "16:100,16:15", "--json"]
+    flags = [
+        "bake",
+        "-o",
+        str(tmp_path / "sea"),
+        "--frames",
+        "3",
+        "--executor",
+        "serial",
+        "--tiles",
+        "16:100,16:15",
+        "--json",
+        "--set",
+        'bake.pictures=["sheet"]',
+    ]
     assert main([*flags, "--maps", "height,stretch", "--dry-run"]) == 0
     told_before = json.loads(capsys.readouterr().out)
     assert not (tmp_path / "sea").exists()
