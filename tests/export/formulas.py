@@ -16,7 +16,7 @@ def parsed(formula):
 
 
 def value_of(formula, names):
-    """A formula reckoned out: numbers, names, + - * /, floor, mod, an index; nothing else."""
+    """Return the value of a formula: numbers, names, + - * /, floor, mod, an index; nothing else."""
 
     def of(node):
         match node:
