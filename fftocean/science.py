@@ -23,7 +23,7 @@ import numpy as np
 from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
 from fftocean.bake.files import write_whole
-from fftocean.errors import OutputError, ParameterError, SeaWarning
+from fftocean.errors import OutputError, ParameterError, SeaWarning, how_to_install
 from fftocean.fields import FIELDS
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
@@ -288,8 +288,8 @@ def _attributes(ocean: Ocean) -> dict[str, Any]:
     }
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
-    ordered, loop = (statistics.pop(name) or {} for name in ("ordered", "loop"))
-    for prefix, numbers in (("ordered", ordered), ("measured", statistics), ("loop", loop)):
+    ordered, loop, folding = (statistics.pop(name) or {} for name in ("ordered", "loop", "folding"))
+    for prefix, numbers in (("ordered", ordered), ("measured", statistics), ("loop", loop), ("folding", folding)):
         found |= {f"{prefix}_{name}": value for name, value in numbers.items()}
     return {name: str(value) if value in (math.inf, -math.inf) else value for name, value in found.items() if value is not None}
 
@@ -385,4 +385,7 @@ def _require(name: str) -> Any:
         return importlib.import_module(name)
     except ImportError as error:
         package = name.partition(".")[0]
-        raise ParameterError(f"{package} must be installed for labelled data: pip install 'fftocean[science]' ({error})") from error
+        hint = how_to_install("science")
+        raise ParameterError(
+            f"{package} must be installed for labelled data: {hint} ({error})"
+        ) from error

@@ -101,7 +101,8 @@ def water_material():
     import bpy
 
     material = bpy.data.materials.new("water")
-    material.use_nodes = True
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
     shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Base Color"].default_value = (0.01, 0.05, 0.08, 1.0)
     shader.inputs["Roughness"].default_value = 0.08
@@ -119,7 +120,8 @@ def light_and_camera(size, height):
     sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
     sun.data.energy, sun.rotation_euler = 3.0, (math.radians(65.0), 0.0, math.radians(20.0))
     world = bpy.data.worlds.new("sky")
-    world.use_nodes = True
+    if bpy.app.version < (5, 0, 0):
+        world.use_nodes = True
     background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
     background.inputs["Color"].default_value = (0.45, 0.6, 0.8, 1.0)
     scene.world = world

@@ -15,27 +15,33 @@ var error := ""
 
 
 func _init(json: String) -> void:
+	error = _read(json)
+	if error:
+		push_error(error)
+
+
+# Read a sidecar and its file; return why it cannot be read, or "".
+func _read(json: String) -> String:
 	var found: Variant = JSON.parse_string(FileAccess.get_file_as_string(json))
 	if not found is Dictionary:
-		return _refuse("%s must be a sidecar in JSON" % json)
+		return "%s must be a sidecar in JSON" % json
 	s = found
 	for key: String in EXPECTED:
-		if s.get(key) != EXPECTED[key]:
-			return _refuse("%s must be %s, got %s" % [key, EXPECTED[key], s.get(key)])
+		var got: Variant = s.get(key)
+		if typeof(got) == TYPE_INT:
+			got = float(got)
+		if typeof(got) != typeof(EXPECTED[key]) or got != EXPECTED[key]:
+			return "%s must be %s, got %s" % [key, EXPECTED[key], got]
 	if s["channels"]["R"] != "height":
-		return _refuse("R must be height, got %s" % s["channels"]["R"])
+		return "R must be height, got %s" % s["channels"]["R"]
 	var bytes := FileAccess.get_file_as_bytes(json.get_base_dir().path_join(s["file"]))
 	var count := int(s["frames"]) * int(s["rows"]) * int(s["columns"])
 	if bytes.size() != 8 * count:
-		return _refuse("%s must have %d bytes, got %d" % [s["file"], 8 * count, bytes.size()])
+		return "%s must have %d bytes, got %d" % [s["file"], 8 * count, bytes.size()]
 	heights.resize(count)
 	for i in count:
 		heights[i] = bytes.decode_half(8 * i) # R of RGBA
-
-
-func _refuse(why: String) -> void:
-	error = why
-	push_error(why)
+	return ""
 
 
 # Bilinear between samples, linear between frames; the sea repeats in x, z and t.

@@ -13,7 +13,7 @@ from typing import Any
 
 from fftocean import foam
 from fftocean.arrays import available_memory
-from fftocean.bake import blend, layout, pictures
+from fftocean.bake import blend, layout, maps, pictures
 from fftocean.bake.claim import claim, discard_work, header_of, require_claimable
 from fftocean.bake.containers import assemble, intact, unpack
 from fftocean.bake.contents import Contents
@@ -135,6 +135,10 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
         JobError: the job asks for more than can be.
     """
     pictures.require_drawable(job)
+    try:
+        maps.needed(job.maps, mips=job.mips, eulerian=job.lookup == "eulerian")
+    except ParameterError as error:
+        raise JobError(f"{job.source}: {error}") from None
     require_usable(job)
     scene = Scene(job.downsampled(downsample))
     for name in scene.job.maps:

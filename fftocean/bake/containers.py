@@ -9,7 +9,7 @@ from fftocean.bake import layout
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
-from fftocean.bake.manifest import extremes_over, played
+from fftocean.bake.manifest import played
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
@@ -31,8 +31,10 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
         IntegrityError: a part is not any more what it was when it was written.
     """
     loop = played(order, scene, len(rows))
-    extremes = extremes_over(rows)
-    bounds = {"horizontal": extremes["max_horizontal"], "vertical": extremes["max_height"]}
+    bounds = {
+        "horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
+        "vertical": max(row["extremes"]["max_height"] for row in rows),
+    }
     written: dict[str, list[dict[str, Any]]] = {}
     for name in scene.job.maps:
         m = MAPS[name]

@@ -13,6 +13,7 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
+from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics
 
 
@@ -63,11 +64,11 @@ def compose(
     manifest = {
         **order.header,
         "ocean": _tile(scene.ocean),
-        "statistics": asdict(statistics),  # ordered beside delivered
+        "statistics": plain(statistics),  # ordered beside delivered
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
         "blend": dict(blend),
-        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes_over(rows)},
+        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1"}, **extremes_over(rows)},
         "maps": entries,
         **({"containers": dict(containers)} if containers else {}),
         **pictures,
@@ -94,14 +95,25 @@ _LOOKUP = {
 }
 
 
+def plain(statistics: Statistics) -> dict[str, Any]:
+    """Statistics as plain data, None for a number that JSON has not."""
+    found = asdict(statistics)
+    if math.isinf(found["folding"]["largest_choppiness"]):
+        found["folding"]["largest_choppiness"] = None
+    return found
+
+
 def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
     """The least and greatest of each channel over many frames."""
     return [[min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)] for c in range(len(ranges[0]))]
 
 
-def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """The extremes of the whole sequence."""
+def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+    """The extremes of the whole sequence; `largest_choppiness` is that at which nothing folds, None where any is."""
+    limits = [c for row in rows if (c := row["extremes"]["largest_choppiness"]) is not None]
     return {
+        "folded": sum(row["extremes"]["folded"] for row in rows) / len(rows),
+        "largest_choppiness": min(limits, default=None),
         "min_jacobian": min(row["extremes"]["min_jacobian"] for row in rows),
         "max_height": max(row["extremes"]["max_height"] for row in rows),
         "max_horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
@@ -115,10 +127,18 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "n": [grid.nx, grid.ny],
         "size": [grid.lx, grid.ly],
         "depth": ocean.depth if math.isfinite(ocean.depth) else str(ocean.depth),
+        "surface_tension": ocean.amplitudes.surface_tension,
+        "stated_by": {} if ocean.sea is None else _stated(ocean.sea),
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
         "fft": ocean.backend,
     }
+
+
+def _stated(sea: Sea) -> dict[str, str]:
+    """By which spectrum or spreading depth and surface tension are stated, where one does."""
+    parts = {"depth": sea.depth_from, "surface_tension": sea.surface_tension_from}
+    return {name: part for name, part in parts.items() if part is not None}
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:

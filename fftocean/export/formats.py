@@ -191,6 +191,7 @@ def assemble(
         "schema": SCHEMA,
         "file": form.file.replace("{stem}", stem),
         "format": form.caption,
+        "kind": kind,
         "frames": frames,
         "rows": rows,
         "columns": columns,

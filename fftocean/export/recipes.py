@@ -56,7 +56,7 @@ def _facts(facts: Mapping[str, Any]) -> str:
         f"{facts['frames_per_second']:.6g} frames a second"
         + ("" if facts["closes"] else "; a part of the loop: the last frame does not lead on"),
     ]
-    if any(name.startswith("normal_") for name in facts["world"]):
+    if facts["kind"] == "normal":
         lines.append(f"Normals     {conventions['normals']}; green {conventions['normal_green']}")
     if "bounds" in facts:
         bounds = facts["bounds"]

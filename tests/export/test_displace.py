@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import fftocean as fo
+from fftocean.bake import baker
 
 SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "blender" / "displace.py"
 SMALL = {
@@ -20,6 +21,13 @@ SMALL = {
     "bake.format": "exr",
 }
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """No integrals over the sea."""
+    still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
+    monkeypatch.setattr(baker, "measure", lambda _: still)
 
 
 @pytest.fixture(scope="module")

@@ -1,8 +1,10 @@
 """Every format with every profile: what went in comes back as exactly as promised; what cannot be held is refused; bent data is seen."""
 
+import dataclasses
 import hashlib
 import io
 import json
+import re
 
 import numpy as np
 import OpenEXR
@@ -10,7 +12,7 @@ import pytest
 
 from fftocean.errors import IntegrityError, OutputError, ParameterError
 from fftocean.export import formats, rules
-from fftocean.export.formats import FORMATS, assemble, decode, decode_levels, encode, payloads, require
+from fftocean.export.formats import FORMATS, Format, assemble, decode, decode_levels, encode, payloads, require
 from fftocean.export.profiles import PROFILES, arrange, restore
 
 ROWS, COLUMNS, FRAMES = 13, 10, 6
@@ -49,7 +51,7 @@ def through(name, sequence):
 
 
 @EVERY
-@pytest.mark.parametrize("profile", PROFILES)
+@pytest.mark.parametrize("profile", ["canonical", "unreal"])  # in metres, in centimetres: all that a format could notice
 @pytest.mark.parametrize(("kind", "channels"), [("height", 1), ("vector", 3), ("derivative", 4)])
 def test_stored_and_read_back(name, profile, kind, channels):
     """float32 to the bit, half to half an ulp, sixteen bits to half a step; and restored, the same of our own map."""
@@ -108,13 +110,13 @@ def test_the_same_pixels_are_the_same_bytes(name, monkeypatch):
     ],
     ids=["transposed", "planar", "strided", "upside-down", "mirrored", "misaligned"],
 )
-@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64])
-def test_arrays_of_any_layout_give_their_own_pixels(name, view, dtype):
+def test_arrays_of_any_layout_give_their_own_pixels(name, view):
     """OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing."""
-    plain = np.arange(5 * 7 * 3, dtype=dtype).reshape(5, 7, 3)
-    assert encode(name, view(plain), **options(name, plain)) == encode(name, plain, **options(name, plain))
-    got = decode(name, encode(name, view(plain), **options(name, plain)), shape=plain.shape, **options(name, plain))
-    assert np.array_equal(np.rint(got), plain)
+    for dtype in (np.float16, np.float32, np.float64):
+        plain = np.arange(5 * 7 * 3, dtype=dtype).reshape(5, 7, 3)
+        assert encode(name, view(plain), **options(name, plain)) == encode(name, plain, **options(name, plain))
+        got = decode(name, encode(name, view(plain), **options(name, plain)), shape=plain.shape, **options(name, plain))
+        assert np.array_equal(np.rint(got), plain)
 
 
 @EVERY
@@ -408,3 +410,38 @@ def test_mip_levels_come_back(levels):
         encode("ktx2", chain[0], levels=[np.zeros((7, 5, 3))])
     with pytest.raises(ParameterError, match="format ktx2 holds 1 to 4 mip levels of 13 rows of 10, got 5"):
         require("ktx2", (1, 13, 10, 3), 5)
+
+
+def test_a_format_without_all_of_its_parts_cannot_be_made():
+    """A part that is left out, and parts that contradict one another, are errors where the format is made: at import."""
+    parts = {field.name: getattr(FORMATS["bin"], field.name) for field in dataclasses.fields(Format)}
+    assert Format(**parts) == FORMATS["bin"]
+    for name in parts:
+        with pytest.raises(TypeError, match=name):
+            Format(**{key: part for key, part in parts.items() if key != name})
+    for changes, why in (
+        ({"container": None}, "must have either {frame} or a container"),
+        ({"file": "{stem}/{frame:04d}.bin"}, "must have either {frame} or a container"),
+        ({"file": "all.bin"}, "must be named after {stem}"),
+        ({"sidecar": "all.json"}, "must be named after {stem}"),
+    ):
+        with pytest.raises(ImportError, match=re.escape(why)):
+            dataclasses.replace(FORMATS["bin"], **changes)
+
+
+def test_a_new_format_is_its_own_object_and_one_entry(monkeypatch):
+    """Bytes are those of its own functions, whatever its name and its type of numbers."""
+    doubled = dataclasses.replace(
+        FORMATS["npz"],
+        name="text",
+        file="{stem}/{frame:04d}.txt",
+        encode=lambda pixels, _scale, _levels: ",".join(f"{float(v)!r}" for v in pixels.ravel()).encode(),
+        decode=lambda data, shape, _scale, _levels: [np.array(data.decode().split(","), dtype=np.float32).reshape(shape)],
+    )
+    monkeypatch.setitem(FORMATS, "text", doubled)
+    frame = water(3)[0]
+    data = encode("text", frame)
+    assert data.decode().split(",")[0] == repr(float(frame[0, 0, 0]))
+    assert np.array_equal(decode("text", data, shape=frame.shape), frame)
+    assert doubled.suffix == ".txt"
+    assert assemble("text", (), stem="m", shape=(1, *frame.shape)) == {}

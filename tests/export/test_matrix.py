@@ -7,11 +7,8 @@ beside the files (rules for u and v, rows and columns, frames, cells of an atlas
 channels) is evaluated to the letter, and must give the water that was written.
 """
 
-import ast
-import functools
 import io
 import json
-import operator
 import struct
 import zlib
 from collections import Counter
@@ -21,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 import OpenEXR
 import pytest
+from formulas import value_of
 
 import fftocean as fo
 from fftocean.bake.maps import MAPS
@@ -70,37 +68,6 @@ LOOKUPS = ("lagrangian", "eulerian")
 TILES = {0: ((8, 6), (40.0, 20.0)), 1: ((5, 7), (9.0, 7.0))}
 FRAMES, FIRST, COUNT = 2, 1, 6  # two frames, 1 and 4 of a loop of 6
 LOOP, START = 12.0, 2.0
-
-
-OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
-FUNCTIONS = {"floor": np.floor, "mod": lambda a, b: a - b * np.floor(a / b)}
-
-
-@functools.cache
-def parsed(formula):
-    return ast.parse(formula, mode="eval").body
-
-
-def value_of(formula, names):
-    """A formula reckoned out: numbers, names, + - * /, floor, mod, an index; nothing else."""
-
-    def of(node):
-        match node:
-            case ast.Constant(value=value):
-                return value
-            case ast.Name(id=name):
-                return names[name]
-            case ast.BinOp(left=left, op=op, right=right):
-                return OPERATORS[type(op)](of(left), of(right))
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return -of(operand)
-            case ast.Subscript(value=value, slice=index):
-                return of(value)[of(index)]
-            case ast.Call(func=ast.Name(id=name), args=args):
-                return FUNCTIONS[name](*map(of, args))
-        raise AssertionError(f"{formula} holds {ast.dump(node)}")
-
-    return of(parsed(formula))
 
 
 def exr_pixels(data):
@@ -204,7 +171,7 @@ def water():
             for name, m in MAPS.items():
                 frames = []
                 for j in (FIRST, FIRST + COUNT // FRAMES):
-                    frame = source.loop_frame(j, COUNT, tuple(m.needs) or ("height",))
+                    frame = source.loop_frame(j, COUNT, (*m.needed(mips=False, eulerian=lookup == "eulerian"), "height"))
                     foam = 1 / (1 + np.exp(-frame.height)) if name == "foam" else None
                     frames.append(m.channels(frame, foam, np.array([0.02, -0.01, 0.03])).copy())
                 found[tile, lookup, name] = np.stack(frames)

@@ -1,26 +1,41 @@
-"""What stands beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas it is about."""
+"""Text beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas and the map it is about."""
 
 import configparser
+import json
 import re
 
 import numpy as np
 import pytest
 
+from fftocean.bake.maps import MAPS
+from fftocean.export.engines import CELLS, profile_for
 from fftocean.export.formats import assemble, encode
-from fftocean.export.profiles import PROFILES
+from fftocean.export.profiles import arrange, meaning, unit_in
 
-FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 columns and 3 rows
-
-
-def files(name):
-    parts = [encode("exr-atlas", np.zeros((ROWS, COLUMNS, 3), np.float32))] * FRAMES
-    return assemble("exr-atlas", parts, stem="foam", shape=(FRAMES, ROWS, COLUMNS, 3), profile=PROFILES[name], size=(40.0, 20.0), loop=12.0)
+FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 cells across and 3 down
 
 
-@pytest.mark.parametrize("name", PROFILES)
-def test_each_engine_gets_its_own_and_no_other(name):
+def files(engine, name="foam", **more):
+    """An atlas of one map of still water."""
+    m, profile = MAPS[name], profile_for(engine, "exr-atlas")
+    parts = [encode("exr-atlas", arrange(profile, m.kind, np.zeros((ROWS, COLUMNS, len(m.names)), np.float32)))] * FRAMES
+    return assemble(
+        "exr-atlas", parts, stem=name, shape=(FRAMES, ROWS, COLUMNS, len(m.names)), profile=profile, kind=m.kind,
+        names=meaning(profile, m.kind, m.names), unit=unit_in(profile, m.kind, m.unit), size=(40.0, 20.0), loop=12.0, start=1.5,
+        bounds={"horizontal": 0.75, "vertical": 1.25}, **more,
+    )  # fmt: skip
+
+
+def page(engine, name, **more):
+    """The page of steps, and the sidecar."""
+    made = files(engine, name, **more)
+    return bytes(made[f"{name}.exr.{engine}.txt"]).decode(), json.loads(bytes(made[f"{name}.json"]))
+
+
+@pytest.mark.parametrize("engine", CELLS)
+def test_each_engine_gets_its_own_and_no_other(engine):
     more = {"godot": "foam.exr.import", "unity": "foam.exr.unity.txt", "unreal": "foam.exr.unreal.txt"}
-    assert set(files(name)) == {"foam.exr", "foam.json"} | ({more[name]} if name in more else set())
+    assert set(files(engine)) == {"foam.exr", "foam.json"} | ({more[engine]} if engine in more else set())
 
 
 def test_godot_imports_an_array_of_halves_without_mipmaps():
@@ -34,17 +49,44 @@ def test_godot_imports_an_array_of_halves_without_mipmaps():
     assert params["mipmaps/generate"] == "false"
 
 
-@pytest.mark.parametrize("name", ["unity", "unreal"])
-def test_a_page_of_steps_is_about_this_atlas(name):
-    text = bytes(files(name)[f"foam.exr.{name}.txt"]).decode()
+@pytest.mark.parametrize("engine", ["unity", "unreal"])
+@pytest.mark.parametrize("name", MAPS)
+def test_a_page_says_of_its_map_what_the_sidecar_says(engine, name):
+    """Its formulas and numbers are those of the sidecar, which tests/export/test_matrix.py evaluates against the water."""
+    text, side = page(engine, name)
     assert "{" not in text
+    rule, channels = text.split("Sample with")[1].split("The channels give")
+    formulas = dict(re.findall(r"^    (\w+) = (.+)$", rule, re.MULTILINE))
+    (numbers,) = re.findall(r"^where (.+)$", rule, re.MULTILINE)
+    values = {key: float(value) for key, value in re.findall(r"(\w+) = ([-+.e\d]+)", numbers)}
+    assert {**formulas, "values": values} == side["sampling"]
+    assert dict(re.findall(r"^    (\w+) = (.+)$", channels, re.MULTILINE)) == side["world"]
+    assert ", ".join(f"{letter}: {words}" for letter, words in side["channels"].items()) in text
+    unit = {"height": "m", "displacement": "m", "velocity": "m/s"}.get(name, "")
+    unit = unit.replace("m", "cm", 1) if engine == "unreal" else unit
+    assert re.search(rf"^Unit +{unit or r'none .a pure number.'}; linear$", text, re.MULTILINE)
+    assert ("cm" in re.sub(r"place at rest and sizes in cm|by 75 cm|by 125 cm", "", text)) == (unit[:1] == "c")
+    assert "Lookup      lagrangian" in text
+    assert "starts at 1.5 s, plays for 12 s, 0.5 frames a second" in text
+    bounds = "75 cm along the horizontal axes, by 125 cm" if engine == "unreal" else "0.75 m along the horizontal axes, by 1.25 m"
+    assert f"by {bounds} up and down" in text
+    assert ("packed: n = 2 c - 1" in text) == (name == "normal")
     assert re.search(r"sRGB +off", text)
-    assert "frame = mod((time - start) / loop * frames, frames)" in text
-    if name == "unity":
-        assert "2D Array, Columns 2, Rows 3" in text
+    if engine == "unity":
+        alpha = "A" in side["channels"]
+        assert re.search(rf"Alpha Source +{'Input Texture Alpha' if alpha else 'None'}\n", text)
+        assert f"TextureImporterAlphaSource.{'FromInput' if alpha else 'None'};" in text
+        assert re.search(r"Alpha Is Transparency +off", text)
+        assert "2D Array, Columns 2, Rows 3 (cells of frames)" in text
         assert "flipbookColumns = 2;" in text
         assert "flipbookRows = 3;" in text
         assert "RGBA Half" in text
+        assert not re.search(r"[/+] *columns|[/+] *rows", text)  # those words are Unity's for cells
     else:
         assert "HDR (RGBA16F" in text
         assert "2 cells across and 3 down" in text
+
+
+def test_a_part_of_the_loop_is_said_to_be_one():
+    assert "a part of the loop: the last frame does not lead on" in page("unreal", "foam", closes=False)[0]
+    assert "Lookup      eulerian" in page("unreal", "foam", lookup="eulerian")[0]
