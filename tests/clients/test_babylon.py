@@ -56,7 +56,9 @@ def normals(browser):
     value, _ = browser.run("babylon.html", {"textures": textures, "pictures": pictures})
     assert value["error"] == 0
     lit = np.stack([floats(seen, N[1], N[0], 4)[..., 0] for seen in value["pictures"]]).reshape(-1, 3, 2, N[1], N[0])
-    return dict(zip([(f, s) for f in SETTINGS for s in ("flat", "sea")], np.moveaxis(lit[:, :, 0] - lit[:, :, 1], 1, -1), strict=True)), jobs["sea"]
+    return dict(
+        zip([(f, s) for f in SETTINGS for s in ("flat", "sea")], np.moveaxis(lit[:, :, 0] - lit[:, :, 1], 1, -1), strict=True)
+    ), jobs["sea"]
 
 
 @pytest.mark.parametrize("format_", SETTINGS)

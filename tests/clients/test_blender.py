@@ -34,7 +34,9 @@ def test_vertices_are_where_the_water_is_at_every_frame(blender, tmp_path, forma
     """
     baked = job(bake__engine="blender", bake__format=format_, bake__maps=["displacement"])
     fo.bake(baked, tmp_path / "sea", executor="serial")
-    said = json.loads(run(blender, HERE / "blender" / "measure.py", EXAMPLE, tmp_path / "sea", tmp_path / "out.npz", folder=tmp_path).splitlines()[-1])
+    said = json.loads(
+        run(blender, HERE / "blender" / "measure.py", EXAMPLE, tmp_path / "sea", tmp_path / "out.npz", folder=tmp_path).splitlines()[-1]
+    )
     found = np.load(tmp_path / "out.npz")
     water = truth(baked)
     expected = np.stack([water[axis] for axis in "xyz"], axis=-1).reshape(FRAMES, -1, 3)
@@ -43,7 +45,9 @@ def test_vertices_are_where_the_water_is_at_every_frame(blender, tmp_path, forma
     order = np.lexsort(found["still"].T[:2].round(4))  # by y, then x, however the mesh counts its vertices
     assert np.abs(found["still"][order] - rest).max() <= 2e-6
     moved = found["moved"][:, order].astype(float)
-    rounding = 0.5 * float(np.spacing(np.float32(OBLONG[0]))) + 2e-7 + (0.5 * half_step(np.abs(expected).max()) if format_ == "exr" else 0.0)
+    rounding = (
+        0.5 * float(np.spacing(np.float32(OBLONG[0]))) + 2e-7 + (0.5 * half_step(np.abs(expected).max()) if format_ == "exr" else 0.0)
+    )
     apart = np.abs(moved[:FRAMES] - rest - expected)
     print(f"Blender {said['version']} {format_}: largest {apart.max():.3g} m, allowed {rounding:.3g} m")
     assert apart.max() <= rounding

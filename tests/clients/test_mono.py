@@ -31,5 +31,7 @@ def test_the_c_sharp_reader_finds_the_water_and_refuses_what_it_does_not_underst
     assert np.ptp(expected) > 100 * tolerance
     sidecar = json.loads((tmp_path / "sea" / "height.json").read_text())
     (tmp_path / "sea" / "other.json").write_text(json.dumps({**sidecar, "lookup": "lagrangian"}))
-    done = subprocess.run([runtime, "ask.exe", "sea/other.json", "points"], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True)
+    done = subprocess.run(
+        [runtime, "ask.exe", "sea/other.json", "points"], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True
+    )
     assert done.stdout == "refused: lookup must be eulerian, got lagrangian\n"

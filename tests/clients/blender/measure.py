@@ -28,4 +28,14 @@ bpy.context.view_layer.update()
 look = [list(world_to_camera_view(bpy.context.scene, camera, Vector(p))) for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0))]
 scene = bpy.context.scene
 user = sea.modifiers["waves"].texture.image_user
-print(json.dumps({"version": bpy.app.version_string, "look": look, "fps": scene.render.fps / scene.render.fps_base, "frame_end": scene.frame_end, "frame_offset": user.frame_offset}))  # noqa: E501
+print(
+    json.dumps(
+        {
+            "version": bpy.app.version_string,
+            "look": look,
+            "fps": scene.render.fps / scene.render.fps_base,
+            "frame_end": scene.frame_end,
+            "frame_offset": user.frame_offset,
+        }
+    )
+)  # noqa: E501
