@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from fftocean.bake.check import check as check
     from fftocean.bake.job import Job as Job
     from fftocean.bake.load import Bake as Bake
+    from fftocean.bake.load import BakedCascade as BakedCascade
     from fftocean.bake.load import load as load
     from fftocean.bake.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
@@ -77,13 +78,14 @@ if TYPE_CHECKING:
     from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
+    from fftocean.window import Window as Window
 
 __version__ = "0.1.0"
 
 _ROOMS = {
     "fftocean.bake.check": ("Finding", "check"),
     "fftocean.bake.job": ("Job",),
-    "fftocean.bake.load": ("Bake", "load"),
+    "fftocean.bake.load": ("Bake", "BakedCascade", "load"),
     "fftocean.bake.repair": ("repair",),
     "fftocean.cascade": ("Cascade",),
     "fftocean.errors": (
@@ -121,6 +123,7 @@ _ROOMS = {
     "fftocean.query": ("Answer", "Query"),
     "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
+    "fftocean.window": ("Window",),
 }
 _MODULES = {
     "bake": "fftocean.bake",

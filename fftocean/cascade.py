@@ -95,7 +95,7 @@ class Cascade:
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         """Pickle and copy as the tiles that it has."""
-        return _rebuilt, self._recipe
+        return assembled, self._recipe
 
     def __len__(self) -> int:
         """How many tiles there are."""
@@ -145,7 +145,8 @@ class Cascade:
         """
         Return each tile's frame at time t, the largest's first; arguments and errors as in `Ocean.frame`.
 
-        Linear fields add up over tiles: heights, displacements, slopes, stretches and velocities. Normals and Jacobians do not.
+        Linear fields add up over tiles: heights, displacements, slopes, stretches and velocities.
+        Normals and Jacobians do not, nor does foam: a `Window` makes them from the sums.
         """
         return tuple(ocean.frame(t, fields) for ocean in self.oceans)
 
@@ -168,8 +169,8 @@ class Cascade:
         return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
 
 
-def _rebuilt(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
-    """A cascade of tiles that there are, without seeding them again."""
+def assembled(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
+    """Return the cascade of given tiles, the largest first, without seeding them again."""
     cascade = Cascade.__new__(Cascade)
     cascade._set_up(sea, seed, oceans)
     return cascade

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import fftocean
-from fftocean.errors import FFTOceanError, JobError, OutputError, SeaWarning
+from fftocean.errors import FFTOceanError, OutputError, SeaWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -116,7 +116,7 @@ def _parser() -> argparse.ArgumentParser:
     for name, run, summary, add_flags in (
         ("bake", _bake, "write a looping sequence of maps, a manifest and a contact sheet", _add_bake_flags),
         ("check", _check, "find any frame that is missing, cut, changed or swapped, and any map that is not water", _add_check_flags),
-        ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes", _add_job_flags),
+        ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes", _add_info_flags),
         ("verify", _verify, "prove the tile: FFT against the direct sum, seam, loop, Parseval, energy", _add_verify_flags),
         (
             "bench",
@@ -142,17 +142,26 @@ def _add_bake_flags(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--downsample", type=_whole, default=1, metavar="K", help="a K-th of the samples a side: the same waves, but for those too short"
     )
+    _add_tiles_flag(command)
+    command.add_argument("--dry-run", action="store_true", help="say what would be written, and write nothing")
+    _add_work_flags(command)
+    command.add_argument("--json", action="store_true", help="what happens as lines of JSON on stdout: start, survey, frame, done, error")
+    command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
+    _add_job_flags(command)
+
+
+def _add_info_flags(command: argparse.ArgumentParser) -> None:
+    _add_tiles_flag(command)
+    _add_job_flags(command)
+
+
+def _add_tiles_flag(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--tiles",
         type=_tiles,
         metavar="N:SIZE,...",
         help="one sea on several tiles, such as 512:500,512:71,256:9.3, instead of --n and --size",
     )
-    command.add_argument("--dry-run", action="store_true", help="say what would be written, and write nothing")
-    _add_work_flags(command)
-    command.add_argument("--json", action="store_true", help="what happens as lines of JSON on stdout: start, survey, frame, done, error")
-    command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
-    _add_job_flags(command)
 
 
 def _add_check_flags(command: argparse.ArgumentParser) -> None:
@@ -302,24 +311,29 @@ def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell:
 
 def _bake_cascade(options: argparse.Namespace, job: "Job", subset: str | None, tell: "Callable[[dict[str, Any]], None] | None") -> int:
     """Bake one sea on several tiles, one after the other."""
-    from fftocean.bake.tiles import CASCADE_FILE, bake_tiles
+    from fftocean.bake.layout import CASCADE_FILE
+    from fftocean.bake.tiles import bake_tiles, summary
 
     if options.dry_run:
-        raise JobError("--dry-run looks at one tile; leave out --tiles, and give --n and --size")
+        return _dry_run(options, job, subset)
     with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
 
         def listen(event: dict[str, Any]) -> None:
             if event["event"] == "frame":
-                show(event["done"], event["frames"], "baking")
+                show(event["done"], event["frames"], f"baking tile {event['tile'] + 1} of {event['tiles']}")
             if tell:
                 tell(event)
 
         work = {name: getattr(options, name) for name in ("overwrite", "downsample", "executor", "workers")}
         listed = bake_tiles(job, options.tiles, options.output, frames=subset, listen=listen, **work)
     if not (options.quiet or options.json):
-        for tile in listed["tiles"]:
-            (nx, ny), (lx, ly), (low, high) = tile["n"], tile["size"], tile["band"]
-            print(f"{tile['path']}: {nx} x {ny} over {lx:g} x {ly:g} m, waves of {low:.4g} to {float(high):.4g} rad/m")
+        _advise(listed["statistics"])
+        for line in summary(listed):
+            print(line)
+        _note_folds(listed["extremes"])
+        print(_blending(listed["blend"]))
+        if "preview" in listed:
+            print(f"look at {_plain(options.output / listed['preview']['path'])}")
         print(f"how to add them stands in {_plain(options.output / CASCADE_FILE)}")
     return 0
 
@@ -369,8 +383,10 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int
     from dataclasses import asdict
 
     from fftocean.bake.estimate import estimate
+    from fftocean.bake.tiles import estimate_tiles
 
-    e = estimate(job, frames=subset, downsample=options.downsample, executor=options.executor, workers=options.workers)
+    work = {"frames": subset, **{name: getattr(options, name) for name in ("downsample", "executor", "workers")}}
+    e = estimate_tiles(job, options.tiles, **work) if options.tiles else estimate(job, **work)
     if options.json:
         _print_event({"event": "estimate", "folder": str(options.output), **asdict(e)})
         return 0
@@ -383,6 +399,8 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int
 def _check(options: argparse.Namespace) -> int:
     from fftocean.bake.check import check
     from fftocean.bake.job import Job
+    from fftocean.bake.layout import is_cascade
+    from fftocean.bake.listing import read_listing
     from fftocean.bake.manifest import read_manifest
 
     with _events(options.json) as tell:
@@ -407,7 +425,8 @@ def _check(options: argparse.Namespace) -> int:
             findings = check(options.folder)
             _report(findings, options, tell)
         if not findings and not options.json:
-            _note_folds(read_manifest(options.folder)["extremes"])
+            listed = is_cascade(options.folder)
+            _note_folds((read_listing if listed else read_manifest)(options.folder)["extremes"])
         if tell:
             tell({"event": "done", "findings": len(findings)})
     return 5 if findings else 0
@@ -513,6 +532,8 @@ def _info(options: argparse.Namespace) -> int:
     from fftocean.statistics import measure
 
     job = _job(options)
+    if options.tiles:
+        return _info_of_tiles(options, job)
     scene = scene_for(job, 1, job.frames)
     ocean = scene.ocean
     statistics, grid = measure(ocean, frames=min(job.frames, 8)), ocean.grid
@@ -562,6 +583,27 @@ def _info(options: argparse.Namespace) -> int:
     table.add_row("between frames", blend.sentence(blend.loss(ocean, job.frames)))
     console.print(table)
     _advise(asdict(statistics))
+    return 0
+
+
+def _info_of_tiles(options: argparse.Namespace, job: "Job") -> int:
+    """Say what a job means as a cascade."""
+    from rich.table import Table
+    from rich.text import Text
+
+    from fftocean.bake.tiles import water_estimate
+    from fftocean.bake.water import prepare
+
+    water = prepare(job, options.tiles)
+    cost = water_estimate(water)
+    title = Text(f"Cascade: {_plain(job.source)}")
+    table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
+    for name, text in water.rows():
+        table.add_row(name, Text(text))
+    table.add_row("files", f"{cost.files} files, about {cost.bytes / 1e6:.0f} MB")
+    table.add_row("memory", f"about {cost.memory / 2**20:.0f} MiB for the largest tile, in each of {cost.workers} at work")
+    table.add_row("time to bake", f"about {cost.seconds:.0f} s here")
+    _console().print(table)
     return 0
 
 

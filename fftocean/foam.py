@@ -5,10 +5,15 @@ Foam is made where the water is squeezed beyond a threshold, stays with the wate
 
     df/dt = -f / tau + strength max(threshold - squeeze, 0),
 
-at each undisplaced position; `squeeze` is the smaller eigenvalue of the deformation (Tessendorf 2001), which is 1 on still water
-and 0 where a crest folds. It is linear in f. So a step of any length is an exponential and an integral, and on a loop of period T
-the state that returns to itself is known in closed form: f(0) = g / (1 - e^{-T/tau}), where g is what one turn of the loop makes
-on clean water. Only the picture saturates: patches laid down at random with density f cover 1 - e^{-f} of the water.
+at each undisplaced position; `squeeze` is the smaller eigenvalue of the deformation (Tessendorf
+2001), which is 1 on still water and 0 where a crest folds. It is linear in f, and not in the waves:
+the foam of a cascade is that of its summed stretches, and no sum or product of what each tile would
+have alone, which sees only its own share of the squeeze.
+
+So a step of any length is an exponential and an integral, and on a loop of period T the state that
+returns to itself is known in closed form: f(0) = g / (1 - e^{-T/tau}), where g is what one turn of
+the loop makes on clean water. Only the picture saturates: patches laid down at random with
+density f cover 1 - e^{-f} of the water.
 """
 
 import math
@@ -19,12 +24,15 @@ from typing import Any
 import numpy as np
 
 from fftocean.arrays import Real
+from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import potential_factor
+from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
 from fftocean.limits import FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, FRAMES, TIME, keep_checked
-from fftocean.ocean import Frame, Ocean
+from fftocean.ocean import Ocean
+from fftocean.window import Window
 
 SPAN = 16
 """Frames of a loop that are baked from one stored state."""
@@ -38,9 +46,11 @@ class Foam:
     """
     How water foams. `loop` gives the foam of a loop, `live` that of a running sea.
 
-    The defaults: foam of breaking waves fades in 3.5 s (Monahan 1986: 3.53 s in sea water), and the waves of a 10 m/s wind cover
-    about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at choppiness 1 and samples 0.8 m apart. The squeeze of linear waves
-    hardly grows with the wind, but it does with shorter waves and more choppiness: lower the threshold there, raise it for storms.
+    The defaults: foam of breaking waves fades in 3.5 s (Monahan 1986: 3.53 s in sea water), and the
+    waves of a 10 m/s wind cover about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at
+    choppiness 1 and samples 0.8 m apart. The squeeze of linear waves hardly grows with the wind,
+    but it does with shorter waves and more choppiness: lower the threshold there, raise it for
+    storms.
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
@@ -50,33 +60,46 @@ class Foam:
     def __post_init__(self) -> None:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
 
-    def loop(self, ocean: Ocean, count: int) -> Iterator[Real]:
+    def loop(self, source: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
         """
-        Yield the foam coverage of `count` frames of a loop, each (ny, nx) in 0..1, indexed by the undisplaced position.
+        Yield the foam coverage of `count` frames of a loop, each (ny, nx) in 0..1, indexed by the
+        undisplaced position.
+
+        Args:
+            source: an ocean; a `Window` on a cascade; or a cascade, which stands for the window of
+                its largest tile.
+            count: frames of the loop.
 
         Raises:
             ParameterError: the ocean does not loop, or `count` is out of range.
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
+        ocean = _water(source)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
             for _, f in self.states(ocean, count, state, first, stop):
                 yield coverage(f)
 
-    def live(self, ocean: Ocean, t: float = 0.0) -> "LiveFoam":
-        """Start on clean water at time t [s]; a start 3 tau earlier than is shown has foam from the first picture on."""
-        return LiveFoam(self, ocean, t)
+    def live(self, source: Ocean | Cascade | Window, t: float = 0.0) -> "LiveFoam":
+        """
+        Start on clean water at time t [s]; a start 3 tau earlier than is shown has foam from the
+        first picture on.
+        """
+        return LiveFoam(self, _water(source), t)
 
-    def response(self, ocean: Ocean, count: int, first: int, stop: int) -> Real:
-        """Return the state at frame `stop` of `count` if the water was clean at frame `first`: (ny, nx), float64."""
+    def response(self, ocean: Ocean | Window, count: int, first: int, stop: int) -> Real:
+        """
+        Return the state at frame `stop` of `count` if the water was clean at frame `first`: (ny,
+        nx), float64.
+        """
         state = np.zeros(ocean.grid.shape)
         for _ in self._run(ocean, count, state, first, stop):
             pass
         return state
 
-    def starts(self, made: Sequence[Real], ocean: Ocean, count: int) -> Real:
+    def starts(self, made: Sequence[Real], ocean: Ocean | Window, count: int) -> Real:
         """
         Return the states of the loop at the first frame of each span, (spans, ny, nx), float64.
 
@@ -94,9 +117,10 @@ class Foam:
             states[i] = kept[i - 1] * states[i - 1] + made[i - 1]
         return states
 
-    def states(self, ocean: Ocean, count: int, start: Real, first: int, stop: int) -> Iterator[tuple[int, Real]]:
+    def states(self, ocean: Ocean | Window, count: int, start: Real, first: int, stop: int) -> Iterator[tuple[int, Real]]:
         """
-        Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`; each is good until the next.
+        Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`;
+        each is good until the next.
 
         The same start gives the same bits, whoever asks: a frame's state does not depend on `stop`.
         """
@@ -105,7 +129,7 @@ class Foam:
         for j in self._run(ocean, count, state, first, stop - 1):
             yield j, state
 
-    def _run(self, ocean: Ocean, count: int, state: Real, first: int, last: int) -> Iterator[int]:
+    def _run(self, ocean: Ocean | Window, count: int, state: Real, first: int, last: int) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
         if ocean.loop is None:
             raise ParameterError("foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without")
@@ -126,11 +150,11 @@ class LiveFoam:
     """
     The foam of a running sea: it keeps the state, and `at(t)` moves it on.
 
-    It steps at a pace of its own that suits the waves, so that what it shows does not depend on how often it is asked; between
-    two steps it interpolates. One thread at a time.
+    It steps at a pace of its own that suits the waves, so that what it shows does not depend on how
+    often it is asked; between two steps it interpolates. One thread at a time.
     """
 
-    def __init__(self, settings: Foam, ocean: Ocean, t: float = 0.0) -> None:
+    def __init__(self, settings: Foam, ocean: Ocean | Window, t: float = 0.0) -> None:
         self._settings, self._ocean = settings, ocean
         self._start = self._last = TIME.check("t", t)
         step = longest_step(ocean)
@@ -163,7 +187,10 @@ class LiveFoam:
         return coverage((1.0 - share) * self._before + share * self._state)
 
     def _begin(self, tick: int) -> None:
-        """Clean water at a step; `_before` is the state one step before `_state`, which is that of `_tick`."""
+        """
+        Clean water at a step; `_before` is the state one step before `_state`, which is that of
+        `_tick`.
+        """
         self._tick = tick
         self._before, self._state = np.zeros((2, *self._ocean.grid.shape))
         self._window = [self._watch.at(self._start + (tick + i) * self._step) for i in (-1, 0, 1)]
@@ -178,7 +205,10 @@ class LiveFoam:
 
 
 def spans_of(count: int) -> list[tuple[int, int]]:
-    """The spans of frames, (first, stop), that each start from a stored state: the parts of a bake's survey."""
+    """
+    The spans of frames, (first, stop), that each start from a stored state: the parts of a bake's
+    survey.
+    """
     return [(first, min(first + SPAN, count)) for first in range(0, count, SPAN)]
 
 
@@ -189,25 +219,43 @@ def coverage(state: Real) -> Real:
     return out
 
 
-def longest_step(ocean: Ocean) -> float:
+def _water(source: Any) -> Ocean | Window:
     """
-    Return the step of time [s] that follows the squeeze: a third of a radian of its waves, inf where there are none.
+    Return what foam can be made on.
 
-    Their frequency is the root mean square over waves weighted with the variance of their stretch. Half the step changes the
-    foam by half a percent.
+    Raises:
+        ParameterError: it is no water.
     """
-    a = ocean.amplitudes
-    k = a.grid.k
-    stretch = a.squares * (potential_factor(k, a.depth) * k * k) ** 2
-    total = float(np.sum(stretch))
-    fast = float(np.sum(stretch * a.running_omega**2)) / total if total > 0.0 else 0.0
+    if isinstance(source, Cascade):
+        return Window(source)
+    if not isinstance(source, (Ocean, Window)):
+        raise ParameterError(f"foam needs an Ocean, a Cascade or a Window, got {source!r:.80}")
+    return source
+
+
+def longest_step(ocean: Ocean | Window) -> float:
+    """
+    Return the step of time [s] that follows the squeeze: a third of a radian of its waves, inf
+    where there are none.
+
+    Their frequency is the root mean square over waves weighted with the variance of their stretch.
+    Half the step changes the foam by half a percent.
+    """
+    total = fast = 0.0
+    for tile in ocean.oceans if isinstance(ocean, Window) else (ocean,):
+        a = tile.amplitudes
+        k = a.grid.k
+        stretch = a.squares * (potential_factor(k, a.depth) * k * k) ** 2
+        total += float(np.sum(stretch))
+        fast += float(np.sum(stretch * a.running_omega**2))
+    fast = fast / total if total > 0.0 else 0.0
     return 1.0 / (3.0 * math.sqrt(fast)) if fast > 0.0 else math.inf
 
 
 class _Watch:
     """The squeeze of an ocean at any moment; arrays that are given back are used again."""
 
-    def __init__(self, ocean: Ocean) -> None:
+    def __init__(self, ocean: Ocean | Window) -> None:
         self._ocean = ocean
         self._frame: Frame | None = None
         self._spare: list[Real] = []
@@ -234,7 +282,10 @@ class _Watch:
 
 
 class _Stepper:
-    """One step of a fixed length: the integral of e^{-(dt - s)/tau} source(s) over it, the source linear between quarter steps."""
+    """
+    One step of a fixed length: the integral of e^{-(dt - s)/tau} source(s) over it, the source
+    linear between quarter steps.
+    """
 
     def __init__(self, settings: Foam, step: float) -> None:
         self._threshold = settings.threshold
@@ -257,9 +308,11 @@ class _Stepper:
 
 def _exponential_weights(x: float) -> tuple[float, float]:
     """
-    The weights of the two ends of a step of x decay times: the integrals of e^{-(x - s)} (1 - s/x) and e^{-(x - s)} s/x over 0..x.
+    The weights of the two ends of a step of x decay times: the integrals of e^{-(x - s)} (1 - s/x)
+    and e^{-(x - s)} s/x over 0..x.
 
-    They are (1 - e^-x)/x - e^-x and 1 - (1 - e^-x)/x; by series below 1e-3, where both are differences of near equals.
+    They are (1 - e^-x)/x - e^-x and 1 - (1 - e^-x)/x; by series below 1e-3, where both are
+    differences of near equals.
     """
     if x < 1e-3:
         return x * (1 / 2 - x * (1 / 3 - x * (1 / 8 - x * (1 / 30)))), x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120))))

@@ -24,6 +24,7 @@ from fftocean.bake.frames import Scene, leave, seat
 from fftocean.bake.job import Job
 from fftocean.bake.journal import Journal, entries_of
 from fftocean.bake.ledger import Ledger, Listen, Progress
+from fftocean.bake.listing import leave_cascade
 from fftocean.bake.lock import locked, require_free
 from fftocean.bake.manifest import compose, read_manifest
 from fftocean.bake.maps import MAPS
@@ -51,6 +52,7 @@ def bake(
     workers: int | None = None,
     progress: Progress | None = None,
     listen: Listen | None = None,
+    scene: Scene | None = None,
 ) -> dict[str, Any]:
     """
     Bake a job: a file a map and frame, or a container a map, something to look at, and a manifest that is written last.
@@ -69,6 +71,7 @@ def bake(
         workers: how many; None is one for each processor that this process may use.
         progress: called with (frames done, frames in all).
         listen: called with what happens, as plain data: {"event": "start" | "survey" | "frame" | "done", ...}.
+        scene: the job's water, where it is set up already, as `scene_for` does.
 
     Returns:
         The manifest, as plain data.
@@ -84,13 +87,14 @@ def bake(
     folder = Path(folder)
     require_free(folder)
     chosen = frames_of(frames, job.frames)
-    scene = scene_for(job, downsample, len(chosen))
+    scene = scene or scene_for(job, downsample, len(chosen))
     header = header_of(job, frames=chosen, downsample=downsample, backend=scene.ocean.backend)
     make_folder(folder)
     with locked(folder) as hold:
         order = Order(job, downsample, header, chosen, str(folder), hold.token)
         seat(order.claim, scene)
         try:
+            leave_cascade(folder, overwrite=overwrite)
             known = _known(folder, order, scene, overwrite)
             make_folder(folder / layout.WORK_FOLDER)
             with Journal(folder / layout.JOURNAL, order.claim, known) as journal:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from fftocean.arrays import Real
+from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.limits import FRAMES
 from fftocean.ocean import Ocean
@@ -36,9 +37,9 @@ class Blend:
     enough_frames_slopes: int
 
 
-def loss(ocean: Ocean, frames: int) -> Blend:
+def loss(ocean: Ocean | Cascade, frames: int) -> Blend:
     """
-    Return what blending keeps between the frames of a loop.
+    Return what blending keeps between the frames of a loop; of a cascade, of all tiles together.
 
     Raises:
         ParameterError: the ocean does not loop, or `frames` is out of range.
@@ -64,7 +65,7 @@ def loss(ocean: Ocean, frames: int) -> Blend:
     )
 
 
-def describe(ocean: Ocean, frames: int) -> dict[str, Any]:
+def describe(ocean: Ocean | Cascade, frames: int) -> dict[str, Any]:
     """`loss` as plain data for the manifest."""
     b = loss(ocean, frames)
     return {
@@ -91,13 +92,20 @@ def sentence(b: Blend) -> str:
     return f"{kept}; {heights}{b.enough_frames_slopes} frames ({b.enough_rate_slopes:.3g} a second) keep {100 * ENOUGH:.0f} % of the slopes"
 
 
-def _waves(ocean: Ocean) -> tuple[Real, Real, Real]:
-    """Energies, up to a factor, running frequencies and wavenumbers of the waves of the half plane, +k and -k together."""
-    a = ocean.amplitudes
-    energy = a.squares
-    energy[:, 0] *= 0.5  # the column mx = 0 holds both k and -k, the others stand for theirs
-    there = energy > 0.0
-    return energy[there], a.running_omega[there], a.grid.k[there]
+def _waves(ocean: Ocean | Cascade) -> tuple[Real, Real, Real]:
+    """
+    Return energies, up to a factor, running frequencies and wavenumbers of the waves of the half
+    plane of each tile, +k and -k together.
+    """
+    parts = []
+    for tile in ocean.oceans if isinstance(ocean, Cascade) else (ocean,):
+        a = tile.amplitudes
+        energy = a.squares
+        energy[:, 0] *= 0.5  # the column mx = 0 holds both k and -k, the others stand for theirs
+        there = energy > 0.0
+        parts.append((energy[there], a.running_omega[there], a.grid.k[there]))
+    energy, omega, k = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return energy, omega, k
 
 
 def _frames(rate: float, loop: float) -> int:
@@ -105,7 +113,7 @@ def _frames(rate: float, loop: float) -> int:
     return max(1, math.ceil(rate * loop - 1e-9))
 
 
-def _peak(ocean: Ocean, energy: Real, omega: Real) -> float:
+def _peak(ocean: Ocean | Cascade, energy: Real, omega: Real) -> float:
     """The peak frequency: the sea's, or the strongest wave's where waves were given [rad/s]."""
     if ocean.sea is not None and (tp := ocean.sea.tp) > 0.0:
         return 2.0 * math.pi / tp

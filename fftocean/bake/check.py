@@ -2,18 +2,18 @@
 
 import functools
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.bake import layout
+from fftocean.bake import layout, listing
 from fftocean.bake.claim import HEADER, read_checked
 from fftocean.bake.containers import INSEPARABLE, still_says
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import digest
+from fftocean.bake.files import digest, read_whole
 from fftocean.bake.lock import require_free
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
@@ -57,8 +57,10 @@ def check(folder: str | Path, *, progress: Callable[[int, int], None] | None = N
     """
     Check a bake: whether every file is there and is what was written, and whether that is a sea.
 
+    Of a cascade every tile is checked so, and that the tiles belong together.
+
     Args:
-        folder: that `bake` wrote.
+        folder: that `bake` wrote, or the folder around the tiles of a cascade.
         progress: called with (maps of frames looked at, all of them).
 
     Returns:
@@ -72,6 +74,11 @@ def check(folder: str | Path, *, progress: Callable[[int, int], None] | None = N
     require_free(folder)
     if not folder.is_dir():
         raise OutputError(f"{folder} must be the folder of a bake, and is {'no folder' if folder.exists() else 'not there'}")
+    return _cascade(folder, progress) if layout.is_cascade(folder) else _bake(folder, progress)
+
+
+def _bake(folder: Path, progress: Callable[[int, int], None] | None) -> tuple[Finding, ...]:
+    """Check the bake of one tile."""
     try:
         contents = Contents.of(folder, read_manifest(folder))
     except IntegrityError as error:
@@ -82,6 +89,56 @@ def check(folder: str | Path, *, progress: Callable[[int, int], None] | None = N
         done = i * len(contents.frames)
         found += _map(contents, name, functools.partial(_tell, progress, done, total) if progress else None)
     return (*found, *_extra(contents))
+
+
+def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple[Finding, ...]:
+    """Check the bake of a cascade: its job and list, each of its tiles, and that they belong together."""
+    found: list[Finding] = []
+    header: dict[str, Any] | None = None
+    listed: dict[str, Any] | None = None
+    try:
+        header = read_checked(folder / layout.CASCADE_JOB)
+    except IntegrityError as error:
+        there = (folder / layout.CASCADE_JOB).is_file()
+        found.append(Finding("job" if there else "missing", layout.CASCADE_JOB, str(error)))
+    try:
+        listed = read_checked(folder / layout.CASCADE_FILE)
+    except IntegrityError as error:
+        if (folder / layout.CASCADE_FILE).is_file():
+            found.append(Finding("manifest", layout.CASCADE_FILE, str(error)))
+        else:
+            why = "it is not there: the bake was stopped, and the same command goes on with it"
+            found.append(Finding("unfinished", layout.CASCADE_FILE, why))
+    names = layout.tile_folders(folder)
+    known = {} if listed is None else {row["path"]: row for row in listed["tiles"]}
+    for name in known:
+        if name not in names:
+            found.append(Finding("missing", f"{name}/{layout.MANIFEST_FILE}", f"it is in the list of {layout.CASCADE_FILE}"))
+    for index, name in enumerate(names):
+        if listed is not None and name not in known:
+            found.append(Finding("extra", name, f"it would be taken for a tile, and is not in {layout.CASCADE_FILE}"))
+            continue
+        tell = functools.partial(_share, progress, index, len(names)) if progress else None
+        require_free(folder / name)
+        found += [replace(finding, path=f"{name}/{finding.path}") for finding in _bake(folder / name, tell)]
+    if listed is not None:
+        reference = {key: listed.get(key) for key in listing.HEADER} if header is None else header
+        found += [Finding("manifest", path, detail) for path, detail in listing.faults(folder, reference, listed)]
+        for key in layout.DRAWN:
+            if key in listed and (fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})):
+                found.append(Finding(fault[0], listed[key]["path"], fault[1]))
+    drawn = {listed[key]["path"] for key in layout.DRAWN if key in listed} if listed else set(layout.PICTURES)
+    for path in layout.leftovers(folder):
+        if (relative := path.relative_to(folder).as_posix()) not in drawn:
+            found.append(Finding("extra", relative, f"it would be taken for a file of this bake, and is not in {layout.CASCADE_FILE}"))
+    for path in sorted(folder.glob(".*.[0-9]*.tmp")):
+        found.append(Finding("extra", path.name, "somebody was stopped while writing it"))
+    return tuple(found)
+
+
+def _share(progress: Callable[[int, int], None], index: int, tiles: int, done: int, total: int) -> None:
+    """Tell how far all tiles are, each taken for as long as this one."""
+    progress(index * total + done, tiles * total)
 
 
 def _tell(progress: Callable[[int, int], None], before: int, total: int, done: int) -> None:

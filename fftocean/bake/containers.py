@@ -1,6 +1,7 @@
 """Frames into containers, and back out of them: for the formats in which a file holds a whole sequence, and for what stands beside them."""
 
 import contextlib
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ from fftocean.bake import layout
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
-from fftocean.bake.manifest import played
+from fftocean.bake.manifest import extremes_over, played
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
@@ -31,10 +32,7 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
         IntegrityError: a part is not any more what it was when it was written.
     """
     loop = played(order, scene, len(rows))
-    bounds = {
-        "horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
-        "vertical": max(row["extremes"]["max_height"] for row in rows),
-    }
+    bounds = _bounds(scene, rows)
     written: dict[str, list[dict[str, Any]]] = {}
     for name in scene.job.maps:
         m = MAPS[name]
@@ -65,6 +63,20 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
         if entries:
             written[name] = entries
     return written
+
+
+def _bounds(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float] | None:
+    """
+    Return how far the water goes, for culling [m]; None for a tile that holds a band of the waves.
+
+    The other tiles move the same mesh: `cascade.json` has the sums of all bounds.
+    """
+    settings = scene.job.settings
+    if settings["ocean.band_low"] > 0.0 or math.isfinite(settings["ocean.band_high"]):
+        return None
+    extremes = extremes_over(rows)
+    sides = {"horizontal": "max_horizontal", "vertical": "max_height"}
+    return {side: float(extremes[key] or 0.0) for side, key in sides.items()}
 
 
 def _parts(folder: Path, scene: Scene, name: str, rows: Sequence[Mapping[str, Any]]) -> Iterator[bytes]:

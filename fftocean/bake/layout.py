@@ -6,13 +6,16 @@ from pathlib import Path
 
 from fftocean.bake.maps import MAPS
 from fftocean.export.formats import FORMATS, Format
+from fftocean.export.recipes import PAGES
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
 SHEET, ANIMATION, TILING, SPECTRUM = "preview.png", "preview.webp", "tiling.png", "spectrum.png"
 DRAWN = {"preview": SHEET, "animation": ANIMATION, "tiling": TILING, "spectrum": SPECTRUM}  # by their keys in the manifest
 PICTURES = tuple(DRAWN.values())
+CASCADE_FILE, CASCADE_JOB = "cascade.json", "cascade-job.json"
+"""Of the folder around the tiles of a cascade: its list, written last, and its job, written first."""
 JOURNAL, FOAM_STARTS = f"{WORK_FOLDER}/journal", f"{WORK_FOLDER}/foam.npy"
-SIDECARS = (".json", ".exr.import", ".exr.unity.txt", ".exr.unreal.txt")  # of a map, beside its container or its folder
+SIDECARS = (".json", *(f".exr{page.suffix}" for page in PAGES.values()))  # of a map, beside its container or its folder
 
 
 def frame_file(form: Format, name: str, frame: int, place: int) -> str:
@@ -38,6 +41,23 @@ def container(form: Format, name: str) -> str:
 def foam_file(first: int) -> str:
     """Where the foam that is made in the span from frame `first` on is kept meanwhile."""
     return f"{WORK_FOLDER}/foam/{first:04d}.npy"
+
+
+def tile_folder(index: int) -> str:
+    """Return the name of the folder of a cascade's tile."""
+    return f"tile{index}"
+
+
+def is_cascade(folder: Path) -> bool:
+    """Return whether a folder is marked as that of a cascade."""
+    return any(os.path.lexists(folder / name) for name in (CASCADE_FILE, CASCADE_JOB))
+
+
+def tile_folders(folder: Path) -> list[str]:
+    """Return the names of the folders in a cascade's folder that hold a bake, in order."""
+    found = [path for path in folder.glob("tile[0-9]*") if path.name[4:].isdigit() and path.is_dir() and not path.is_symlink()]
+    marked = [path for path in found if any(os.path.lexists(path / name) for name in (JOB_FILE, MANIFEST_FILE))]
+    return sorted((path.name for path in marked), key=lambda name: int(name[4:]))
 
 
 def rooms(folder: Path) -> Iterator[Path]:

@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real, RealLike, require_memory
+from fftocean.bake import layout, listing
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import digest
+from fftocean.bake.files import digest, read_whole
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
+from fftocean.kernels import interpolate
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,9 +38,60 @@ class Bake:
         return self.maps[name]
 
 
-def load(folder: str | Path, *, maps: Iterable[str] | None = None, frames: Iterable[int] | None = None, verify: bool = True) -> Bake:
+@dataclass(frozen=True, slots=True, eq=False)
+class BakedCascade:
+    """The tiles of a cascade that was baked, the largest first; each is a `Bake`."""
+
+    tiles: tuple[Bake, ...]
+    manifest: Mapping[str, Any]  # the list, `cascade.json`
+
+    def __len__(self) -> int:
+        """Return the number of tiles."""
+        return len(self.tiles)
+
+    def __getitem__(self, index: int) -> Bake:
+        """Return a tile."""
+        return self.tiles[index]
+
+    @property
+    def times(self) -> Real:
+        """Times of the frames, (frames,) [s]."""
+        return self.tiles[0].times
+
+    @property
+    def frames(self) -> tuple[int, ...]:
+        """Numbers of the frames in the loop."""
+        return self.tiles[0].frames
+
+    def summed(self, name: str, x: RealLike, y: RealLike, place: int = 0) -> Real:
+        """
+        Return a map at points of the world, added up over the tiles, as a shader does: bilinear.
+
+        Args:
+            name: of a map that was loaded.
+            x, y: undisplaced positions [m], of shapes that broadcast.
+            place: of the frame in `frames`.
+
+        Returns:
+            (..., channels), float64.
+
+        Raises:
+            JobError: the map is not among those loaded, or there is no such frame.
+        """
+        if not -len(self.frames) <= place < len(self.frames):
+            raise JobError(f"place must be one of the {len(self.frames)} frames loaded, got {place!r:.40}")
+        xs, ys = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        total = np.zeros((xs.size, self.tiles[0][name].shape[-1]))
+        for tile in self.tiles:
+            (nx, ny), (lx, ly) = tile.manifest["ocean"]["n"], tile.manifest["ocean"]["size"]
+            u, v = np.mod(xs.ravel() / lx, 1.0) * nx, np.mod(ys.ravel() / ly, 1.0) * ny
+            interpolate.bilinear(np.ascontiguousarray(tile[name][place]), u, v, total)
+        return total.reshape(*xs.shape, -1)
+
+
+def load(folder: str | Path, *, maps: Iterable[str] | None = None, frames: Iterable[int] | None = None, verify: bool = True) -> Any:
     """
-    Read a finished bake.
+    Read a finished bake: a `Bake`, or a `BakedCascade` of the folder around the tiles of one.
 
     Args:
         folder: that `bake` wrote.
@@ -55,6 +108,27 @@ def load(folder: str | Path, *, maps: Iterable[str] | None = None, frames: Itera
         JobError: a map or a frame that was not baked.
     """
     folder = Path(folder)
+    if layout.is_cascade(folder):
+        return _tiles(folder, maps, frames, verify)
+    return _bake(folder, maps, frames, verify)
+
+
+def _tiles(folder: Path, maps: Iterable[str] | None, frames: Iterable[int] | None, verify: bool) -> BakedCascade:
+    """Read the tiles of a cascade, whose manifests must be those that its list names."""
+    listed = listing.read_listing(folder)
+    names = maps if maps is None or isinstance(maps, str) else tuple(maps)
+    chosen = None if frames is None else tuple(frames)
+    tiles = []
+    for row in listed["tiles"]:
+        path = folder / row["path"] / layout.MANIFEST_FILE
+        if digest(read_whole(path) or b"") != row["sha256"]:
+            raise IntegrityError(f"{path} is not the manifest that {layout.CASCADE_FILE} lists; `fftocean check` names all that is wrong")
+        tiles.append(_bake(folder / row["path"], names, chosen, verify))
+    return BakedCascade(tuple(tiles), listed)
+
+
+def _bake(folder: Path, maps: Iterable[str] | None, frames: Iterable[int] | None, verify: bool) -> Bake:
+    """Read the bake of one tile."""
     contents = Contents.of(folder, read_manifest(folder))
     wanted = (maps,) if isinstance(maps, str) else tuple(contents.job.maps if maps is None else maps)
     for name in wanted:

@@ -1,4 +1,7 @@
-"""From a frame to the pictures that are written: which field goes into which channel, in what unit, and what smaller levels hold."""
+"""
+From a frame to the pictures that are written: which field goes into which channel, in what unit,
+and what smaller levels hold.
+"""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -43,6 +46,7 @@ class Map:
     needs_levels: tuple[str, ...] = ()  # further fields, for levels
     draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
     by_place: tuple[str, ...] | None = None  # the fields needed of an `EulerianFrame`, where they are others
+    adds: bool = True  # over the tiles of a cascade: linear in the waves, or a covariance of independent ones
 
     def needed(self, *, mips: bool, eulerian: bool) -> tuple[str, ...]:
         """Return the fields to ask of a frame for the map, with its levels or without."""
@@ -88,22 +92,29 @@ MAPS: dict[str, Map] = {
         "unit normal of the displaced surface, signed; of smaller levels, that of the mean slope",
         lambda m: np.moveaxis(m.frame.normal, -1, 0),
         GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m.frame), m.frame.choppiness),
-        by_place=("normal", "slope_x", "slope_y"),
+        by_place=("normal", "slope_x", "slope_y"), adds=False,
     ),
     "derivative": Map(
         ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
         ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
-        "what cascades add up before the normal is made: about (-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
+        "slopes and stretches, which add up over tiles; without the shear the normal is about "
+        "(-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
         lambda m: (m.frame.slope_x, m.frame.slope_y, *_stretched(m.frame)),
         by_place=("slope_x", "slope_y"),
     ),
+    "stretch": Map(
+        ("stretch_xx", "stretch_xy", "stretch_yy"), "stretch",
+        ("d displacement x/dx", "d displacement x/dy = d displacement y/dx", "d displacement y/dy"), "1",
+        "gradient of the horizontal displacement, choppiness applied: sums over tiles give Jacobian, normal and foam",
+        lambda m: _gradient(m.frame),
+    ),
     "jacobian": Map(
         ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
-        lambda m: (m.frame.jacobian,),
+        lambda m: (m.frame.jacobian,), adds=False,
     ),
     "foam": Map(
         (), "scalar", ("coverage",), "1", "part of the water that is covered with foam, 0 to 1",
-        lambda m: (_foam(m),),
+        lambda m: (_foam(m),), adds=False,
     ),
     "velocity": Map(
         ("velocity_x", "velocity_y", "velocity_z"), "vector", ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
@@ -120,10 +131,15 @@ MAPS: dict[str, Map] = {
 """
 Every map that can be baked. By lookup:
 
-"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it is now. "eulerian": about the water
-that is NOW at x, y, and the surface is a plain height field over x and y: displacement is (0, 0, height) and the stretches of the
-derivative map are 0, so that what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of it.
-Normals are the surface's own, jacobian, foam and velocity those of the water that is there.
+"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it
+is now. "eulerian": about the water that is NOW at x, y, and the surface is a plain height field
+over x and y: displacement is (0, 0, height) and the stretches of the derivative map are 0, so that
+what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of
+it. Normals are the surface's own, jacobian, foam and velocity those of the water that is there. A
+height field has no stretch map.
+
+Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by the undisplaced
+position: see `tiles`.
 """
 
 
@@ -144,7 +160,7 @@ def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) 
 
 
 def unresolved(ocean: Ocean) -> Real:
-    """Return the slope covariance of the waves too short for the tile, (3,), xx, xy, yy; see `mips.unresolved_slopes`."""
+    """Return the slope covariance of the waves too short for the tile, (3,): `mips.unresolved_slopes`."""
     return mips.unresolved_slopes(ocean)
 
 
@@ -162,6 +178,12 @@ def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
         nothing = np.zeros_like(frame.slope_x)
         return nothing, nothing
     return frame.stretch_xx * frame.choppiness, frame.stretch_yy * frame.choppiness
+
+
+def _gradient(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real]:
+    """The gradient of the horizontal displacement, choppiness applied: xx, xy, yy."""
+    c = frame.choppiness
+    return frame["stretch_xx"] * c, frame["stretch_xy"] * c, frame["stretch_yy"] * c
 
 
 def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Real]:

@@ -12,7 +12,7 @@ from fftocean import limits
 from fftocean.errors import JobError, ParameterError
 from fftocean.limits import Count, Quantity
 
-MAPS = ("height", "displacement", "normal", "derivative", "jacobian", "foam", "velocity", "slope_covariance")
+MAPS = ("height", "displacement", "normal", "derivative", "stretch", "jacobian", "foam", "velocity", "slope_covariance")
 FORMATS = ("exr", "exr-float", "exr-atlas", "png16", "r16", "npz", "bin", "ktx2", "zarr")
 ENGINES = ("canonical", "blender", "unity", "unreal", "godot", "bevy", "gltf", "three", "three-exr", "babylon", "houdini")
 PICTURES = ("sheet", "animation", "tiling", "spectrum")

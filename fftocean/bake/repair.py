@@ -1,11 +1,12 @@
 """A bake mended: what is no longer what was written is written again, with the same bytes."""
 
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fftocean.bake import layout
+from fftocean.bake import layout, listing
 from fftocean.bake.baker import bake
 from fftocean.bake.check import check
 from fftocean.bake.claim import HEADER, checked, differences, read_checked
@@ -14,7 +15,9 @@ from fftocean.bake.files import as_json, remove, write_whole
 from fftocean.bake.job import Job
 from fftocean.bake.ledger import Listen, Progress
 from fftocean.bake.manifest import read_manifest
-from fftocean.errors import IntegrityError, OutputError
+from fftocean.bake.tiles import bake_tiles
+from fftocean.bake.water import summable
+from fftocean.errors import IntegrityError, OutputError, SeaWarning
 
 
 def repair(
@@ -30,7 +33,7 @@ def repair(
     Write again all of a bake that `check` finds missing or changed, and remove what it finds extra; everything else stays.
 
     Args:
-        folder: that `bake` wrote.
+        folder: that `bake` wrote, or the folder around the tiles of a cascade.
         job: what was baked, where it must be known from which file: its measured spectra are looked for beside that. None takes the
             folder's own word for it.
         executor, workers, progress, listen: as for `bake`.
@@ -45,6 +48,12 @@ def repair(
     """
     folder = Path(folder)
     findings = check(folder)
+    if layout.is_cascade(folder):
+        for finding in findings:
+            if finding.kind == "extra" and "/" not in finding.path and not (folder / finding.path).is_dir():
+                remove(folder / finding.path)
+        tiles = [name for name in layout.tile_folders(folder) if any(_within(finding.path, name) for finding in findings)]
+        return _mend_tiles(folder, tiles, job, executor=executor, workers=workers, progress=progress, listen=listen)
     manifest: dict[str, Any] | None
     try:
         manifest = read_manifest(folder)
@@ -71,3 +80,63 @@ def repair(
         what = differences(manifest, again) or "its frames' checksums"
         raise IntegrityError(f"{folder} was repaired, and is not what it was: {what}")
     return again
+
+
+def _within(path: str, name: str) -> bool:
+    """Return whether a path is a folder or lies in it."""
+    return path == name or path.startswith(f"{name}/")
+
+
+def _mend_tiles(folder: Path, broken: Sequence[str], job: Job | None, **options: Any) -> dict[str, Any]:
+    """
+    Mend a cascade: its broken tiles one by one, then what stands beside them, with the same bytes.
+
+    Args:
+        folder: of the cascade.
+        broken: folders of the tiles in which something is wrong.
+        job: the job, where its measured spectra lie beside its file; None is the folder's own.
+        options: executor, workers, progress and listen of `bake_tiles`.
+
+    Raises:
+        IntegrityError: neither list nor job is what was written, or other bytes came out.
+    """
+    try:
+        header = read_checked(folder / layout.CASCADE_JOB)
+    except IntegrityError:
+        header = None
+    try:
+        before: dict[str, Any] | None = listing.read_listing(folder)
+    except IntegrityError as error:
+        before = None
+        if header is None:
+            raise IntegrityError(f"{folder} cannot be repaired, for it does not say what it is of: {error}") from None
+    if header is None:
+        assert before is not None
+        header = {key: before[key] for key in listing.HEADER}
+        write_whole(folder / layout.CASCADE_JOB, as_json(checked(header)))
+    own, tiles = listing.job_of(header, source=str(folder / layout.CASCADE_JOB))
+    work = {key: value for key, value in options.items() if key in ("executor", "workers")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SeaWarning)  # said when it was baked
+        shares = {share.path: share.job for share in listing.shares_of(own if job is None else summable(job), tiles)}
+        for name in broken:
+            if name not in shares:
+                listing.discard_bake(folder / name)
+            elif _names_itself(folder / name):
+                repair(folder / name, shares[name], **work)
+        subset = None if header["subset"] == "all" else header["subset"]
+        again = bake_tiles(job or own, tiles, folder, frames=subset, downsample=header["downsample"], **options)
+    if before is not None and again != before:
+        raise IntegrityError(f"{folder} was repaired, and its {layout.CASCADE_FILE} is not what it was")
+    return again
+
+
+def _names_itself(folder: Path) -> bool:
+    """Return whether a bake still says what it is of."""
+    for read, path in ((read_manifest, folder), (read_checked, folder / layout.JOB_FILE)):
+        try:
+            read(path)
+        except IntegrityError:
+            continue
+        return True
+    return False

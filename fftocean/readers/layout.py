@@ -47,9 +47,7 @@ def science() -> Any:
 def missing(error: ImportError) -> ReaderError:
     """What to say when an optional package is not there."""
     hint = how_to_install("science")
-    return ReaderError(
-        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
-    )
+    return ReaderError(f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})")
 
 
 def announce(made: "Dataset") -> "Dataset":
@@ -165,9 +163,7 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     return turned[order], order
 
 
-def densities(
-    where: str, values: RealLike, unit: str, *, negative: str = "refuse"
-) -> tuple[Real, dict[str, Any]]:
+def densities(where: str, values: RealLike, unit: str, *, negative: str = "refuse") -> tuple[Real, dict[str, Any]]:
     """
     Check spectral densities: mask what is missing, forgive rounding, refuse the rest.
 

@@ -36,7 +36,7 @@ def test_every_map_has_what_it_says(name, ocean, foam):
     assert picture.dtype == np.float32
     assert picture.flags.c_contiguous
     assert m.kind in get_args(Kind)
-    assert len(m.names) == {"vector": 3, "normal": 3, "derivative": 4, "covariance": 3}.get(m.kind, 1)
+    assert len(m.names) == {"vector": 3, "normal": 3, "derivative": 4, "stretch": 3, "covariance": 3}.get(m.kind, 1)
     fields = maps.needed([name], mips=True)
     levels = m.levels(ocean.frame(1.0, fields) if fields else frame, foam, np.zeros(3))
     assert np.array_equal(levels[0], picture)
@@ -61,6 +61,7 @@ def test_channels_are_the_fields(ocean, foam):
         "displacement": [f.displace_x * c, f.displace_y * c, f.height],
         "normal": [f.normal[..., i] for i in range(3)],
         "derivative": [f.slope_x, f.slope_y, f.stretch_xx * c, f.stretch_yy * c],
+        "stretch": [f.stretch_xx * c, f.stretch_xy * c, f.stretch_yy * c],
         "jacobian": [f.jacobian],
         "foam": [foam],
         "velocity": [f.velocity_x * c, f.velocity_y * c, f.velocity_z],

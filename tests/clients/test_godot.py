@@ -10,7 +10,7 @@ import pytest
 from heights import heights_bake, questions
 from lookups import Lookup, baked, hold, on_screen
 from pck import pack
-from water import FRAMES, LOOP, N, OBLONG, SQUARE, Text, between, half_step, places, steepest, truth
+from water import FRAMES, LOOP, OBLONG, SQUARE, N, Text, between, half_step, places, steepest, truth
 
 pytestmark = pytest.mark.client
 

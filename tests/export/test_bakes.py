@@ -144,7 +144,7 @@ def test_cascade_json_finds_the_sea(engine, tmp_path):
     order = job(bake__engine=engine, bake__format="bin", bake__maps=["height"])
     tiles = [(16, 32.0), (16, 8.0)]
     listed = bake_tiles(order, tiles, tmp_path)
-    assert listed == json.loads((tmp_path / "cascade.json").read_text())
+    assert listed["sampling"] == json.loads((tmp_path / "cascade.json").read_text())["sampling"]
     rule = listed["sampling"]
     scale = 100.0 if rule["unit"] == "cm" else 1.0
     axes = {name: points for name, points in rule["axes"].items() if points != "up"}

@@ -38,4 +38,4 @@ print(
             "frame_offset": user.frame_offset,
         }
     )
-)  # noqa: E501
+)
