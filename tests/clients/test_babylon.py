@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from lookups import MAPS, baked, hold, look_up, on_screen, texture
-from water import N, SQUARE, Text, half_step, truth
+from water import SQUARE, N, Text, half_step, truth
 from web import floats
 
 pytestmark = pytest.mark.client
