@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from lookups import MAPS, baked, hold, look_up, on_screen, texture
-from water import SQUARE, N, Text, half_step, truth
+from water import OBLONG, SQUARE, N, Text, half_step, truth
 from web import floats
 
 pytestmark = pytest.mark.client
@@ -39,21 +39,24 @@ def lit(browser):
     """Render still tiles in three's own materials: {(format, sea, material): (rows, columns, 4), row 0 south}, and the sea's job."""
     textures, pictures, keys, jobs = {}, [], [], {}
     for format_ in NORMAL_SCALE_Y:
-        for sea, wind in (("flat", 0.0), ("sea", 7.0)):
-            keys_of = {"ocean__size": SQUARE, "sea__wind__speed": wind}
+        for sea, wind, size in (("flat", 0.0, SQUARE), ("sea", 7.0, SQUARE), ("oblong", 7.0, OBLONG)):
+            keys_of = {"ocean__size": size, "sea__wind__speed": wind}
             jobs[sea], folder = baked(browser, "three", format_, ["normal"], sea + "-lit", **keys_of)
             textures[f"{format_} {sea}"] = texture(folder, format_, "normal", 0)
             said = Text.of(folder, "normal")
             for material in ("MeshNormalMaterial", "MeshStandardMaterial"):
-                tile = {"material": material, "size": SQUARE, "count": N, "sampling": said.sampling}
+                tile = {"material": material, "size": size, "count": N, "tangents": sea == "oblong", "sampling": said.sampling}
                 pictures.append({**tile, "texture": f"{format_} {sea}", "normalScaleY": NORMAL_SCALE_Y[format_]})
                 keys.append((format_, sea, material))
                 if sea == "flat":
                     pictures.append(tile)
                     keys.append((format_, "no map", material))
+                if sea == "oblong":
+                    pictures.append({**pictures[-1], "tangents": False})
+                    keys.append((format_, "oblong, no tangents", material))
     value, _ = browser.run("three.html", {"textures": textures, "pictures": pictures})
     assert value["error"] == 0
-    return {key: floats(seen, N[1], N[0], 4) for key, seen in zip(keys, value["pictures"], strict=True)}, jobs["sea"]
+    return {key: floats(seen, N[1], N[0], 4) for key, seen in zip(keys, value["pictures"], strict=True)}, jobs
 
 
 @pytest.mark.parametrize("format_", NORMAL_SCALE_Y)
@@ -67,11 +70,16 @@ def test_a_flat_sea_is_exactly_up_in_stock_materials(lit, format_):
 
 
 @pytest.mark.parametrize("format_", NORMAL_SCALE_Y)
-def test_a_stock_material_shows_the_normals_of_the_sea(lit, format_):
+@pytest.mark.parametrize("sea", ["sea", "oblong"])
+def test_a_stock_material_shows_the_normals_of_the_sea(lit, format_, sea):
     """Seen from above with north up, the eye's axes are ours: x, y and z of the normals, to the rounding of a half (n + 1) / 2 in each."""
-    seen, job = lit
-    water = truth(job)
+    seen, jobs = lit
+    water = truth(jobs[sea])
     normals = np.stack([water[f"normal_{axis}"][0] for axis in "xyz"], axis=-1)
-    apart = np.abs(2.0 * seen[format_, "sea", "MeshNormalMaterial"][..., :3] - 1.0 - normals)
+    apart = np.abs(2.0 * seen[format_, sea, "MeshNormalMaterial"][..., :3] - 1.0 - normals)
     assert apart.max() <= np.sqrt(3) * half_step(0.75)
     assert np.abs(normals[..., :2]).max() > 0.2
+    if sea == "oblong":  # docs/engines.md: without tangents, three.js scales one component by the ratio of the sides
+        without = 2.0 * seen[format_, "oblong, no tangents", "MeshNormalMaterial"][..., :3] - 1.0
+        slope, steep = without[..., 0] / without[..., 2], normals[..., 0] / normals[..., 2]
+        assert np.abs(slope - OBLONG[1] / OBLONG[0] * steep).max() <= 4 * half_step(0.75)
