@@ -17,8 +17,9 @@ from fftocean.fields import EIGHT
 from fftocean.grid import Grid
 from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
-from fftocean.ocean import Frame, Ocean, longest_period, memory_needed, remade
+from fftocean.ocean import Frame, Ocean, longest_period, memory_needed, named, remade
 from fftocean.physics.sea import Sea
+from fftocean.synthesis import POINTWISE
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
 """n, or (nx, ny), and size, or (lx, ly) [m]."""
@@ -143,11 +144,15 @@ class Cascade:
 
     def frame(self, t: float, fields: Sequence[str] = EIGHT) -> tuple[Frame, ...]:
         """
-        Return each tile's frame at time t, the largest's first; arguments and errors as in `Ocean.frame`.
+        Return each tile's frame at time t, the largest's first; arguments as in `Ocean.frame`.
 
         Linear fields add up over tiles: heights, displacements, slopes, stretches and velocities.
         Normals and Jacobians do not, nor does foam: a `Window` makes them from the sums.
+
+        Raises:
+            ParameterError: a field that does not add up, and as `Ocean.frame`.
         """
+        fields = _summable(fields)
         return tuple(ocean.frame(t, fields) for ocean in self.oceans)
 
     def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT) -> tuple[Frame, ...]:
@@ -155,8 +160,10 @@ class Cascade:
         Return each tile's j-th of `count` equally spaced frames of the common loop.
 
         Raises:
-            ParameterError: the tiles have no period in common, and as `Ocean.loop_frame`.
+            ParameterError: the tiles have no period in common, a field that does not add up, and as
+                `Ocean.loop_frame`.
         """
+        fields = _summable(fields)
         if self.loop is None:
             raise ParameterError(f"loop_frame needs one period for all tiles, got {self.loops}")
         return tuple(ocean.loop_frame(j, count, fields) for ocean in self.oceans)
@@ -167,6 +174,18 @@ class Cascade:
             for o, (low, high) in zip(self.oceans, self.bands, strict=True)
         )
         return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
+
+
+def _summable(fields: Sequence[str]) -> tuple[str, ...]:
+    """Return the names of fields, all of which add up over tiles."""
+    names = named(fields)
+    for name in names:
+        if name in POINTWISE:
+            raise ParameterError(
+                f"a field of a cascade must add up over its tiles, got {name!r}, which is formed of the sums: "
+                f"fo.Window(cascade).frame(t, fields=({name!r},)); that of one tile alone is cascade.oceans[i].frame(t, ({name!r},))"
+            )
+    return names
 
 
 def assembled(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:

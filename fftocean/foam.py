@@ -60,13 +60,13 @@ class Foam:
     def __post_init__(self) -> None:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
 
-    def loop(self, source: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
+    def loop(self, ocean: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
         """
         Yield the foam coverage of `count` frames of a loop, each (ny, nx) in 0..1, indexed by the
         undisplaced position.
 
         Args:
-            source: an ocean; a `Window` on a cascade; or a cascade, which stands for the window of
+            ocean: an ocean; a `Window` on a cascade; or a cascade, which stands for the window of
                 its largest tile.
             count: frames of the loop.
 
@@ -75,19 +75,19 @@ class Foam:
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
-        ocean = _water(source)
+        ocean = _water(ocean)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
             for _, f in self.states(ocean, count, state, first, stop):
                 yield coverage(f)
 
-    def live(self, source: Ocean | Cascade | Window, t: float = 0.0) -> "LiveFoam":
+    def live(self, ocean: Ocean | Cascade | Window, t: float = 0.0) -> "LiveFoam":
         """
         Start on clean water at time t [s]; a start 3 tau earlier than is shown has foam from the
         first picture on.
         """
-        return LiveFoam(self, _water(source), t)
+        return LiveFoam(self, _water(ocean), t)
 
     def response(self, ocean: Ocean | Window, count: int, first: int, stop: int) -> Real:
         """

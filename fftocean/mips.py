@@ -11,6 +11,7 @@ keeps its roughness (LEAN mapping: Olano & Baker 2010). Over any level
 import numpy as np
 
 from fftocean.arrays import Real
+from fftocean.cascade import Cascade
 from fftocean.cells import Cells
 from fftocean.grid import Grid
 from fftocean.kernels import mips as kernel
@@ -68,14 +69,16 @@ def normals(normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppin
     return [normal, *(_unit(level).astype(normal.dtype) for level in levels[1:])]
 
 
-def unresolved_slopes(ocean: Ocean, shortest: float = SHORTEST) -> Real:
+def unresolved_slopes(ocean: Ocean | Cascade, shortest: float = SHORTEST) -> Real:
     """
     Return the slope covariance of the waves of an ocean's sea that are too short for its tile: (3,), xx, xy, yy [-].
 
     They are those beyond the tile's rectangle of wavenumbers, down to `shortest` [m]: the tail of the sea's own spectrum, which
     for the spectra here falls as k^-3, so that each octave of waves is as rough as the next. An ocean of given waves has none; nor
-    has a tile of a cascade whose band ends, as the next tile holds them.
+    has a tile of a cascade whose band ends, as the next tile holds them. Of a cascade it is that of its last tile.
     """
+    if isinstance(ocean, Cascade):
+        ocean = ocean.oceans[-1]
     if ocean.sea is None or np.isfinite(ocean.amplitudes.band[1]):
         return np.zeros(3)
     return beyond(ocean.sea, ocean.grid, shortest)

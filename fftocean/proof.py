@@ -12,6 +12,7 @@ import numpy as np
 
 from fftocean import gerstner
 from fftocean.arrays import Integer, Real
+from fftocean.errors import ParameterError, described
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.gerstner import Surface
 from fftocean.ocean import Frame, Ocean
@@ -47,7 +48,12 @@ def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
 
     Returns:
         The checks in order; the ocean is proven if all `.passed`.
+
+    Raises:
+        ParameterError: not an ocean.
     """
+    if not isinstance(ocean, Ocean):
+        raise ParameterError(f"ocean must be an Ocean, such as each of cascade.oceans, got {described(ocean)}")
     return [*_fields(ocean, t), *_seam(ocean, t), *_loop(ocean), *_parseval(ocean, t), *_energy(ocean, measure(ocean))]
 
 

@@ -23,11 +23,13 @@ import numpy as np
 from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
 from fftocean.bake.files import write_whole
+from fftocean.cascade import Cascade
 from fftocean.errors import OutputError, ParameterError, SeaWarning, how_to_install
 from fftocean.fields import FIELDS
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import measure
+from fftocean.window import Window
 
 if TYPE_CHECKING:
     from xarray import Dataset, Variable
@@ -50,18 +52,20 @@ MAPS: Final = {
 """What can be asked for: unit and caption."""
 
 _UNITS: Final = "Attributes are in SI units, directions and spreads in degrees; directions are toward, counter-clockwise from +x."
+_PERIODIC: Final = "Periodic in x and y. "
+_SUMMED: Final = "The sum of several tiles on a window of the world, which does not repeat. "
 _LAGRANGIAN: Final = (
-    "Periodic in x and y. Indexed by the undisturbed position (x, y) of the water, which is found at "
+    "Indexed by the undisturbed position (x, y) of the water, which is found at "
     "(x + choppiness displace_x, y + choppiness displace_y, height). "
 )
 
 
-def to_xarray(ocean: Ocean, times: Iterable[float], maps: Sequence[str] = ("height",)) -> "Dataset":
+def to_xarray(ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str] = ("height",)) -> "Dataset":
     """
     Compute frames as a dataset with CF-1.11 attributes.
 
     Args:
-        ocean: any ocean.
+        ocean: any ocean, or a `Window` on a cascade, whose tiles have no grid in common.
         times: seconds, one or more, strictly ascending or descending as CF asks of a coordinate.
         maps: which to compute, of `MAPS`: the names of `fields.FIELDS`, "normal", "jacobian".
 
@@ -77,7 +81,8 @@ def to_xarray(ocean: Ocean, times: Iterable[float], maps: Sequence[str] = ("heig
         ParameterError: a time or map that cannot be, more memory than there is, or xarray is not installed.
     """
     xr = _require("xarray")
-    _require_ocean(ocean)
+    if not isinstance(ocean, Window):
+        _require_ocean(ocean)
     t = _seconds(times)
     names = _maps(maps)
     g = ocean.grid
@@ -95,17 +100,19 @@ def to_xarray(ocean: Ocean, times: Iterable[float], maps: Sequence[str] = ("heig
         for name in names:
             data[name][i] = frame[name]
 
+    x, y = (ocean.x + g.x, ocean.y + g.y) if isinstance(ocean, Window) else (g.x, g.y)
     coordinates: dict[str, Any] = {
         "time": ("time", t, {"units": "s", "long_name": "time on the ocean's own clock"}),
-        "y": ("y", g.y, _axis("y", "north")),
-        "x": ("x", g.x, _axis("x", "east")),
+        "y": ("y", y, _axis("y", "north")),
+        "x": ("x", x, _axis("x", "east")),
     }
     if "normal" in names:
         index = np.arange(3, dtype=np.int8)
         flags = {"long_name": "component of a vector", "flag_values": index, "flag_meanings": "x y z"}
         coordinates["component"] = ("component", index, flags)
     variables = {name: (("time", "y", "x", "component")[: values.ndim], values, _described(name)) for name, values in data.items()}
-    head = {"Conventions": CONVENTIONS, "title": "Sea surface of a periodic tile", "comment": _LAGRANGIAN + _UNITS}
+    title, place = ("a window", _SUMMED) if isinstance(ocean, Window) else ("a periodic tile", _PERIODIC)
+    head = {"Conventions": CONVENTIONS, "title": f"Sea surface of {title}", "comment": place + _LAGRANGIAN + _UNITS}
     made: Dataset = xr.Dataset(variables, coordinates, {**head, **attributes})
     return made
 
@@ -269,9 +276,11 @@ def _absent(dtype: np.dtype[Any]) -> dict[str, Any]:
     return {"fill_value": np.iinfo(dtype).min} if dtype.kind == "i" else {}
 
 
-def _attributes(ocean: Ocean) -> dict[str, Any]:
-    """An ocean's parameters, its sea, and what it delivers beside what was ordered."""
-    grid, amplitudes, statistics = ocean.grid, ocean.amplitudes, asdict(measure(ocean))
+def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
+    """Return an ocean's parameters, its sea, and what it realises beside what was specified."""
+    source = ocean.source if isinstance(ocean, Window) else ocean
+    tiles = source.oceans if isinstance(source, Cascade) else (source,)
+    grid, amplitudes, statistics = ocean.grid, tiles[0].amplitudes, asdict(measure(source))
     seed = getattr(ocean, "seed", None)  # an ocean of given waves has none
     found: dict[str, Any] = {
         "source": f"fftocean {__version__}",
@@ -284,8 +293,10 @@ def _attributes(ocean: Ocean) -> dict[str, Any]:
         "amplitudes": amplitudes.draw,
         "seed": None if seed is None else str(seed),  # 64 bits, which netCDF 3 cannot count in
         "dtype": ocean.dtype,
-        "backend": ocean.backend,
+        "backend": tiles[0].backend,
     }
+    if len(tiles) > 1:
+        found["tiles"] = "; ".join(f"{t.grid.nx} x {t.grid.ny} over {t.grid.lx:g} x {t.grid.ly:g} m" for t in tiles)
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
     ordered, loop, folding = (statistics.pop(name) or {} for name in ("ordered", "loop", "folding"))
@@ -370,6 +381,11 @@ _MOST = 10**6
 
 
 def _require_ocean(ocean: Any) -> None:
+    if isinstance(ocean, Cascade):
+        raise ParameterError(
+            "ocean must be an Ocean, got a Cascade, whose tiles have no grid in common: take fo.Window(cascade) for to_xarray, "
+            "or one of cascade.oceans"
+        )
     if not isinstance(ocean, Ocean):
         raise ParameterError(f"ocean must be an Ocean, got {ocean!r:.80}")
 

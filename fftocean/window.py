@@ -92,11 +92,11 @@ class Window:
         require_memory(f"a window of n = {self.grid.nx} x {self.grid.ny}", needed)
         self._splines = [_spline_ocean(ocean, grid, self.shortest) for ocean, grid in zip(self.oceans, fine, strict=True)]
         self._recipe = {"n": (self.grid.nx, self.grid.ny), "size": (self.grid.lx, self.grid.ly), "x": x, "y": y, "shortest": shortest}
-        self._source = source
+        self.source = source
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         """Pickle and copy as what it is made of."""
-        return _rebuilt, (self._source, self._recipe)
+        return _rebuilt, (self.source, self._recipe)
 
     def __repr__(self) -> str:
         g = self.grid

@@ -94,7 +94,7 @@ def test_a_tile_alone_has_another_jacobian(cascade):
     that of every tile.
     """
     fields = ("jacobian",)
-    least = min(float(frame.jacobian.min()) for frame in cascade.frame(5.3, fields))
+    least = min(float(ocean.frame(5.3, fields).jacobian.min()) for ocean in cascade.oceans)
     assert fo.Window(cascade, n=64).frame(5.3, fields).jacobian.min() < least - 0.05
 
 
@@ -165,3 +165,27 @@ def test_a_window_by_its_arguments(cascade):
         fo.Window(SEA)
     with pytest.raises(fo.ParameterError, match="field"):
         window.frame(0.0, ("foam",))
+
+
+@pytest.mark.parametrize("name", ["normal", "jacobian"])
+def test_a_cascade_gives_no_field_that_does_not_add_up(cascade, name):
+    for call in (lambda: cascade.frame(1.0, ("height", name)), lambda: cascade.loop_frame(1, 4, (name,))):
+        with pytest.raises(fo.ParameterError, match=rf"must add up over its tiles, got '{name}'.*fo\.Window"):
+            call()
+
+
+def test_a_window_as_labelled_data(cascade):
+    """Coordinates are those of the world; every number is the window's; attributes are those of all tiles together."""
+    pytest.importorskip("xarray")
+    window = fo.Window(cascade, n=(6, 5), size=(30.0, 20.0), x=100.0, y=-50.0)
+    data = fo.to_xarray(window, [1.0, 2.5], ("height", "jacobian"))
+    assert np.array_equal(data.jacobian.values[1], window.frame(2.5, ("jacobian",)).jacobian)
+    assert data.x.values.tolist() == [100.0, 105.0, 110.0, 115.0, 120.0, 125.0]
+    assert float(data.y[0]) == -50.0
+    assert "Periodic" not in data.comment
+    assert data.attrs["measured_m0"] == pytest.approx(fo.measure(cascade).m0)
+    assert data.attrs["tiles"].count(" over ") == 3
+    with pytest.raises(fo.ParameterError, match=r"no grid in common: take fo\.Window"):
+        fo.to_xarray(cascade, [0.0])
+    with pytest.raises(fo.ParameterError, match=r"each of cascade\.oceans"):
+        fo.verify(cascade)

@@ -74,9 +74,10 @@ def _bounds(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]
     settings = scene.job.settings
     if settings["ocean.band_low"] > 0.0 or math.isfinite(settings["ocean.band_high"]):
         return None
-    extremes = extremes_over(rows)
-    sides = {"horizontal": "max_horizontal", "vertical": "max_height"}
-    return {side: float(extremes[key] or 0.0) for side, key in sides.items()}
+    return {
+        "horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
+        "vertical": max(row["extremes"]["max_height"] for row in rows),
+    }
 
 
 def _parts(folder: Path, scene: Scene, name: str, rows: Sequence[Mapping[str, Any]]) -> Iterator[bytes]:

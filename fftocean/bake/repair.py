@@ -126,7 +126,7 @@ def _mend_tiles(folder: Path, broken: Sequence[str], job: Job | None, **options:
                 repair(folder / name, shares[name], **work)
         subset = None if header["subset"] == "all" else header["subset"]
         again = bake_tiles(job or own, tiles, folder, frames=subset, downsample=header["downsample"], **options)
-    if before is not None and again != before:
+    if before is not None and again != checked(before):
         raise IntegrityError(f"{folder} was repaired, and its {layout.CASCADE_FILE} is not what it was")
     return again
 

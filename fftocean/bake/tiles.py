@@ -87,7 +87,7 @@ def bake_tiles(
         write_whole(folder / CASCADE_FILE, as_json(listed))
     if listen:
         listen({"event": "done", "manifest": str(folder / CASCADE_FILE), "tiles": len(rows), "frames": len(water.chosen)})
-    return listing.read_listing(folder)
+    return listed
 
 
 def estimate_tiles(

@@ -10,11 +10,9 @@ baked, and the others are refused with the maps that they are formed from.
 import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from fftocean import products
 from fftocean.bake import blend, layout, listing, pictures, preview
 from fftocean.bake.baker import require_usable, scene_for
 from fftocean.bake.claim import checked
@@ -22,15 +20,14 @@ from fftocean.bake.files import write_whole
 from fftocean.bake.frames import Scene
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.listing import Share
+from fftocean.bake.manifest import plain
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import frames_of
 from fftocean.bake.parameters import BY_KEY
 from fftocean.cascade import Cascade, Tile, assembled
 from fftocean.errors import JobError, SeaWarning
 from fftocean.export import rules
-from fftocean.foam import SQUEEZE
 from fftocean.statistics import Statistics, measure
-from fftocean.window import Window
 
 INGREDIENTS = ("displacement", "derivative", "stretch")
 """What a shader displaces and lights the water of several tiles with; baked where no maps are named."""
@@ -47,8 +44,6 @@ HOW_TO_ADD = (
     "Jacobian) along axis 1, axis 2 and up; squeeze = 1 + (xx + yy)/2 - sqrt((xx - yy)^2/4 + xy xy), and foam f decays as e^(-t/tau) "
     "and grows by strength max(threshold - squeeze, 0) a second; coverage = 1 - e^-f."
 )
-SAMPLED, MOMENTS = 256, 8
-"""Samples a side of the window, and frames, on which the Jacobian of the sum is looked at."""
 
 
 class Water:
@@ -87,7 +82,7 @@ class Water:
                     "choppiness": cascade.choppiness,
                     "frames": len(self.chosen),
                 },
-                "statistics": asdict(self.statistics),  # specified beside realised
+                "statistics": plain(self.statistics),  # specified beside realised
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
@@ -105,17 +100,14 @@ class Water:
         )
 
     def _folding(self) -> dict[str, Any]:
-        """Return the folds and the least Jacobian of the sum, on samples of some frames."""
-        n = min(max(self.cascade.oceans[0].grid.shape), SAMPLED)
-        window = Window(self.cascade, n=n)
-        shown = self.chosen[:: max(1, len(self.chosen) // MOMENTS)]
-        found = products.folding(window.loop_frame(j, self.job.frames, SQUEEZE) for j in shown)
+        """Return the folds and the least Jacobian of the summed water."""
+        found = self.statistics.folding
         largest = found.largest_choppiness
         return {
             "min_jacobian": found.min_jacobian,
             "folded": found.share,
             "largest_choppiness": largest if math.isfinite(largest) else None,
-            "sampled": f"of the summed water: {n} x {n} samples of the largest tile, {len(shown)} frames",
+            "sampled": f"folds: of the summed water, {found.samples} places and moments; bounds: sums over the tiles",
         }
 
     def draw(self, folder: Path) -> dict[str, dict[str, Any]]:
@@ -142,7 +134,7 @@ class Water:
             yield share.path, tile_in_words(ocean.grid.nx, ocean.grid.ny, ocean.grid.lx, ocean.grid.ly, share.band)
         yield "significant wave height Hs", f"{s.ordered.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles"
         yield "peak period Tp", f"{s.ordered.tp:.2f} s specified, {s.tp:.2f} s realised"
-        yield "energy outside the bands", outside(asdict(s))
+        yield "energy outside the bands", outside(plain(s))
         yield "maps", f"{', '.join(self.job.maps)} of each tile; normal, Jacobian and foam are formed of the sums"
         yield "between frames", blend.sentence(blend.loss(self.cascade, self.job.frames))
 

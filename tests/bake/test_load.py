@@ -40,6 +40,7 @@ def truth(order, name, j):
         "displacement": [c * f.displace_x, c * f.displace_y, f.height],
         "normal": [f.normal[..., i] for i in range(3)],
         "derivative": [f.slope_x, f.slope_y, c * f.stretch_xx, c * f.stretch_yy],
+        "stretch": [c * f.stretch_xx, c * f.stretch_xy, c * f.stretch_yy],
         "jacobian": [f.jacobian],
         "velocity": [c * f.velocity_x, c * f.velocity_y, f.velocity_z],
     }
@@ -54,7 +55,7 @@ def test_every_format_gives_back_what_was_put_in(name, tmp_path):
     """To half a step of what it stores: a half, a float, or a 65535th of the map's range; float32's own rounding is in the factor."""
     held = [
         m
-        for m in ("height", "displacement", "normal", "derivative", "jacobian", "velocity")
+        for m in ("height", "displacement", "normal", "derivative", "stretch", "jacobian", "velocity")
         if len(MAPS[m].names) in FORMATS[name].channels
     ]
     order = job(bake__format=name, bake__maps=held)

@@ -96,7 +96,7 @@ def test_the_encoding_is_the_engines_own_unless_it_is_chosen(tmp_path):
 
 
 def test_a_bake_of_an_older_version_is_read_as_it_was_written():
-    """What its manifest says of rows and normals counts; normals were signed before there was a choice."""
+    """Its manifest's words on rows and normals count; normals were signed before there was a choice."""
     from fftocean.export.profiles import recorded
 
     now = engines.profile_for("babylon", "exr")

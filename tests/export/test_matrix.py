@@ -132,7 +132,7 @@ def bilinear(texture, u, v, row0_v):
 
 
 def in_world(engine, kind, ours):
-    """What a map of ours says along the engine's axes, by the names of the sidecar; ours is (..., channels)."""
+    """Return a map of ours along the engine's axes, by the names of the sidecar; ours is (..., channels)."""
     world = ENGINES[engine].world.split()
     scale = ENGINES[engine].per_metre
     flat = [c for c, points in zip("XYZ", world, strict=True) if points != "up"]
@@ -225,7 +225,7 @@ def between(truth, tile, x, y):
 
 
 def allowed(form, profile, kind, said, expected):
-    """What a value may be off: half a step of what is stored, as far as the text's formulas enlarge it, and float32's own."""
+    """Return the tolerance of a value: half a step of what is stored, enlarged by the text's formulas, and float32's own."""
     largest = max(float(np.max(np.abs(v))) for v in expected.values())
     if FORMATS[form].scaled:
         step = 0.5 * (said["hi"][0] - said["lo"][0]) / 65535
@@ -237,7 +237,7 @@ def allowed(form, profile, kind, said, expected):
 
 
 def right(engine, form, name, truth, tile, lookup):
-    """Whether a cell's files, read and sampled as its text says, are the water; an assertion says what is not."""
+    """Assert that a cell's files, read and sampled as its text says, are the water; return "right" or "noted"."""
     m, facts = MAPS[name], ENGINES[engine]
     (nx, ny), _ = TILES[tile]
     parts, files, profile, said = written(engine, form, name, truth, tile, lookup)
