@@ -1,5 +1,6 @@
 """Bakes that a page's shader looks up by the sidecar's formulas, and what it must find."""
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,7 +27,9 @@ def baked(browser, engine, format_, maps, label, **keys):
     """Bake into the site's folder; return the job and the folder."""
     asked = job(bake__engine=engine, bake__format=format_, bake__maps=list(maps), **keys)
     folder = browser.site.folders["bakes"] / f"{engine}-{format_}-{label}"
-    fo.bake(asked, folder, executor="serial")
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "wind speed 0 m/s", fo.SeaWarning)
+        fo.bake(asked, folder, executor="serial")
     return asked, folder
 
 

@@ -21,6 +21,7 @@ def job(**keys):
         "ocean.loop": LOOP,
         "ocean.seed": SEED,
         "bake.frames": FRAMES,
+        "bake.pictures": [],
         "sea.wind.speed": 7.0,
         "sea.wind.direction": 30.0,
     }

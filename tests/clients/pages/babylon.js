@@ -82,18 +82,17 @@ function fromAbove([lx, ly], [nx, ny]) {
 // A still tile of `size` seen from above, north up, a pixel a sample, in StandardMaterial: (rows, columns, 4), row 0 south.
 async function seen(texture, { sampling, size, count, light, settings }) {
   const [lx, ly] = size, [nx, ny] = count;
-  const corners = [[-lx, -ly], [2 * lx, -ly], [2 * lx, 2 * ly], [-lx, 2 * ly]]; // X and Z (north)
-  const uv = (X, Z) => ['u', 'v'].map((name) => formula(sampling[name], { X, Z, ...sampling.values }));
-  const mesh = new B.Mesh('tile', scene), vertices = new B.VertexData();
-  vertices.positions = corners.flatMap(([x, z]) => [x, 0, z]);
-  vertices.normals = corners.flatMap(() => [0, 1, 0]);
-  vertices.uvs = corners.flatMap(([x, z]) => uv(x, z));
-  vertices.indices = [0, 1, 2, 0, 2, 3];
-  vertices.applyToMesh(mesh);
+  const mesh = B.MeshBuilder.CreateGround('tile', { width: 3 * lx, height: 3 * ly, updatable: true }, scene);
+  mesh.position.set(lx / 2, 0, ly / 2);
+  const rest = mesh.getVerticesData(B.VertexBuffer.PositionKind), uv = [];
+  for (let i = 0; i < rest.length; i += 3) {
+    const names = { X: rest[i] + lx / 2, Z: rest[i + 2] + ly / 2, ...sampling.values };
+    uv.push(formula(sampling.u, names), formula(sampling.v, names));
+  }
+  mesh.setVerticesData(B.VertexBuffer.UVKind, uv);
   mesh.alwaysSelectAsActiveMesh = true;
   const material = new B.StandardMaterial('water', scene);
   material.specularColor = B.Color3.Black();
-  material.backFaceCulling = false;
   if (texture) material.bumpTexture = texture;
   Object.assign(material, settings);
   mesh.material = material;
@@ -118,6 +117,8 @@ globalThis.run = async ({ textures, samples = [], pictures = [] }) => {
   for (const p of pictures) out.pictures.push(base64(await seen(p.texture ? loaded[p.texture] : null, p)));
   // where east and north appear when the camera looks down with north up: the axes' handedness, by the engine itself
   const camera = fromAbove([10, 10], [10, 10]);
+  camera.getViewMatrix(true);
+  camera.getProjectionMatrix(true);
   const project = (x, y, z) => B.Vector3.TransformCoordinates(new B.Vector3(x, y, z), camera.getTransformationMatrix()).asArray();
   const [zero, one, two] = [project(0, 0, 0), project(1, 0, 0), project(0, 0, 1)];
   out.screen = { X: one.map((v, i) => v - zero[i]), Z: two.map((v, i) => v - zero[i]) };

@@ -73,7 +73,7 @@ function sample(texture, { sampling, meaning, places }) {
 }
 
 // A still tile of `size` seen from above, north up, a pixel a sample, in one of three's own materials: (rows, columns, 4), row 0 south.
-function seen(material, { sampling, size, count }) {
+function seen(material, { sampling, size, count, tangents }) {
   const [lx, ly] = size, [nx, ny] = count;
   const corners = [[-lx, ly], [2 * lx, ly], [2 * lx, -2 * ly], [-lx, -2 * ly]]; // X and Z (south)
   const geometry = new THREE.BufferGeometry();
@@ -82,6 +82,7 @@ function seen(material, { sampling, size, count }) {
   geometry.setAttribute('normal', new THREE.Float32BufferAttribute(corners.flatMap(() => [0, 1, 0]), 3));
   geometry.setAttribute('uv', new THREE.Float32BufferAttribute(corners.flatMap(([x, z]) => uv(x, z)), 2));
   geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  if (tangents) geometry.computeTangents();
   const scene = new THREE.Scene();
   scene.add(new THREE.Mesh(geometry, material));
   scene.add(new THREE.DirectionalLight(0xffffff, 3)); // from straight above
