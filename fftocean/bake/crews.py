@@ -20,6 +20,8 @@ def check_executor(name: str, workers: int | None) -> None:
         raise JobError(f"workers must be a whole number between 1 and 1024, got {workers!r:.40}")
     if name == "dask" or "://" in name:
         cluster.require_dask()
+        if name == "dask":
+            cluster.require_main_program()
 
 
 def crew_of(name: str, workers: int, lock: int) -> Crew:
