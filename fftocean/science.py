@@ -386,6 +386,4 @@ def _require(name: str) -> Any:
     except ImportError as error:
         package = name.partition(".")[0]
         hint = how_to_install("science")
-        raise ParameterError(
-            f"{package} must be installed for labelled data: {hint} ({error})"
-        ) from error
+        raise ParameterError(f"{package} must be installed for labelled data: {hint} ({error})") from error

@@ -34,10 +34,7 @@ def draw(folder: Path, scene: Scene, statistics: Statistics) -> dict[str, dict[s
         drawn["tiling"] = (layout.TILING, preview.tiling(scene.ocean, frames))
     if "spectrum" in scene.job.pictures:
         drawn["spectrum"] = (layout.SPECTRUM, _spectrum(scene))
-    return {
-        key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)}
-        for key, (name, data) in drawn.items()
-    }
+    return {key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)} for key, (name, data) in drawn.items()}
 
 
 def require_drawable(job: Job) -> None:
@@ -48,9 +45,7 @@ def require_drawable(job: Job) -> None:
         JobError: the spectrum is asked for, and matplotlib is not installed.
     """
     if "spectrum" in job.pictures and importlib.util.find_spec("matplotlib") is None:
-        raise JobError(
-            f"{job.source}: bake.pictures 'spectrum' needs matplotlib: {how_to_install('plot')}"
-        )
+        raise JobError(f"{job.source}: bake.pictures 'spectrum' needs matplotlib: {how_to_install('plot')}")
 
 
 def foam_of(job: Job) -> dict[str, Any]:
@@ -81,10 +76,7 @@ def caption(job: Job, statistics: Statistics, tiles: str | None = None) -> str:
     size = g["ocean.size"]
     width = "x".join(f"{v:g}" for v in size) if isinstance(size, tuple) else f"{size:g}"
     sea = f"Hs {specified.hs:.2f} m specified, {statistics.hs:.2f} m realised"
-    return (
-        f"{wind}{sea}   Tp {specified.tp:.1f} s   {tiles or f'tile {width} m'}"
-        f"   loop {g['ocean.loop']:g} s"
-    )
+    return f"{wind}{sea}   Tp {specified.tp:.1f} s   {tiles or f'tile {width} m'}   loop {g['ocean.loop']:g} s"
 
 
 def beaufort_of(wind: float) -> int:

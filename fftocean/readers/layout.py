@@ -44,9 +44,7 @@ def science() -> Any:
 def missing(error: ImportError) -> ReaderError:
     """What to say when an optional package is not there."""
     hint = how_to_install("science")
-    return ReaderError(
-        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
-    )
+    return ReaderError(f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})")
 
 
 def announce(made: "Dataset") -> "Dataset":

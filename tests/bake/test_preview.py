@@ -237,10 +237,7 @@ def flat_frame():
 def test_a_cascade_is_drawn_as_the_sum_of_its_tiles():
     """One sea on one tile, or its waves on two frames of the same tile: the same picture."""
     waves = [(1, 2, 0.5, 0.0), (3, -1, 0.2, 1.0)]
-    both, *each = (
-        fo.Ocean.from_modes(some, n=32, size=60.0, loop=8.0).loop_frame(0, 1, FIELDS)
-        for some in (waves, waves[:1], waves[1:])
-    )
+    both, *each = (fo.Ocean.from_modes(some, n=32, size=60.0, loop=8.0).loop_frame(0, 1, FIELDS) for some in (waves, waves[:1], waves[1:]))
     one, two = render.Water.of(both), render.Water.of(each)
     pictures = [render.perspective(water, 40, 30, place=(0.0, 0.0)) for water in (one, two)]
     assert np.abs(pictures[0] - pictures[1])[:9].max() < 1e-12  # sky
@@ -318,10 +315,7 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
 def test_squeeze_of_summed_tiles_is_that_of_the_sum():
     """Two waves on one tile, and each on a frame of its own."""
     waves = [(1, 2, 0.5, 0.0), (3, -1, 0.2, 1.0)]
-    both, *each = (
-        fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, SQUEEZE)
-        for some in (waves, waves[:1], waves[1:])
-    )
+    both, *each = (fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, SQUEEZE) for some in (waves, waves[:1], waves[1:]))
     one = whitecaps.squeeze(both)
     two = whitecaps.squeeze(each)[::6, ::6]  # 384 to 64
     assert np.allclose(one, two, atol=1e-6)  # float32
