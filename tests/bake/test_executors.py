@@ -382,7 +382,7 @@ def test_what_is_no_part_of_the_loop_is_refused(text):
         frames_of(text, 100)
 
 
-@pytest.mark.parametrize("name", ["", "threads", "Serial", "dusk"])
+@pytest.mark.parametrize("name", ["", "threads", "serially", "dusk"])
 def test_an_executor_that_there_is_not_is_refused(name, tmp_path):
     with pytest.raises(JobError, match="executor must be one of auto, serial, processes, dask, or an address"):
         fo.bake(job(), tmp_path / "out", executor=name)

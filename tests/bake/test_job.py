@@ -598,3 +598,21 @@ def test_refusals_are_value_errors():
     with pytest.raises(ValueError, match=r"ocean\.n"):
         Job.from_toml("ocean.n = 0")
     assert issubclass(JobError, ParameterError)
+
+
+# Files as editors write them
+
+
+@pytest.mark.parametrize("ending", ["\n", "\r\n"])
+def test_a_byte_order_mark_is_skipped(tmp_path, ending):
+    """As Windows' editors write it; the job is the same, by file and by text."""
+    text = ending.join(["# a comment", "[ocean]", "n = 48", ""])
+    path = tmp_path / "job.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    assert Job.read(path).settings == Job.from_toml(text).settings == Job.from_toml("\ufeff" + text).settings
+
+
+def test_a_byte_order_mark_elsewhere_is_no_toml(tmp_path):
+    (tmp_path / "job.toml").write_bytes("[ocean]\n\ufeffn = 48\n".encode())
+    with pytest.raises(JobError, match="must be TOML"):
+        Job.read(tmp_path / "job.toml")
