@@ -94,7 +94,8 @@ def test_every_test_that_the_errata_name_is_there():
 @pytest.mark.parametrize("there", [True, False])
 def test_the_box_rides_with_and_without_matplotlib(tmp_path, there):
     """The example ends well without it, and says what it would need."""
-    script = f"import runpy, sys; {'' if there else 'sys.modules.update(matplotlib=None);'} sys.argv[1:] = ['--seconds', '0.2', '--picture', 'box.png']; "
+    script = "import runpy, sys; sys.argv[1:] = ['--seconds', '0.2', '--picture', 'box.png']; "
+    script += "" if there else "sys.modules.update(matplotlib=None); "
     script += f"runpy.run_path({str(ROOT / 'examples/buoyancy.py')!r}, run_name='__main__')"
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "MPLBACKEND": "Agg"}
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=600)
