@@ -33,7 +33,8 @@ if TYPE_CHECKING:
     from fftocean.errors import SeaWarning as SeaWarning
     from fftocean.eulerian import Eulerian as Eulerian
     from fftocean.foam import Foam as Foam
-    from fftocean.ocean import Frame as Frame
+    from fftocean.frame import EulerianFrame as EulerianFrame
+    from fftocean.frame import Frame as Frame
     from fftocean.ocean import Ocean as Ocean
     from fftocean.physics import dispersion as dispersion
     from fftocean.physics import moments as moments
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import CosinePower as CosinePower
     from fftocean.physics.spreading import CosineSquared as CosineSquared
     from fftocean.physics.spreading import DonelanBanner as DonelanBanner
+    from fftocean.physics.spreading import LongCrested as LongCrested
     from fftocean.physics.spreading_laws import CosineN as CosineN
     from fftocean.physics.spreading_laws import CustomSpreading as CustomSpreading
     from fftocean.physics.spreading_laws import GodaSuzuki as GodaSuzuki
@@ -63,6 +65,8 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading_laws import WrappedNormal as WrappedNormal
     from fftocean.physics.wind_wavenumber import Elfouhaily as Elfouhaily
     from fftocean.physics.wind_wavenumber import Phillips as Phillips
+    from fftocean.products import Folding as Folding
+    from fftocean.products import folding as folding
     from fftocean.products import jacobian as jacobian
     from fftocean.products import minimum_eigenvalue as minimum_eigenvalue
     from fftocean.products import normals as normals
@@ -96,11 +100,12 @@ _ROOMS = {
     ),
     "fftocean.eulerian": ("Eulerian",),
     "fftocean.foam": ("Foam",),
-    "fftocean.ocean": ("Frame", "Ocean"),
+    "fftocean.frame": ("EulerianFrame", "Frame"),
+    "fftocean.ocean": ("Ocean",),
     "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
     "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
-    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner"),
+    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner", "LongCrested"),
     "fftocean.physics.spreading_laws": (
         "CosineN",
         "CustomSpreading",
@@ -111,7 +116,7 @@ _ROOMS = {
         "WrappedNormal",
     ),
     "fftocean.physics.wind_wavenumber": ("Elfouhaily", "Phillips"),
-    "fftocean.products": ("jacobian", "minimum_eigenvalue", "normals"),
+    "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),
     "fftocean.science": ("to_xarray",),

@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -455,9 +455,19 @@ def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: floa
     else:
         again = f", {kept} of {frames} frames were there" if kept else ""
         print(f"{maps} maps of {nx} x {ny} in {seconds:.1f} s{again}: {_plain(options.output)}")
+    _note_folds(manifest["extremes"])
     print(_blending(manifest["blend"]))
     if "preview" in manifest:
         print(f"preview: {_plain(options.output / SHEET)}")
+
+
+def _note_folds(extremes: Mapping[str, Any]) -> None:
+    """Say on stderr that water is folded, where some is."""
+    from fftocean.products import folding_sentence
+
+    if extremes.get("folded", 0.0) > 0.0:
+        shown = (extremes[name] for name in ("folded", "min_jacobian", "largest_choppiness"))
+        print(f"note: {folding_sentence(*shown)}", file=sys.stderr)
 
 
 def _blending(blend: dict[str, Any]) -> str:
@@ -515,6 +525,7 @@ def _mebibytes(size: float) -> str:
 def _check(options: argparse.Namespace) -> int:
     from fftocean.bake.check import check
     from fftocean.bake.job import Job
+    from fftocean.bake.manifest import read_manifest
 
     with _events(options.json) as tell:
         with _bar("checking", "maps", shown=not (options.quiet or options.json)) as show:
@@ -537,6 +548,8 @@ def _check(options: argparse.Namespace) -> int:
                 print(f"repaired: {len(again)} frames were written again")
             findings = check(options.folder)
             _report(findings, options, tell)
+        if not findings and not options.json:
+            _note_folds(read_manifest(options.folder)["extremes"])
         if tell:
             tell({"event": "done", "findings": len(findings)})
     return 5 if findings else 0
@@ -644,7 +657,7 @@ def _info(options: argparse.Namespace) -> int:
     job = _job(options)
     scene = scene_for(job, 1, job.frames)
     ocean = scene.ocean
-    statistics, grid = measure(ocean), ocean.grid
+    statistics, grid = measure(ocean, frames=min(job.frames, 8)), ocean.grid
     console = _console()
     table = Table(title=Text(f"Job: {_plain(job.source)}"), title_justify="left", show_header=False, box=None, pad_edge=False)
     units = {p.key: p.unit for p in PARAMETERS}
@@ -677,6 +690,12 @@ def _info(options: argparse.Namespace) -> int:
         e = statistics.loop
         better = f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %" if e.better_period != e.period else ""
         table.add_row("loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}")
+    table.add_row("folds", str(statistics.folding))
+    for name, unit in (("depth", "m"), ("surface_tension", "N/m")):
+        value = getattr(ocean.sea, name)
+        if value != job.settings[f"sea.{name}"]:
+            stated = getattr(ocean.sea, f"{name}_from") or "the measured file"
+            table.add_row(name.replace("_", " "), f"{value:g} {unit}, by {stated}")
     table.add_row("FFT library", ocean.backend)
     cost = estimate(job, scene=scene)
     table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")

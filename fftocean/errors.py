@@ -64,6 +64,17 @@ class CacheWarning(UserWarning):
     """Something in the user's cache is of no use, and is done without."""
 
 
+def described(value: object) -> str:
+    """Return what a wrong argument is, for a message: its type, and its value where that is short."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    kind = type(value).__name__
+    text = repr(value)
+    if text.startswith((f"{kind}(", f"<{kind}")):
+        return text if len(text) <= 60 else f"{text[:57]}..."
+    return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
 def how_to_install(extra: str) -> str:
     """Return how to install an optional part of the package, which comes from a checkout."""
     return f"in a checkout of fftocean, pip install '.[{extra}]'"

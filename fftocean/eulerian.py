@@ -3,7 +3,7 @@ The water at places instead of the places of the water: fields resampled to a gr
 
 A frame tells, for each undisplaced position x0, where its water is: at x0 + c D(x0). Here that is turned round. For each world
 position x of the grid the x0 is found whose water is there, and the fields are taken at x0. What comes out is the same surface as
-a plain height field: a `Frame` without horizontal displacement.
+a plain height field: an `EulerianFrame`.
 
 Between samples the fields are quintic B-splines on a grid twice as fine. Their coefficients need no solving: they are the frame of
 a sea whose waves are divided by the spline's own response to each wavenumber (Unser 1999), and that sea is an `Ocean`, too. On a
@@ -12,7 +12,7 @@ length, so on a sea some hundredth of a millimetre.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,11 +21,12 @@ import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real, require_memory
-from fftocean.errors import ParameterError
-from fftocean.fields import EIGHT, FIELDS
+from fftocean.errors import ParameterError, described
+from fftocean.fields import EIGHT
+from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate, resample, surface
-from fftocean.ocean import Frame, Ocean, memory_needed, named, remade
+from fftocean.ocean import Ocean, memory_needed, named, remade
 
 EXACT = 5e-6  # [m], what splines may miss of the height, as a standard deviation; the most of a tile is about 13 times that
 FINEST = 8  # samples of the splines to one of the ocean, at most
@@ -33,8 +34,11 @@ STEEPEST = 1e3
 """The largest slope that is returned; only the rim of a fold is steeper."""
 
 GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+DEFAULT = ("height", "slope_x", "slope_y")
+"""The fields that are returned unless told otherwise."""
+
 _MADE_OF = {
-    **{name: () if name.startswith(("displace", "stretch")) else (name,) for name in FIELDS},
+    **{name: (name,) for name in BY_PLACE},
     "slope_x": GEOMETRY,
     "slope_y": GEOMETRY,
     "normal": GEOMETRY,
@@ -46,21 +50,23 @@ class Eulerian:
     """
     An ocean seen from fixed places. `frame` and `loop_frame` are those of `Ocean`, but sample [iy, ix] is the water AT x, y.
 
-    Of a frame, in world coordinates: height; slope_x, slope_y, dz/dx and dz/dy of the surface (cut at 1000, which only the rim of
-    a fold exceeds); normal, the surface's own; displace_* and stretch_*, zero, for a height field has none. And of the water that
-    is there just now: jacobian, and velocity_*, before choppiness as ever.
+    Of an `EulerianFrame`, in world coordinates: height; slope_x, slope_y, dz/dx and dz/dy of the surface (cut at 1000, which only
+    the rim of a fold exceeds); normal, the surface's own. And of the water that is there just now: jacobian, and velocity_*,
+    before choppiness as ever. A height field has neither displacement nor stretch: to ask for one is an error.
 
     Where the surface is folded over a place, the highest of its sheets is taken; `folded` tells where, of the last frame.
 
     It keeps the last frame's positions, for `resample`: one thread at a time.
 
     Raises:
-        ParameterError: more memory than there is.
+        ParameterError: not an ocean, or more memory than there is.
 
     Pinned by tests/test_eulerian.py, against the parametric surface summed wave by wave.
     """
 
     def __init__(self, ocean: Ocean) -> None:
+        if not isinstance(ocean, Ocean):
+            raise ParameterError(f"ocean must be an Ocean, got {described(ocean)}")
         self.grid = grid = ocean.grid
         self._ocean = ocean
         self._finer = finer_by = _fineness(ocean)
@@ -74,17 +80,20 @@ class Eulerian:
         self._folded = np.zeros(grid.shape, dtype=np.bool_)
         self._frame: Frame | None = None
 
-    def frame(self, t: float, fields: Sequence[str] = EIGHT) -> Frame:
+    def __repr__(self) -> str:
+        return f"Eulerian({self._ocean!r})"
+
+    def frame(self, t: float, fields: Sequence[str] = DEFAULT) -> EulerianFrame:
         """
         Return the water at time t, by place; as `Ocean.frame`.
 
         Raises:
-            ParameterError: as `Ocean.frame`.
+            ParameterError: as `Ocean.frame`, and a field that only a displaced surface has.
         """
         fields, needs = _needed(fields)
         return self._resample(self._splines.frame(t, needs, out=self._reusable(needs)), fields)
 
-    def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT) -> Frame:
+    def loop_frame(self, j: int, count: int, fields: Sequence[str] = DEFAULT) -> EulerianFrame:
         """
         Return the j-th of `count` frames of the loop, by place; as `Ocean.loop_frame`.
 
@@ -126,7 +135,7 @@ class Eulerian:
     def _reusable(self, needs: tuple[str, ...]) -> Frame | None:
         return self._frame if self._frame is not None and set(needs) <= set(self._frame.fields) else None
 
-    def _resample(self, splines: Frame, fields: tuple[str, ...]) -> Frame:
+    def _resample(self, splines: Frame, fields: tuple[str, ...]) -> EulerianFrame:
         """Find the water at each place, and take the fields there."""
         self._frame = splines
         self._find(splines)
@@ -144,8 +153,7 @@ class Eulerian:
             jacobian = np.empty(shape)
             surface.jacobian(xx, xy, yy, c, jacobian)
             values["jacobian"] = jacobian
-        values.update((name, np.zeros(shape)) for name in fields if not _MADE_OF[name])
-        return Frame(splines.t, self.grid, c, {name: values[name].astype(self._ocean.dtype) for name in fields})
+        return EulerianFrame(splines.t, self.grid, c, {name: values[name].astype(self._ocean.dtype) for name in fields})
 
     def _find(self, splines: Frame) -> None:
         """Set `_u`, `_v` to the undisplaced positions of the water at each place, in samples of the splines."""
@@ -173,7 +181,12 @@ class Eulerian:
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The fields asked for, and those to ask of the splines: displacement and height to find the water, and what the fields are made of."""
-    fields = named(fields, tuple(_MADE_OF))
+    if isinstance(fields, Iterable):
+        fields = (fields,) if isinstance(fields, str) else tuple(fields)
+    for name in fields if isinstance(fields, tuple) else ():
+        if name in EIGHT and name not in BY_PLACE:
+            raise ParameterError(f"an eulerian frame cannot have {name}: {NOT_BY_PLACE}")
+    fields = named(fields, BY_PLACE)
     made_of = (need for name in fields for need in _MADE_OF[name])
     return fields, tuple(dict.fromkeys(["height", "displace_x", "displace_y", *made_of]))
 

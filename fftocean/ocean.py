@@ -5,17 +5,19 @@ import os
 import threading
 import warnings
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_modes, seed_amplitudes
+from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike, precision_of, require_memory
-from fftocean.errors import FieldError, ParameterError, SeaWarning
+from fftocean.cells import WHOLE, Band
+from fftocean.errors import ParameterError, SeaWarning
 from fftocean.fields import EIGHT, FIELDS, potential_factor
+from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.kernels import passes
 from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
@@ -38,114 +40,6 @@ def _renew() -> None:
 
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_renew)
-
-
-class Frame:
-    """
-    The water at one moment: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
-
-    Only the fields that were asked for are there; the others raise `FieldError`. Displacements, stretches and horizontal
-    velocities are those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height), where c is
-    `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
-    """
-
-    __slots__ = ("_arrays", "choppiness", "grid", "t")
-
-    def __init__(self, t: float, grid: Grid, choppiness: float, arrays: Mapping[str, Real]) -> None:
-        self.t = t  # [s]
-        self.grid = grid
-        self.choppiness = choppiness
-        self._arrays = dict(arrays)
-
-    @property
-    def fields(self) -> tuple[str, ...]:
-        """The names of the arrays that are here."""
-        return tuple(self._arrays)
-
-    def __getitem__(self, name: str) -> Real:
-        """
-        Return a field by name.
-
-        Raises:
-            FieldError: it was not asked for.
-        """
-        try:
-            return self._arrays[name]
-        except KeyError:
-            made = {"normal": ", or take fo.normals(frame)", "jacobian": ", or take fo.jacobian(frame)"}.get(name, "")
-            raise FieldError(f"this frame has {', '.join(self._arrays)}; for {name} ask frame(t, fields=({name!r}, ...)){made}") from None
-
-    def _become(self, other: "Frame") -> None:
-        """Take over another frame's moment and arrays."""
-        self.t, self.grid, self.choppiness, self._arrays = other.t, other.grid, other.choppiness, other._arrays
-
-    def __repr__(self) -> str:
-        return f"Frame(t={self.t}, {self.grid.nx} x {self.grid.ny}, {', '.join(self._arrays)})"
-
-    @property
-    def height(self) -> Real:
-        """Vertical displacement [m]."""
-        return self["height"]
-
-    @property
-    def displace_x(self) -> Real:
-        """Horizontal displacement along x, choppiness not applied [m]."""
-        return self["displace_x"]
-
-    @property
-    def displace_y(self) -> Real:
-        """Horizontal displacement along y, choppiness not applied [m]."""
-        return self["displace_y"]
-
-    @property
-    def slope_x(self) -> Real:
-        """d height / dx [-]."""
-        return self["slope_x"]
-
-    @property
-    def slope_y(self) -> Real:
-        """d height / dy [-]."""
-        return self["slope_y"]
-
-    @property
-    def stretch_xx(self) -> Real:
-        """d displace_x / dx [-]."""
-        return self["stretch_xx"]
-
-    @property
-    def stretch_xy(self) -> Real:
-        """d displace_x / dy = d displace_y / dx [-]."""
-        return self["stretch_xy"]
-
-    @property
-    def stretch_yy(self) -> Real:
-        """d displace_y / dy [-]."""
-        return self["stretch_yy"]
-
-    @property
-    def velocity_x(self) -> Real:
-        """d displace_x / dt of the surface particle, choppiness not applied [m/s]."""
-        return self["velocity_x"]
-
-    @property
-    def velocity_y(self) -> Real:
-        """d displace_y / dt of the surface particle, choppiness not applied [m/s]."""
-        return self["velocity_y"]
-
-    @property
-    def velocity_z(self) -> Real:
-        """d height / dt of the surface particle [m/s]."""
-        return self["velocity_z"]
-
-    @property
-    def normal(self) -> Real:
-        """Unit normal of the displaced surface, (ny, nx, 3) [-]."""
-        return self["normal"]
-
-    @property
-    def jacobian(self) -> Real:
-        """Area of displaced over still surface [-]; below 0 it is folded."""
-        return self["jacobian"]
 
 
 class Ocean:

@@ -1,35 +1,55 @@
-"""What follows from a frame point by point: normals, Jacobian, and how far the water is squeezed. Nothing by finite differences."""
+"""Pointwise products of a frame: normals, Jacobian, smallest eigenvalue, folds. Nothing by finite differences."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
 from fftocean.arrays import Real
+from fftocean.errors import ParameterError, described
+from fftocean.frame import EulerianFrame, Frame
 from fftocean.kernels import surface
-from fftocean.ocean import Frame
+from fftocean.limits import CHOPPINESS
 
 
-def normals(frame: Frame) -> Real:
+def normals(frame: Frame | EulerianFrame) -> Real:
     """
     Return the unit normals of the displaced surface, (ny, nx, 3), z up.
 
-    n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the Jacobian.
+    n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the Jacobian. A frame of `Eulerian` is a
+    height field, whose normals are (-sx, -sy, 1) brought to length 1.
 
     Raises:
         FieldError: the frame lacks slopes or stretches.
+        ParameterError: not a frame.
 
-    Pinned by tests/test_products.py: the closed form on one wave, and the surface's own tangents.
+    Pinned by tests/test_products.py: the closed form on one wave, and the surface's own tangents; tests/test_eulerian.py.
     """
+    _require_frame(frame)
     out = np.empty((*frame.grid.shape, 3), dtype=frame.slope_x.dtype)
-    surface.normals(frame.slope_x, frame.slope_y, frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, frame.choppiness, out)
+    if isinstance(frame, EulerianFrame):
+        flat = np.zeros_like(frame.slope_x)
+        surface.normals(frame.slope_x, frame.slope_y, flat, flat, flat, frame.choppiness, out)
+    else:
+        xx, xy, yy = frame.stretch_xx, frame.stretch_xy, frame.stretch_yy
+        surface.normals(frame.slope_x, frame.slope_y, xx, xy, yy, frame.choppiness, out)
     return out
 
 
-def jacobian(frame: Frame) -> Real:
+def jacobian(frame: Frame | EulerianFrame) -> Real:
     """
     Return (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2, (ny, nx): area of displaced over still surface; below 0 it is folded.
 
+    Of a frame of `Eulerian` it is that of the water which is now at each place, which the frame has where it was asked for.
+
     Raises:
-        FieldError: the frame lacks stretches.
+        FieldError: the frame lacks stretches; a frame of `Eulerian`, its Jacobian.
+        ParameterError: not a frame.
     """
+    _require_frame(frame)
+    if isinstance(frame, EulerianFrame):
+        return frame.jacobian.copy()
     out = np.empty(frame.grid.shape, dtype=frame.stretch_xx.dtype)
     surface.jacobian(frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, frame.choppiness, out)
     return out
@@ -42,8 +62,94 @@ def minimum_eigenvalue(frame: Frame) -> Real:
     It passes through 0 where a crest folds, earlier than the Jacobian of a surface stretched along the crest (Tessendorf 2001).
 
     Raises:
-        FieldError: the frame lacks stretches.
+        FieldError: the frame lacks stretches, as any of `Eulerian` does.
+        ParameterError: not a frame.
     """
+    _require_frame(frame)
     out = np.empty(frame.grid.shape, dtype=frame.stretch_xx.dtype)
     surface.minimum_eigenvalue(frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, frame.choppiness, out)
     return out
+
+
+@dataclass(frozen=True, slots=True)
+class Folding:
+    """The folds of some samples of water: how many there are, and the choppiness below which there are none."""
+
+    share: float  # of the samples, those whose water is folded: the smaller eigenvalue of the deformation is below 0 [-]
+    min_jacobian: float  # the smallest area of displaced over still surface [-]
+    largest_choppiness: float  # at which none of the samples is folded [-]; inf where none ever is
+    samples: int  # that were looked at
+
+    def __str__(self) -> str:
+        return folding_sentence(self.share, self.min_jacobian, self.largest_choppiness)
+
+    def __add__(self, other: "Folding") -> "Folding":
+        """Return the folds of both sets of samples together."""
+        samples = self.samples + other.samples
+        return Folding(
+            share=(self.share * self.samples + other.share * other.samples) / samples,
+            min_jacobian=min(self.min_jacobian, other.min_jacobian),
+            largest_choppiness=min(self.largest_choppiness, other.largest_choppiness),
+            samples=samples,
+        )
+
+
+def folding_sentence(share: float, min_jacobian: float, largest_choppiness: float | None) -> str:
+    """Return in words how much of the water is folded; None or inf is water that no choppiness folds."""
+    never = largest_choppiness is None or math.isinf(largest_choppiness)
+    up_to = "no choppiness folds it" if never else f"choppiness up to {_cut(largest_choppiness or 0.0):g} does not fold it"
+    folded = f"{100.0 * share:.2g} % of the water is folded" if share > 0.0 else "none of the water is folded"
+    return f"{folded}, smallest Jacobian {min_jacobian:.3g}; {up_to}"
+
+
+def _cut(value: float) -> float:
+    """Three digits of a number, never above it."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2) if value > 0.0 else 1.0
+    return math.floor(value / step) * step
+
+
+def folding(frames: Frame | Iterable[Frame], choppiness: float | None = None) -> Folding:
+    """
+    Return how much of the water is folded in a frame, or in several together, such as `ocean.loop_frames(64)`.
+
+    With the eigenvalues a <= b of the displacement gradient [[Dxx, Dxy], [Dxy, Dyy]], those of the deformation are 1 + c a and
+    1 + c b. A sample is folded where 1 + c a < 0, the Jacobian is (1 + c a)(1 + c b), and the largest choppiness at which no
+    sample is folded is -1 / min(a), in closed form.
+
+    Args:
+        frames: one or more, with their stretches.
+        choppiness: another c than that of the frames.
+
+    Raises:
+        FieldError: a frame lacks stretches, as any of `Eulerian` does.
+        ParameterError: not a frame, no frame at all, or a choppiness out of range.
+
+    Pinned by tests/test_products.py: one wave, and the surface summed wave by wave.
+    """
+    c = None if choppiness is None else CHOPPINESS.check("choppiness", choppiness)
+    if isinstance(frames, (Frame, EulerianFrame)) or not isinstance(frames, Iterable):
+        frames = (frames,)
+    total: Folding | None = None
+    for frame in frames:
+        _require_frame(frame)
+        stretches = frame.stretch_xx, frame.stretch_xy, frame.stretch_yy
+        one = folding_of(*stretches, frame.choppiness if c is None else c)
+        total = one if total is None else total + one
+    if total is None:
+        raise ParameterError("frames must be one frame or more, got none")
+    return total
+
+
+def folding_of(xx: Real, xy: Real, yy: Real, choppiness: float) -> Folding:
+    """Return the folds of samples by their displacement gradients, three arrays of one shape (rows, columns)."""
+    found = np.empty(3)
+    surface.folds(xx, xy, yy, choppiness, found)
+    folded, min_jacobian, lowest = found.tolist()
+    largest = -1.0 / lowest if lowest < 0.0 else math.inf
+    return Folding(folded / xx.size, min_jacobian, largest, xx.size)
+
+
+def _require_frame(frame: object) -> None:
+    """Refuse what is not a frame by name."""
+    if not isinstance(frame, (Frame, EulerianFrame)):
+        raise ParameterError(f"frame must be a Frame, such as ocean.frame(t), got {described(frame)}")

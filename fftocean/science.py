@@ -288,8 +288,8 @@ def _attributes(ocean: Ocean) -> dict[str, Any]:
     }
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
-    ordered, loop = (statistics.pop(name) or {} for name in ("ordered", "loop"))
-    for prefix, numbers in (("ordered", ordered), ("measured", statistics), ("loop", loop)):
+    ordered, loop, folding = (statistics.pop(name) or {} for name in ("ordered", "loop", "folding"))
+    for prefix, numbers in (("ordered", ordered), ("measured", statistics), ("loop", loop), ("folding", folding)):
         found |= {f"{prefix}_{name}": value for name, value in numbers.items()}
     return {name: str(value) if value in (math.inf, -math.inf) else value for name, value in found.items() if value is not None}
 

@@ -5,14 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.amplitudes import WHOLE, Amplitudes, Band
+from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
+from fftocean.cells import WHOLE, Band, Cells
+from fftocean.errors import ParameterError, described
 from fftocean.grid import Grid
-from fftocean.limits import LOOP
+from fftocean.kernels import interpolate
+from fftocean.limits import FRAMES, LOOP
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
-from fftocean.physics.sea import Sea, WaveSystem
+from fftocean.physics.panels import direction_panels, energetic_frequencies, frequency_panels, gauss, parts_of
+from fftocean.physics.sea import Sea
+from fftocean.physics.spreading import LongCrested
+from fftocean.products import Folding, folding_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +64,18 @@ class Statistics:
     sampling_error: float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
     loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
+    folding: Folding  # of the water at its choppiness, in the moments that were looked at
+
+    def __repr__(self) -> str:
+        specified = "" if self.ordered is None else f" of {self.ordered.hs:.3g} m specified"
+        return (
+            f"Statistics(hs={self.hs:.3g} m{specified}, tp={self.tp:.3g} s, mean_direction={self.mean_direction:.4g}, "
+            f"spread={self.spread:.3g} degrees, folded={self.folding.share:.2g}, "
+            f"largest_choppiness={self.folding.largest_choppiness:.3g})"
+        )
 
 
-def measure(ocean: Ocean | Cascade) -> Statistics:
+def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     """
     Measure what an ocean delivers, or all tiles of a cascade together.
 
@@ -69,12 +84,18 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
 
     Args:
         ocean: any ocean, or a cascade: its tiles have different waves, so their energies add up.
+        frames: in how many moments to look for folds: equally spaced over the loop, or over ten peak periods.
 
     Returns:
         `Statistics`.
 
+    Raises:
+        ParameterError: neither an ocean nor a cascade, or a number of frames out of range.
+
     Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as Young 1995.
     """
+    if not isinstance(ocean, (Ocean, Cascade)):
+        raise ParameterError(f"what is measured must be an Ocean or a Cascade, got {described(ocean)}")
     tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
     ahead, astern, omega, theta = (np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True))
     energy = np.concatenate([ahead, astern])
@@ -84,10 +105,11 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
     below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
     above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
     sampling, snapshot = _scatter([tile.amplitudes for tile in tiles])
+    tp = _peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega]))
     return Statistics(
         m0=m0,
         hs=4.0 * math.sqrt(m0),
-        tp=_peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega])),
+        tp=tp,
         mean_direction=direction,
         spread=spread,
         ordered=None if sea is None else ordered(sea),
@@ -97,7 +119,55 @@ def measure(ocean: Ocean | Cascade) -> Statistics:
         sampling_error=sampling,
         snapshot_error=snapshot,
         loop=None if len(tiles) > 1 or ocean.loop is None else loop_error(first.amplitudes, ocean.loop),
+        folding=_folding(tiles, FRAMES.check_whole("frames", frames), 10.0 * tp),
     )
+
+
+_STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
+_PLACES = 2**16
+"""The places at which the water of several tiles is added up to look for folds."""
+
+
+def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
+    """
+    Return the folds of the water of all tiles together, in `count` moments over the loop, or over `span` [s].
+
+    One tile is looked at in all its samples. Several are added up at places of the finest one's samples, drawn over the width of
+    the largest: the others, whose waves are longer, are interpolated between their own samples.
+    """
+    period = tiles[0].loop if len({tile.loop for tile in tiles}) == 1 else None
+    places = _places(tiles)
+    total: Folding | None = None
+    for j in range(count):
+        if period is None:
+            frames = [tile.frame(j * span / count, _STRETCHES) for tile in tiles]
+        else:
+            frames = [tile.loop_frame(j, count, _STRETCHES) for tile in tiles]
+        if len(frames) == 1:
+            xx, xy, yy = (frames[0][name] for name in _STRETCHES)
+        else:
+            summed = np.zeros((_PLACES, 3))
+            for frame, (u, v) in zip(frames, places, strict=True):
+                texels = np.stack([frame[name] for name in _STRETCHES], axis=-1)
+                interpolate.bilinear(texels, u, v, summed)
+            xx, xy, yy = (np.ascontiguousarray(column)[None] for column in summed.T)
+        one = folding_of(xx, xy, yy, tiles[0].choppiness)
+        total = one if total is None else total + one
+    assert total is not None  # there is one moment at least
+    return total
+
+
+def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
+    """The same places in samples of each tile: of the finest, whole numbers."""
+    if len(tiles) == 1:
+        return []
+    large, fine = tiles[0].grid, tiles[-1].grid
+    draw = np.random.default_rng(0)  # where to look, which has no part in the sea
+    x = np.floor(draw.uniform(0.0, large.lx * fine.nx / fine.lx, _PLACES)) * (fine.lx / fine.nx)
+    y = np.floor(draw.uniform(0.0, large.ly * fine.ny / fine.ly, _PLACES)) * (fine.ly / fine.ny)
+    grids = [tile.grid for tile in tiles]
+    scaled = [(x * (g.nx / g.lx) % g.nx, y * (g.ny / g.ly) % g.ny) for g in grids[:-1]]
+    return [*scaled, (np.rint(x * (fine.nx / fine.lx)) % fine.nx, np.rint(y * (fine.ny / fine.ly)) % fine.ny)]
 
 
 def ordered(sea: Sea) -> SeaState:
@@ -113,68 +183,40 @@ def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float
     Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest; or what lies beside its band.
 
     The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every direction the sea's energy is
-    summed along omega up to the edges of the two rectangles: another way round than the sum over cells, which it checks.
+    summed along |k| up to the edges of the two rectangles, without cells.
     """
     reach_x, reach_y = grid.reach
-    below = inside = 0.0
-    for system in sea.systems:
-        theta = _directions(system)
-        nearest = dispersion.angular_frequency(
-            np.maximum(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), band[0]), sea.depth, sea.surface_tension
-        )
-        farthest = dispersion.angular_frequency(
-            np.minimum(_edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), band[1]), sea.depth, sea.surface_tension
-        )
-        omega = _frequencies(system, float(np.max(farthest)))
-        density = _shared_out(system, omega, theta)
-        steps = 0.5 * (density[1:] + density[:-1]) * np.diff(omega)[:, None]
-        running = np.concatenate([np.zeros((1, theta.size)), np.cumsum(steps, axis=0)])
-        weight = 2.0 * np.pi / _DIRECTIONS
-        below += weight * sum(float(np.interp(nearest[i], omega, running[:, i])) for i in range(theta.size))
-        inside += weight * sum(float(np.interp(farthest[i], omega, running[:, i])) for i in range(theta.size))
-    return below, max(sea.variance - inside, 0.0)
-
-
-_DIRECTIONS = 720
-
-
-def _edge(theta: Real, half_x: float, half_y: float) -> Real:
-    """Distance from the centre of a rectangle to its edge in direction theta."""
-    with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
-        return np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
-
-
-def _frequencies(system: WaveSystem, highest: float) -> Real:
-    """Frequencies on which to integrate a system [rad/s], up to `highest` at least."""
-    breaks = getattr(system.spectrum, "breaks", ())
-    omega = moments.spectral_grid([system.spectrum.peak], breaks, 1000)
-    if highest > omega[-1]:
-        omega = np.concatenate([omega, np.geomspace(omega[-1], highest, 400)[1:]])
-    return omega
-
-
-def _directions(system: WaveSystem) -> Real:
-    """Directions all round [rad], one of them the system's own, so that even the narrowest swell is hit."""
-    return math.radians(system.direction % 360.0) + np.arange(_DIRECTIONS) * (2.0 * np.pi / _DIRECTIONS)
-
-
-def _shared_out(system: WaveSystem, omega: Real, theta: Real) -> Real:
-    """S(omega) D(omega, theta) on a grid, (omega, theta), D summing to 1 on these directions too: narrower ones would alias."""
-    density = system.density(omega[:, None], theta[None, :])
-    along = np.sum(density, axis=1, keepdims=True) * (2.0 * np.pi / _DIRECTIONS)
-    shared: Real = density * np.divide(system.spectrum(omega)[:, None], along, out=np.zeros_like(along), where=along > 0.0)
-    return shared
+    cells = Cells(sea, grid.dkx, grid.dky)
+    inner, outer = (0.5 * grid.dkx, 0.5 * grid.dky), ((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky)
+    # what lies below: all up to the lower edge of the band, and what the inner rectangle has of the band
+    below = cells.inside(*outer, (0.0, band[0])) + cells.inside(*inner, band)
+    return below, max(sea.variance - cells.inside(*outer, (0.0, band[1])), 0.0)
 
 
 def _polar(sea: Sea) -> tuple[Real, Real]:
-    """The sea's variance by direction, with the directions; two arrays of one shape."""
+    """Return the sea's variance by direction, with the directions [rad]; two arrays of one shape."""
     variance: list[Real] = [np.zeros(0)]
     theta: list[Real] = [np.zeros(0)]
-    for system in sea.systems:
-        omega, around = _frequencies(system, 0.0), _directions(system)
-        cells = _shared_out(system, omega, around) * np.gradient(omega)[:, None]
-        variance.append(np.sum(cells, axis=0))
-        theta.append(around)
+    around: Real
+    weight: Real
+    along: Real
+    for whole in sea.systems:
+        for share, system in parts_of(whole):
+            direction = math.radians(system.direction % 360.0)
+            edges = frequency_panels(system).edges
+            if isinstance(system.spreading, LongCrested):
+                around, weight = np.zeros(1), np.ones(1)
+                along = np.array([np.sum(energetic_frequencies(system, edges)[1])])
+            else:
+                panels = direction_panels(system, energetic_frequencies(system, edges)[0]).edges
+                around, weight = (a.ravel() for a in gauss(panels[:-1], panels[1:]))
+                omega, d_omega = (a.ravel() for a in gauss(edges[:-1], edges[1:]))
+                energy = system.spectrum(omega) * d_omega
+                some = energy > 1e-12 * np.max(energy, initial=0.0)
+                spread = system.spreading(omega[some][:, None], around, float(system.spectrum.peak))
+                along = np.sum(energy[some][:, None] * spread, axis=0)
+            variance.append(share * along * weight)
+            theta.append(around + direction)
     return np.concatenate(variance), np.concatenate(theta)
 
 

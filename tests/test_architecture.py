@@ -13,9 +13,9 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: ["constants", "errors", "host", "arrays", "limits"],
     1: ["physics", "grid", "noise"],
-    2: ["amplitudes", "readers", "fields"],
+    2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["synthesis", "ocean", "gerstner"],
+    4: ["synthesis", "frame", "ocean", "gerstner"],
     5: ["cascade", "trains"],
     6: ["products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"],
     7: ["bake", "proof"],
@@ -28,16 +28,19 @@ FLOOR = {room: floor for floor, rooms in FLOORS.items() for room in rooms}
 STAIRS = [
     [["constants", "errors"], ["arrays", "limits"]],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments"],
+        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
         ["physics.spectra", "physics.spreading", "physics.tabulated"],
         ["physics.double_peaked", "physics.spreading_laws"],
         ["physics.wind_wavenumber"],
         ["physics.presets"],
         ["physics.sea"],
+        ["physics.panels"],
     ],
+    [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["synthesis"], ["ocean"]],
+    [["synthesis", "frame"], ["ocean"]],
     [["cascade"], ["trains"]],
+    [["products"], ["statistics"]],
     [["plots"], ["bench.pictures"]],
     [["cli"], ["__main__"]],
 ]

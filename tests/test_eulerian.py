@@ -75,17 +75,42 @@ def test_without_choppiness_it_is_the_ocean_s_own_frame():
         assert np.allclose(ours[name], own[name], atol=1e-12), name  # the spline goes through its samples
 
 
-def test_it_is_a_height_field_and_a_frame_like_any_other():
-    """No displacement and no stretch, so the surface a frame stands for, (x + c dx, y + c dy, height), is itself; normals agree."""
+def test_it_is_a_height_field_and_has_only_what_that_has():
+    """Normals by place and by the slopes agree; the Jacobian is that of the water, and there is no stretch to make another of."""
     ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3), n=32, size=60.0, choppiness=1.2)
-    frame = Eulerian(ocean).frame(1.0, ("height", "displace_x", "displace_y", *("slope_x", "slope_y"), "stretch_xx", "stretch_xy",
-                                        "stretch_yy", "normal", "jacobian"))  # fmt: skip
+    euler = Eulerian(ocean)
+    frame = euler.frame(1.0, ALL)
+    assert type(frame) is fo.EulerianFrame
+    assert not isinstance(frame, fo.Frame)
     assert frame.choppiness == ocean.choppiness
     assert frame.grid == ocean.grid
-    for name in ("displace_x", "displace_y", "stretch_xx", "stretch_xy", "stretch_yy"):
-        assert not frame[name].any()
+    assert set(frame.fields) == set(ALL)
     assert np.max(np.abs(fo.normals(frame) - frame.normal)) < 1e-6  # float32
-    assert np.ptp(frame.jacobian) > 0.1  # of the water, not of the height field, whose own is 1
+    x0, y0 = euler.positions
+    water = fo.gerstner.surface(ocean, x0, y0, 1.0).jacobian
+    assert np.ptp(water) > 0.1
+    assert np.max(np.abs(fo.jacobian(frame) - water)) < 5e-3  # of a coarse tile's splines
+    assert not np.shares_memory(fo.jacobian(frame), frame.jacobian)
+
+
+@pytest.mark.parametrize("name", ["displace_x", "displace_y", "stretch_xx", "stretch_xy", "stretch_yy"])
+def test_what_a_height_field_has_not_is_refused_by_name(name):
+    euler = Eulerian(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=10.0))
+    reason = f"{name}: a height field over places has no displacement"
+    with pytest.raises(fo.ParameterError, match=reason):
+        euler.frame(0.0, ("height", name))
+    frame = euler.frame(0.0)
+    for ask in (lambda: frame[name], lambda: getattr(frame, name)):
+        with pytest.raises(fo.FieldError, match=reason):
+            ask()
+    for make in (fo.minimum_eigenvalue, fo.folding):
+        with pytest.raises(fo.FieldError, match="an eulerian frame has no stretch_xx"):
+            make(frame)
+    with pytest.raises(fo.FieldError, match=r"for jacobian ask frame\(t, fields=\('jacobian', ...\)\)$"):
+        fo.jacobian(frame)
+    assert not hasattr(frame, "anything")
+    with pytest.raises(fo.ParameterError, match="out must be a frame"):
+        euler._ocean.frame(0.0, ("height",), out=frame)
 
 
 def test_crests_are_sharper_than_troughs_there():

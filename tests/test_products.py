@@ -92,3 +92,58 @@ def test_folded_water_has_a_negative_jacobian_and_a_normal_that_points_down():
     assert fo.jacobian(frame)[0, 0] == pytest.approx(1.0 - 2.0 * 2 * np.pi / 10.0)
     assert fo.minimum_eigenvalue(frame)[0, 0] < 0.0
     assert np.allclose(fo.normals(frame)[0, 0], [0.0, 0.0, -1.0])
+
+
+@pytest.mark.parametrize("steepness", [0.3, 0.9, 1.5])
+def test_folds_of_one_wave(steepness):
+    """
+    D' = -a k cos f along the wave and 0 across: folded where c a k cos f > 1, which is arccos(1/(c a k))/pi of a period; the
+    smallest Jacobian is 1 - c a k, and no fold is left at c = 1/(a k). Samples at 2 pi i/n miss each by their spacing.
+    """
+    n, k = 512, 2.0 * math.pi / 20.0
+    ocean = fo.Ocean.from_modes([(1, 0, steepness / k, 0.0)], n=(n, 4), size=20.0, dtype="float64", choppiness=1.0)
+    found = fo.folding(ocean.frame(0.0))
+    share = math.acos(1.0 / steepness) / math.pi if steepness > 1.0 else 0.0
+    assert found.share == pytest.approx(share, abs=1.0 / n)
+    assert found.min_jacobian == pytest.approx(1.0 - steepness, abs=1e-12)  # a crest is at a sample
+    assert found.largest_choppiness == pytest.approx(1.0 / steepness, rel=1e-12)
+    assert found.samples == 4 * n
+    below, above = (fo.folding(ocean.frame(0.0), choppiness=found.largest_choppiness * f) for f in (1.0 - 1e-9, 1.0 + 1e-9))
+    assert below.share == 0.0 < above.share
+
+
+def test_folds_of_a_sea_are_those_of_the_sum_of_waves():
+    """Over a loop, at twice the choppiness that no sample bears: against eigenvalues by LAPACK of the direct sum's stretches."""
+    sea = fo.Sea.from_wind(speed=12.0, fetch=100e3)
+    ocean = fo.Ocean(sea, n=24, size=80.0, seed=3, loop=60.0, dtype="float64", choppiness=2.5)
+    found = fo.folding(ocean.loop_frames(5))
+    x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
+    lowest, jacobian = [], []
+    for j in range(5):
+        s = fo.gerstner.surface(ocean, x, y, 60.0 * j / 5)
+        gradient = np.stack([s.stretch_xx, s.stretch_xy, s.stretch_xy, s.stretch_yy], axis=-1).reshape(*x.shape, 2, 2)
+        lowest.append(np.linalg.eigvalsh(gradient)[..., 0])
+        jacobian.append(np.linalg.det(np.eye(2) + 2.5 * gradient))
+    assert found.samples == 5 * 24 * 24
+    assert found.share == np.mean(1.0 + 2.5 * np.array(lowest) < 0.0) > 0.0
+    assert found.min_jacobian == pytest.approx(np.min(jacobian), rel=1e-9)
+    assert found.largest_choppiness == pytest.approx(-1.0 / np.min(lowest), rel=1e-9)
+    each = [fo.folding(ocean.loop_frame(j, 5)) for j in range(5)]
+    assert sum(one.share for one in each) / 5 == pytest.approx(found.share)
+
+
+def test_water_that_never_folds_and_what_is_refused():
+    flat = fo.Ocean.from_modes([], n=4, size=10.0).frame(0.0)
+    found = fo.folding(flat)
+    assert (found.share, found.min_jacobian, found.largest_choppiness) == (0.0, 1.0, math.inf)
+    assert str(found) == "none of the water is folded, smallest Jacobian 1; no choppiness folds it"
+    assert "up to 1.42 does not fold it" in str(fo.Folding(0.0, 0.3, 1.42999, 1))  # never rounded up
+    with pytest.raises(fo.ParameterError, match="got none"):
+        fo.folding([])
+    with pytest.raises(fo.FieldError, match="for stretch_xx ask"):
+        fo.folding(fo.Ocean.from_modes([], n=4, size=10.0).frame(0.0, ("height",)))
+    ocean = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=4, size=10.0)
+    for wrong in (ocean, 3, None, flat.height):
+        for make in (fo.folding, fo.normals, fo.jacobian, fo.minimum_eigenvalue):
+            with pytest.raises(fo.ParameterError, match=r"frame must be a Frame, such as ocean.frame\(t\), got "):
+                make(wrong)

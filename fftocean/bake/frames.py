@@ -1,6 +1,7 @@
 """From an order to files, a frame at a time: all that a worker does, wherever it is. The same task gives the same bytes."""
 
 import io
+import math
 import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -19,13 +20,16 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, Task
 from fftocean.errors import OutputError
 from fftocean.eulerian import Eulerian
-from fftocean.export import exr, formats, profiles
+from fftocean.export import engines, exr, formats, profiles
 from fftocean.foam import Foam
+from fftocean.frame import EulerianFrame, Frame
 from fftocean.kernels import half
-from fftocean.ocean import Frame, Ocean
+from fftocean.ocean import Ocean
+from fftocean.products import folding
 
-EXTREMES = ("height", "displace_x", "displace_y", "jacobian")
-"""The fields that bound the water, for culling, whichever maps are written."""
+STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
+EXTREMES = ("height", "displace_x", "displace_y", *STRETCHES)
+"""The fields that bound the water, for culling and for folds, whichever maps are written."""
 
 
 class Scene:
@@ -35,11 +39,13 @@ class Scene:
         self.job = job
         self.ocean: Ocean = job.ocean()
         self.form = formats.FORMATS[job.format]
-        self.profile = profiles.profile_for(job.engine, raw=self.form.raw)
+        self.profile = engines.profile_for(job.engine, job.format, job.normals)
         self.foam = Foam(**job.foam)
         self._eulerian = Eulerian(self.ocean) if job.lookup == "eulerian" else None
         self._unresolved = maps.unresolved(self.ocean) if job.mips or "slope_covariance" in job.maps else None
-        self._needs = tuple(dict.fromkeys([*maps.needed(job.maps, mips=job.mips), *EXTREMES]))
+        eulerian = self._eulerian is not None
+        extremes = ("height",) if eulerian else EXTREMES
+        self._needs = tuple(dict.fromkeys([*maps.needed(job.maps, mips=job.mips, eulerian=eulerian), *extremes]))
         self._frame: Frame | None = None
 
     @property
@@ -47,12 +53,32 @@ class Scene:
         """How many levels each map has, down to one sample where smaller ones are asked for."""
         return max(self.ocean.grid.shape).bit_length() if self.job.mips else 1
 
-    def frame(self, j: int) -> Frame:
+    def frame(self, j: int) -> Frame | EulerianFrame:
         """The j-th frame of the loop; good until the next."""
         if self._eulerian is not None:
             return self._eulerian.loop_frame(j, self.job.frames, self._needs)
         self._frame = self.ocean.loop_frame(j, self.job.frames, self._needs, out=self._frame)
         return self._frame
+
+    def extremes(self, j: int, frame: Frame | EulerianFrame) -> dict[str, float | None]:
+        """
+        How far the water of the j-th frame goes, for culling, and its folds, which the maps of every lookup have.
+
+        By place the water is a height field over its samples, and only the upper sheet of a fold is seen: its folds are those of
+        the displaced surface that it shows.
+        """
+        if isinstance(frame, EulerianFrame):
+            moved, water = 0.0, self.ocean.loop_frame(j, self.job.frames, STRETCHES)
+        else:
+            moved, water = float(np.max(np.hypot(frame.displace_x, frame.displace_y))), frame
+        folds = folding(water)
+        return {
+            "min_jacobian": folds.min_jacobian,
+            "folded": folds.share,
+            "largest_choppiness": None if math.isinf(folds.largest_choppiness) else folds.largest_choppiness,
+            "max_height": float(np.max(np.abs(frame.height))),
+            "max_horizontal": frame.choppiness * moved,
+        }
 
     def foam_states(self, frames: Sequence[int], folder: Path) -> Iterator[Real | None]:
         """The foam at some frames of one span, in order, each good until the next; None where no map shows it."""
@@ -65,7 +91,7 @@ class Scene:
             if j in frames:
                 yield state
 
-    def pictures(self, frame: Frame, state: Real | None) -> Iterator[tuple[str, list[Real]]]:
+    def pictures(self, frame: Frame | EulerianFrame, state: Real | None) -> Iterator[tuple[str, list[Real]]]:
         """Each map of a frame as its file has it, (rows, columns, channels) float32: the map, and its smaller levels where asked for."""
         coverage = None
         if state is not None:
@@ -139,7 +165,7 @@ def work(order: Order, task: Task) -> Iterator[Entry]:
             yield {"range": {"frame": j, "maps": {name: _range_of(levels) for name, levels in scene.pictures(frame, state)}}}
         else:
             files = {name: _written(order, scene, folder, name, j, levels) for name, levels in scene.pictures(frame, state)}
-            yield {"row": {"frame": j, "t": frame.t, "extremes": extremes_of(frame), "files": files}}
+            yield {"row": {"frame": j, "t": frame.t, "extremes": scene.extremes(j, frame), "files": files}}
 
 
 def _foam_made(scene: Scene, folder: Path, frames: Sequence[int], token: str) -> Entry:
@@ -177,12 +203,3 @@ def _channel_ranges(picture: Real) -> list[tuple[float, float]]:
 def _range_of(levels: list[Real]) -> list[float]:
     """The least and the greatest value of a map, all channels and levels."""
     return [min(float(level.min()) for level in levels), max(float(level.max()) for level in levels)]
-
-
-def extremes_of(frame: Frame) -> dict[str, float]:
-    """How far the water goes in a frame: for culling, and to know whether it folds."""
-    return {
-        "min_jacobian": float(frame.jacobian.min()),
-        "max_height": float(np.max(np.abs(frame.height))),
-        "max_horizontal": frame.choppiness * float(np.max(np.hypot(frame.displace_x, frame.displace_y))),
-    }

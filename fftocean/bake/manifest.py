@@ -11,8 +11,9 @@ from fftocean.bake.frames import Scene
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
-from fftocean.export import profiles
+from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
+from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics
 
 
@@ -56,16 +57,18 @@ def compose(
             "range": [min(low for low, _ in ranges), max(high for _, high in ranges)],
             "channel_ranges": ranges,
             **({} if low is None else {"scaled": {"low": low, "high": high}}),
+            "world": rules.world(scene.profile, m.kind),
             "shape": [*shape, len(m.names)],
             "levels": scene.levels,
         }
     manifest = {
         **order.header,
         "ocean": _tile(scene.ocean),
-        "statistics": asdict(statistics),  # ordered beside delivered
-        "conventions": {**scene.profile.describe(raw=scene.form.raw), "lookup": _LOOKUP[job.lookup]},
+        "statistics": plain(statistics),  # ordered beside delivered
+        "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
+        "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
         "blend": dict(blend),
-        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1"}, **extremes_over(rows)},
+        "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1"}, **extremes_over(rows)},
         "maps": entries,
         **({"containers": dict(containers)} if containers else {}),
         **pictures,
@@ -74,10 +77,30 @@ def compose(
     return checked(manifest)
 
 
+def _numbers(order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The numbers that the sampling rules name."""
+    grid, count = scene.ocean.grid, len(rows)
+    return rules.numbers(scene.profile, (grid.lx, grid.ly), (grid.nx, grid.ny), count, played(order, scene, count), rows[0]["t"])
+
+
+def played(order: Order, scene: Scene, count: int) -> float:
+    """How long the frames that are there take to play through [s]."""
+    loop: float = scene.job.settings["ocean.loop"]
+    return loop if count == scene.job.frames else loop * order.step * count / scene.job.frames
+
+
 _LOOKUP = {
     "lagrangian": "lagrangian: a map is indexed by the undisplaced position",
     "eulerian": "eulerian: a map is indexed by the place in the world; what is displaced by it is a height field",
 }
+
+
+def plain(statistics: Statistics) -> dict[str, Any]:
+    """Statistics as plain data, None for a number that JSON has not."""
+    found = asdict(statistics)
+    if math.isinf(found["folding"]["largest_choppiness"]):
+        found["folding"]["largest_choppiness"] = None
+    return found
 
 
 def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
@@ -85,9 +108,12 @@ def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
     return [[min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)] for c in range(len(ranges[0]))]
 
 
-def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """The extremes of the whole sequence."""
+def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+    """The extremes of the whole sequence; `largest_choppiness` is that at which nothing folds, None where any is."""
+    limits = [c for row in rows if (c := row["extremes"]["largest_choppiness"]) is not None]
     return {
+        "folded": sum(row["extremes"]["folded"] for row in rows) / len(rows),
+        "largest_choppiness": min(limits, default=None),
         "min_jacobian": min(row["extremes"]["min_jacobian"] for row in rows),
         "max_height": max(row["extremes"]["max_height"] for row in rows),
         "max_horizontal": max(row["extremes"]["max_horizontal"] for row in rows),
@@ -101,10 +127,18 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "n": [grid.nx, grid.ny],
         "size": [grid.lx, grid.ly],
         "depth": ocean.depth if math.isfinite(ocean.depth) else str(ocean.depth),
+        "surface_tension": ocean.amplitudes.surface_tension,
+        "stated_by": {} if ocean.sea is None else _stated(ocean.sea),
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
         "fft": ocean.backend,
     }
+
+
+def _stated(sea: Sea) -> dict[str, str]:
+    """By which spectrum or spreading depth and surface tension are stated, where one does."""
+    parts = {"depth": sea.depth_from, "surface_tension": sea.surface_tension_from}
+    return {name: part for name, part in parts.items() if part is not None}
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:

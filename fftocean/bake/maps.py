@@ -7,8 +7,10 @@ import numpy as np
 
 from fftocean import mips
 from fftocean.arrays import Real
+from fftocean.errors import ParameterError
 from fftocean.export.profiles import Kind
-from fftocean.ocean import Frame, Ocean
+from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
+from fftocean.ocean import Ocean
 
 GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 
@@ -17,7 +19,7 @@ GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 class Moment:
     """What there is of the water at one moment."""
 
-    frame: Frame
+    frame: Frame | EulerianFrame
     foam: Real | None  # coverage, (ny, nx), 0..1
     unresolved: Real | None  # slope covariance of the waves too short for the tile, (3,)
 
@@ -28,7 +30,8 @@ class Map:
     A picture of the sea, in our own frame: row 0 south, x east, y north, z up, SI.
 
     `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its coverage, (ny, nx) in 0..1; and,
-    where slope covariance is, that of the waves too short for the tile, from `unresolved`. A frame of `Eulerian` has the same names.
+    where slope covariance is, that of the waves too short for the tile, from `unresolved`. A frame of `Eulerian` has no
+    displacement and no stretch: a map that shows them has fields of its own for it, `by_place`, and draws them as 0.
     """
 
     needs: tuple[str, ...]  # fields of a frame
@@ -39,12 +42,19 @@ class Map:
     draw: Callable[[Moment], Iterable[Real]]  # the channels, each (ny, nx)
     needs_levels: tuple[str, ...] = ()  # further fields, for levels
     draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
+    by_place: tuple[str, ...] | None = None  # the fields needed of an `EulerianFrame`, where they are others
 
-    def channels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
+    def needed(self, *, mips: bool, eulerian: bool) -> tuple[str, ...]:
+        """Return the fields to ask of a frame for the map, with its levels or without."""
+        if eulerian and self.by_place is not None:
+            return self.by_place
+        return (*self.needs, *(self.needs_levels if mips else ()))
+
+    def channels(self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None) -> Real:
         """Return the picture, (ny, nx, channels), float32, C-contiguous."""
         return _stacked(self.draw(Moment(frame, foam, unresolved)))
 
-    def levels(self, frame: Frame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
+    def levels(self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None) -> list[Real]:
         """Return the picture and its smaller levels down to one texel, each (rows, columns, channels), float32, C-contiguous."""
         moment = Moment(frame, foam, unresolved)
         levels = self.draw_levels(moment) if self.draw_levels else mips.chain(_stacked(self.draw(moment)))
@@ -70,19 +80,22 @@ MAPS: dict[str, Map] = {
     "displacement": Map(
         ("displace_x", "displace_y", "height"), "vector", ("x, choppiness applied", "y, choppiness applied", "height"), "m",
         "from where the water is at rest to where it is",
-        lambda m: (m.frame.displace_x * m.frame.choppiness, m.frame.displace_y * m.frame.choppiness, m.frame.height),
+        lambda m: (*_moved(m.frame), m.frame.height),
+        by_place=("height",),
     ),
     "normal": Map(
         ("normal",), "normal", ("x", "y", "z"), "1",
         "unit normal of the displaced surface, signed; of smaller levels, that of the mean slope",
         lambda m: np.moveaxis(m.frame.normal, -1, 0),
-        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m), m.frame.choppiness),
+        GEOMETRY, lambda m: mips.normals(m.frame.normal, _geometry(m.frame), m.frame.choppiness),
+        by_place=("normal", "slope_x", "slope_y"),
     ),
     "derivative": Map(
         ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
         ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
         "what cascades add up before the normal is made: about (-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
-        lambda m: (m.frame.slope_x, m.frame.slope_y, m.frame.stretch_xx * m.frame.choppiness, m.frame.stretch_yy * m.frame.choppiness),
+        lambda m: (m.frame.slope_x, m.frame.slope_y, *_stretched(m.frame)),
+        by_place=("slope_x", "slope_y"),
     ),
     "jacobian": Map(
         ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
@@ -114,9 +127,20 @@ Normals are the surface's own, jacobian, foam and velocity those of the water th
 """
 
 
-def needed(names: Iterable[str], *, mips: bool = False) -> tuple[str, ...]:
-    """Return the fields to ask of a frame for some maps, with their levels or without."""
-    return tuple(dict.fromkeys(need for name in names for need in (*MAPS[name].needs, *(MAPS[name].needs_levels if mips else ()))))
+def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) -> tuple[str, ...]:
+    """
+    Return the fields to ask of a frame for some maps, with their levels or without.
+
+    Raises:
+        ParameterError: a map that an eulerian frame cannot show.
+    """
+    fields: dict[str, None] = {}
+    for name in names:
+        for need in MAPS[name].needed(mips=mips, eulerian=eulerian):
+            if eulerian and need not in BY_PLACE:
+                raise ParameterError(f"the map {name!r} cannot be baked with the lookup 'eulerian', as it shows {need}: {NOT_BY_PLACE}")
+            fields[need] = None
+    return tuple(fields)
 
 
 def unresolved(ocean: Ocean) -> Real:
@@ -124,8 +148,27 @@ def unresolved(ocean: Ocean) -> Real:
     return mips.unresolved_slopes(ocean)
 
 
-def _geometry(moment: Moment) -> tuple[Real, Real, Real, Real, Real]:
-    frame = moment.frame
+def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """The horizontal displacement, choppiness applied; 0 by place."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.height)
+        return nothing, nothing
+    return frame.displace_x * frame.choppiness, frame.displace_y * frame.choppiness
+
+
+def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """The stretch along x and along y, choppiness applied; 0 by place."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.slope_x)
+        return nothing, nothing
+    return frame.stretch_xx * frame.choppiness, frame.stretch_yy * frame.choppiness
+
+
+def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Real]:
+    """The slopes and stretches of the surface; by place, those of a height field."""
+    if isinstance(frame, EulerianFrame):
+        nothing = np.zeros_like(frame.slope_x)
+        return frame.slope_x, frame.slope_y, nothing, nothing, nothing
     return frame.slope_x, frame.slope_y, frame.stretch_xx, frame.stretch_xy, frame.stretch_yy
 
 

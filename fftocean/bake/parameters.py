@@ -123,6 +123,13 @@ OUTPUT = (
         choices=("lagrangian", "eulerian"),
         flag="lookup",
     ),
+    Parameter(
+        "bake.normals",
+        "engine",
+        "values of normal maps: signed (-1 to 1), packed (0 to 1), or as the engine's stock materials read",
+        choices=("engine", "signed", "packed"),
+        flag="normals",
+    ),
     Parameter("bake.mips", False, "mip levels of each map; with the format ktx2", switch=True, flag="mips"),
     Parameter("bake.pictures", ("sheet", "animation"), "pictures to look at, beside the maps", choices=PICTURES, many=True, none=True),
 )

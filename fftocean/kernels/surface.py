@@ -64,3 +64,24 @@ def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Rea
             b = choppiness * xy[j, i]
             d = one + choppiness * yy[j, i]
             out[j, i] = half * (a + d) - np.hypot(half * (a - d), b)
+
+
+@compiled
+def folds(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
+    """
+    out = how many samples are folded, the smallest Jacobian, the smallest eigenvalue of the displacement gradient; float64.
+
+    Folded are those whose smaller eigenvalue of the deformation, 1 + c times that of the gradient, is below 0.
+    """
+    folded = 0
+    least = np.inf
+    lowest = np.inf
+    for j in range(xx.shape[0]):
+        for i in range(xx.shape[1]):
+            a, b, d = np.float64(xx[j, i]), np.float64(xy[j, i]), np.float64(yy[j, i])
+            eigenvalue = 0.5 * (a + d) - np.hypot(0.5 * (a - d), b)
+            lowest = min(lowest, eigenvalue)
+            if 1.0 + choppiness * eigenvalue < 0.0:
+                folded += 1
+            least = min(least, (1.0 + choppiness * a) * (1.0 + choppiness * d) - (choppiness * b) ** 2)
+    out[0], out[1], out[2] = folded, least, lowest

@@ -1,21 +1,23 @@
 """The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them."""
 
 import math
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, SeaWarning
 from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
 from fftocean.physics import moments, presets
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
 from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
+from fftocean.physics.water import SAME, Statement, agreed, statements
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from xarray import DataArray, Dataset
 
 
 def from_compass(bearing: float) -> float:
@@ -31,6 +33,22 @@ def from_compass(bearing: float) -> float:
     return (270.0 - DIRECTION.check("bearing", bearing)) % 360.0
 
 
+def _short(model: object) -> str:
+    """A model as it shows itself, where that is short; else its name and those of its parts."""
+    text = repr(model)
+    if len(text) <= 90:
+        return text
+    inner = [type(getattr(model, name)).__name__ for name in _WRAPPED if hasattr(model, name)]
+    return f"{type(model).__name__}({', '.join([*inner, '...'])})"
+
+
+_WRAPPED = ("spectrum", "base", "first", "second")
+
+
+def _by(part: str | None) -> str:
+    return f" by {part}" if part else ""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WaveSystem:
     """One wind sea or swell: how much energy at each frequency, and where it goes."""
@@ -43,10 +61,28 @@ class WaveSystem:
         require_spectrum("spectrum", self.spectrum)
         require_spreading("spreading", self.spreading)
         keep_checked(self, direction=DIRECTION)
+        for name, words in _WIND.items():
+            spectral = next(statements(name, "spectrum", self.spectrum), None)
+            for other in statements(name, "spreading", self.spreading):
+                if spectral and not math.isclose(spectral.value, other.value, rel_tol=SAME):
+                    warnings.warn(
+                        f"the {words} of a wave system is {spectral.value:g} m/s for its {spectral} and "
+                        f"{other.value:g} m/s for its {other}: its directions are those of another wind",
+                        SeaWarning,
+                        stacklevel=3,
+                    )
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x."""
         return self.spectrum(omega) * self.spreading(omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak)
+
+    def __repr__(self) -> str:
+        spectrum, spreading = _short(self.spectrum), _short(self.spreading)
+        return f"WaveSystem(spectrum={spectrum}, spreading={spreading}, direction={self.direction:g})"
+
+
+_WIND = {"speed": "wind speed", "friction_velocity": "friction velocity"}
+"""The properties of the wind that a spectrum and its spreading may both state."""
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -55,6 +91,20 @@ class Sea:
     Several wave systems over one depth of water. No system is a flat sea.
 
     A `Sea` is itself a frequency spectrum: call it with omega for the sum over its systems.
+
+    Depth and surface tension belong to the water, and drive the dispersion of all waves. A spectrum or spreading that states one
+    of them (`TMA.depth`, `Elfouhaily.surface_tension`, or any model's attribute of that name, also within a `Blend` or another
+    model) must state that of the sea. Where the sea is given none it takes the value stated, and `depth_from` and
+    `surface_tension_from` say by which part.
+
+    Args:
+        waves: the wave systems.
+        systems: further wave systems, in a tuple.
+        depth: still-water depth [m], inf for deep water; None is the depth that the parts state, or else deep water.
+        surface_tension: [N/m], 0 without capillary waves; None is that which the parts state, or else 0.
+
+    Raises:
+        ParameterError: a value out of its range, or two different ones for the same water.
     """
 
     systems: tuple[WaveSystem, ...]
@@ -62,15 +112,23 @@ class Sea:
     surface_tension: float  # [N/m]; 0 leaves capillary waves out
 
     def __init__(
-        self, *waves: WaveSystem, systems: tuple[WaveSystem, ...] = (), depth: float = math.inf, surface_tension: float = 0.0
+        self,
+        *waves: WaveSystem,
+        systems: tuple[WaveSystem, ...] = (),
+        depth: float | None = None,
+        surface_tension: float | None = None,
     ) -> None:
         systems = (*waves, *systems) if isinstance(systems, Iterable) else (*waves, systems)
         for system in systems:
             if not isinstance(system, WaveSystem):
                 raise ParameterError(f"a sea must be made of WaveSystem values, got {system!r:.60}")
         object.__setattr__(self, "systems", systems)
-        object.__setattr__(self, "depth", DEPTH.check("depth", depth))
-        object.__setattr__(self, "surface_tension", SURFACE_TENSION.check("surface_tension", surface_tension))
+        for name, given, quantity, default in (
+            ("depth", depth, DEPTH, math.inf),
+            ("surface_tension", surface_tension, SURFACE_TENSION, 0.0),
+        ):
+            value = agreed(name, given, list(self._stated(name)), quantity, default)
+            object.__setattr__(self, name, value)
 
     @classmethod
     def from_wind(
@@ -125,13 +183,14 @@ class Sea:
     @classmethod
     def from_spectrum(
         cls,
-        dataset: "Dataset",
+        dataset: "Dataset | DataArray",
         *,
         time: int = 0,
         site: int = 0,
         depth: float | None = None,
         direction: float | None = None,
         spreading: Spreading | None = None,
+        negative: str = "refuse",
     ) -> "Sea":
         """
         The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the wavespectra package.
@@ -145,7 +204,15 @@ class Sea:
         """
         from fftocean.readers.realise import sea_from_spectrum
 
-        return sea_from_spectrum(dataset, time=time, site=site, depth=depth, direction=direction, spreading=spreading)
+        return sea_from_spectrum(
+            dataset,
+            time=time,
+            site=site,
+            depth=depth,
+            direction=direction,
+            spreading=spreading,
+            negative=negative,
+        )
 
     @classmethod
     def _preset(cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None) -> "Sea":
@@ -153,6 +220,30 @@ class Sea:
         if spectrum is None:
             return cls(depth=depth)
         return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
+
+    def _stated(self, name: str) -> Iterator[Statement]:
+        """The statements of all parts about the water."""
+        for i, system in enumerate(self.systems):
+            yield from statements(name, f"systems[{i}].spectrum", system.spectrum)
+            yield from statements(name, f"systems[{i}].spreading", system.spreading)
+
+    @property
+    def depth_from(self) -> str | None:
+        """The first spectrum or spreading that states the depth, such as "systems[0].spectrum (TMA)"; None where none does."""
+        return next(map(str, self._stated("depth")), None)
+
+    @property
+    def surface_tension_from(self) -> str | None:
+        """The first spectrum or spreading that states the surface tension; None where none does."""
+        return next(map(str, self._stated("surface_tension")), None)
+
+    def __repr__(self) -> str:
+        shown = [_short(system.spectrum) for system in self.systems[:3]]
+        more = [f"{len(self.systems) - 3} more systems"] if len(self.systems) > 3 else []
+        water = [f"depth={self.depth:g}" + _by(self.depth_from)]
+        if self.surface_tension or self.surface_tension_from:
+            water.append(f"surface_tension={self.surface_tension:g}" + _by(self.surface_tension_from))
+        return f"Sea({', '.join([*shown, *more, *water])})"
 
     @property
     def peak(self) -> float:

@@ -28,6 +28,7 @@ from fftocean.limits import (
 )
 from fftocean.physics.dispersion import group_to_phase_speed, wavenumber
 from fftocean.physics.moments import moment
+from fftocean.physics.water import statements
 
 
 @runtime_checkable
@@ -187,6 +188,11 @@ class TMA:
     def __post_init__(self) -> None:
         require_spectrum("spectrum", self.spectrum)
         keep_checked(self, depth=DEPTH)
+        for statement in statements("depth", "spectrum", self.spectrum):
+            if statement.value != math.inf:
+                raise ParameterError(
+                    f"spectrum must be one of deep water, which TMA carries into {self.depth:g} m, got {statement} of {statement.value:g} m"
+                )
 
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, depth: float, gamma: float = 3.3) -> "TMA":
@@ -218,11 +224,19 @@ class TMA:
         """S at `omega`, [m^2 s/rad]."""
         return self.spectrum(omega) * kitaigorodskii(omega, self.depth)
 
+    def at_waves(self, omega: RealLike, k: Real) -> Real:
+        """Return S at `omega` where the wavenumbers `k` [rad/m] of gravity waves in this depth are known, [m^2 s/rad]."""
+        return self.spectrum(omega) * _kitaigorodskii_at(k, self.depth)
+
 
 def kitaigorodskii(omega: RealLike, depth: float) -> Real:
     """Return Phi(omega, h) [-], from omega^2 h / (2g) in shallow water to 1 in deep  (Kitaigorodskii et al. 1975)."""
     omega = np.clip(np.asarray(omega, dtype=np.float64), 0.0, 1e20)  # deep in a micrometre; and inf is not a frequency
-    k = wavenumber(omega, depth)
+    return _kitaigorodskii_at(wavenumber(omega, depth), depth)
+
+
+def _kitaigorodskii_at(k: Real, depth: float) -> Real:
+    """Return Phi [-] at wavenumbers [rad/m]."""
     if math.isinf(depth):
         return np.ones_like(k)
     phi: Real = np.tanh(np.minimum(k, 20.0 / depth) * depth) ** 2 / (2.0 * group_to_phase_speed(k, depth))
@@ -265,10 +279,12 @@ class TabulatedSpectrum:
     A measured spectrum S(f): straight lines between the points, nothing outside them.
 
     Frequencies in Hz and densities in m^2/Hz, as buoys report them; the call takes and gives omega like any other spectrum.
+    With a `depth` it states that of the water in which it was measured, which a `Sea` then has.
     """
 
     frequency: Sequence[float]  # f [Hz], strictly ascending, > 0
     density: Sequence[float]  # S(f) [m^2/Hz], >= 0
+    depth: float | None = field(default=None, kw_only=True)  # [m]; None states none
     _omega: Real = field(init=False, repr=False, compare=False)
     _s: Real = field(init=False, repr=False, compare=False)
 
@@ -280,10 +296,17 @@ class TabulatedSpectrum:
         if not np.all(np.diff(f) > 0.0):
             fall = int(np.argmax(np.diff(f) <= 0.0))
             raise ParameterError(f"frequency must be strictly ascending, got {f[fall]} Hz before {f[fall + 1]} Hz")
+        if self.depth is not None:
+            keep_checked(self, depth=DEPTH)
         object.__setattr__(self, "frequency", tuple(f.tolist()))
         object.__setattr__(self, "density", tuple(s.tolist()))
         object.__setattr__(self, "_omega", 2.0 * np.pi * f)
         object.__setattr__(self, "_s", s / (2.0 * np.pi))
+
+    def __repr__(self) -> str:
+        f = self.frequency
+        depth = "" if self.depth is None else f", depth={self.depth:g}"
+        return f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
 
     @property
     def peak(self) -> float:

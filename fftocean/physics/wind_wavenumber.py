@@ -3,7 +3,7 @@ Spectra written in wavenumber: Phillips as computer graphics has it, and the uni
 
 Both give F(k), the variance per wavenumber magnitude [m^3/rad]; a `FrequencySpectrum` is asked for S(omega), and the two are the
 same energy: S(omega) d omega = F(k) dk, so S = F(k) / (d omega/dk) with k = k(omega). `depth` and `surface_tension` only say
-how fast a wave of wavenumber k turns: give the spectrum those of its `Sea`, and the sea has exactly F(k).
+how fast a wave of wavenumber k turns: a `Sea` takes them from the spectrum, and so has exactly F(k).
 """
 
 import math
@@ -119,6 +119,10 @@ class Phillips:
         """S at `omega`, [m^2 s/rad]."""
         return _per_frequency(self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension)
 
+    def at_waves(self, _omega: RealLike, k: Real) -> Real:
+        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
+        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
+
 
 SHORT_PEAK: Final = 370.0
 """k_m [rad/m]: the wavenumber of the slowest wave, 1.7 cm long, where gravity and surface tension pull alike  (Elfouhaily et al. 1997)."""
@@ -146,7 +150,7 @@ class Elfouhaily:
     (Wu 1982; 1.45e-3 at 10 m/s, where the paper's figure 11 has 1.44e-3). Below u* = c_m/e, near 2.7 m/s, there are none. Hs is
     0.257 U^2/g when developed; the mean-square slope is Cox & Munk's within 20 % from 4 to 20 m/s, too much in less wind.
 
-    Its own directions are in `spreading`. A `Sea` made of it wants `surface_tension=constants.SURFACE_TENSION`, as is the default here.
+    Its own directions are in `spreading`. A `Sea` made of it has its depth and surface tension, or is refused.
 
     Source: Elfouhaily, Chapron, Katsaros & Vandemark, J. Geophys. Res. 102 (1997), 15781-15796, doi:10.1029/97JC00467, eq. 2, 3, 31-34,
     40, 41, 44; the correction of eq. 41 after Mobley (Ocean Optics Web Book), who has it from the first author.
@@ -229,6 +233,10 @@ class Elfouhaily:
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]."""
         return _per_frequency(self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension)
+
+    def at_waves(self, _omega: RealLike, k: Real) -> Real:
+        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
+        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
 
 
 def _phase_speed(k: Real) -> Real:

@@ -1,5 +1,6 @@
 """What goes into the maps: each channel against the ocean's own fields, by either lookup, and its smaller levels."""
 
+import dataclasses
 from typing import get_args
 
 import numpy as np
@@ -114,7 +115,7 @@ def test_levels_of_derivative_and_covariance_belong_together(ocean):
 def test_by_place_the_maps_are_those_of_a_height_field(ocean, foam):
     """Displaced by the map, the grid becomes the surface itself; normals, from the derivative map too, are its own."""
     euler = Eulerian(ocean)
-    f = euler.frame(1.0, EVERY)
+    f = euler.frame(1.0, maps.needed(MAPS, mips=True, eulerian=True))
     x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
     displacement = MAPS["displacement"].channels(f)
     assert not displacement[..., :2].any()
@@ -131,6 +132,18 @@ def test_by_place_the_maps_are_those_of_a_height_field(ocean, foam):
     velocity = np.stack([surface.velocity_x * 1.3, surface.velocity_y * 1.3, surface.velocity_z], -1)
     assert np.allclose(MAPS["velocity"].channels(f), velocity, atol=5e-3)
     assert all(np.all(np.isfinite(level)) for name in MAPS for level in MAPS[name].levels(f, euler.resample(foam)))
+
+
+def test_a_map_that_no_height_field_shows_is_refused(monkeypatch, tmp_path):
+    shear = dataclasses.replace(MAPS["jacobian"], needs=("stretch_xy",))
+    monkeypatch.setitem(MAPS, "jacobian", shear)
+    reason = "the map 'jacobian' cannot be baked with the lookup 'eulerian', as it shows stretch_xy: a height field"
+    with pytest.raises(fo.ParameterError, match=reason):
+        maps.needed(["height", "jacobian"], eulerian=True)
+    job = fo.Job.default().replaced({"bake.lookup": "eulerian", "bake.maps": ["height", "jacobian"], "ocean.n": 8})
+    with pytest.raises(fo.JobError, match=reason):
+        fo.bake(job, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
 
 
 def test_unresolved_is_that_of_the_ocean_s_sea(ocean):

@@ -286,7 +286,7 @@ def test_table_is_a_value():
     again = pickle.loads(pickle.dumps(a))
     assert again == a
     assert np.array_equal(again(np.linspace(0.0, 2.0, 50)), a(np.linspace(0.0, 2.0, 50)))
-    assert repr(a) == "TabulatedSpectrum(frequency=(0.1, 0.2), density=(1.0, 0.0))"
+    assert repr(a) == "TabulatedSpectrum(2 frequencies, 0.1 to 0.2 Hz, peak at 0.1 Hz)"
 
 
 def test_flat_table_is_a_flat_sea():
