@@ -20,13 +20,23 @@ def test_the_package_says_that_it_is_typed():
 
 def test_the_archive_packs_folders_of_the_root_alone():
     """A pattern without a leading slash also means folders of that name in stray environments."""
-    assert all(pattern.startswith("/") for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
+    assert all(
+        pattern.startswith("/")
+        for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    )
 
 
 def test_an_archive_holds_no_stray_environment(tmp_path):
     """Built from a small copy of the tree, with an environment in it whose folders have our names."""
     pytest.importorskip("hatchling")
-    for name in ("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "fftocean/__init__.py", "fftocean/py.typed"):
+    for name in (
+        "pyproject.toml",
+        "README.md",
+        "LICENSE",
+        "CHANGELOG.md",
+        "fftocean/__init__.py",
+        "fftocean/py.typed",
+    ):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_bytes((ROOT / name).read_bytes())
     for stray in ("env/lib/fftocean/a.py", "env/docs/b.md", "fftocean/__pycache__/c.pyc"):
@@ -44,5 +54,16 @@ def test_an_archive_holds_no_stray_environment(tmp_path):
 def test_nothing_that_the_documentation_writes_is_put_under_version_control():
     """Folders and pictures of the commands in README and help."""
     ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").splitlines()
-    for name in ("/sea/", "/out/", "/gale/", "/part/", "/sea.png", "/gale.png", "/bench.png", "/buoyancy.png", "/here.png", "/here.json"):
+    for name in (
+        "/sea/",
+        "/out/",
+        "/gale/",
+        "/part/",
+        "/sea.png",
+        "/gale.png",
+        "/bench.png",
+        "/buoyancy.png",
+        "/here.png",
+        "/here.json",
+    ):
         assert name in ignored

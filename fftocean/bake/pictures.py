@@ -34,7 +34,10 @@ def draw(folder: Path, scene: Scene, statistics: Statistics) -> dict[str, dict[s
         drawn["tiling"] = (layout.TILING, preview.tiling(scene.ocean, frames))
     if "spectrum" in scene.job.pictures:
         drawn["spectrum"] = (layout.SPECTRUM, _spectrum(scene))
-    return {key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)} for key, (name, data) in drawn.items()}
+    return {
+        key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)}
+        for key, (name, data) in drawn.items()
+    }
 
 
 def require_drawable(job: Job) -> None:
@@ -45,7 +48,9 @@ def require_drawable(job: Job) -> None:
         JobError: the spectrum is asked for, and matplotlib is not installed.
     """
     if "spectrum" in job.pictures and importlib.util.find_spec("matplotlib") is None:
-        raise JobError(f"{job.source}: bake.pictures 'spectrum' needs matplotlib: {how_to_install('plot')}")
+        raise JobError(
+            f"{job.source}: bake.pictures 'spectrum' needs matplotlib: {how_to_install('plot')}"
+        )
 
 
 def foam_of(job: Job) -> dict[str, Any]:

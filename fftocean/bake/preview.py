@@ -32,7 +32,9 @@ Sea = Ocean | Cascade
 """What is drawn: one tile, or the sum of several."""
 
 
-def contact_sheet(ocean: Sea, frames: int, caption: str, *, foam: Foam | None = None, cover: float | None = None) -> bytes:
+def contact_sheet(
+    ocean: Sea, frames: int, caption: str, *, foam: Foam | None = None, cover: float | None = None
+) -> bytes:
     """
     Draw a PNG: frame 0 in perspective above up to twelve frames of the loop from above, north up.
 
@@ -72,7 +74,9 @@ def contact_sheet(ocean: Sea, frames: int, caption: str, *, foam: Foam | None = 
     return _png(sheet)
 
 
-def animation(ocean: Sea, frames: int, *, foam: Foam | None = None, cover: float | None = None) -> bytes:
+def animation(
+    ocean: Sea, frames: int, *, foam: Foam | None = None, cover: float | None = None
+) -> bytes:
     """
     Draw an animated WebP: the sea in perspective through its loop, in its own time, for ever.
 
@@ -86,7 +90,9 @@ def animation(ocean: Sea, frames: int, *, foam: Foam | None = None, cover: float
     from PIL import Image, features
 
     if not features.check("webp"):
-        raise OutputError("an animated preview needs a Pillow that can write WebP (pip install --upgrade pillow)")
+        raise OutputError(
+            "an animated preview needs a Pillow that can write WebP (pip install --upgrade pillow)"
+        )
     shown = range(0, frames, math.ceil(frames / FILM_FRAMES))
     period = _period(ocean)
     ends = [1000.0 * period * j / frames for j in [*shown, frames]]
@@ -171,7 +177,9 @@ class _Moments:
         moments = [self._squeeze(t - i * self.step) for i in reversed(range(self.steps))]
         return Whitecaps.before(moments, self.step, self.foam, self.cover)
 
-    def _advance(self, caps: Whitecaps, fields: Frame | Sequence[Frame], start: float, stop: float) -> None:
+    def _advance(
+        self, caps: Whitecaps, fields: Frame | Sequence[Frame], start: float, stop: float
+    ) -> None:
         """Let foam go on from one time to another, whose frame is at hand already [s]."""
         parts = min(max(1, math.ceil((stop - start) / self.step)), self.steps)
         step = (stop - start) / parts

@@ -44,7 +44,10 @@ FARTHEST = 30e3
 BUOY_DISTANCE, BUOY_ACROSS, BUOY_HEIGHT, BUOY_RADIUS = 42.0, 0.20, 4.0, 0.28
 """The spar buoy: how far away [m], tangent of its bearing, its height and radius [m]."""
 
-HORIZON, ZENITH, BODY, CREST = (np.array(c) for c in ((0.60, 0.68, 0.74), (0.07, 0.17, 0.36), (0.004, 0.026, 0.042), (0.010, 0.075, 0.080)))
+HORIZON, ZENITH, BODY, CREST = (
+    np.array(c)
+    for c in ((0.60, 0.68, 0.74), (0.07, 0.17, 0.36), (0.004, 0.026, 0.042), (0.010, 0.075, 0.080))
+)
 SUN = np.array([-0.46, 0.78, 0.42]) / math.sqrt(0.46**2 + 0.78**2 + 0.42**2)
 SUNLIGHT = 3.2 * np.array([1.0, 0.93, 0.80])  # irradiance across the beam, where the low sky is 0.7
 GLITTER = 0.22  # of the sun's disc, seen through haze
@@ -244,7 +247,9 @@ class _Scene:
         _, _, z, tilt = self._surface(x, y, np.array([BUOY_DISTANCE / focal]), slopes=True)
         self.buoy = float(z[0, 0]), float(np.clip(0.5 * tilt[0, 0, 0], -0.4, 0.4))
 
-    def _surface(self, x: Real, y: Real, spacing: Real, *, slopes: bool = False) -> tuple[Real, Real, Real, Real]:
+    def _surface(
+        self, x: Real, y: Real, spacing: Real, *, slopes: bool = False
+    ) -> tuple[Real, Real, Real, Real]:
         """Return the undisplaced position of the water at places, its height, and its slopes."""
         qx, qy = x + self.x0, y + self.y0 + np.zeros_like(x)
         px, py = qx, qy
@@ -286,7 +291,9 @@ class _Scene:
         self._buoy(light, far, sky, across, wanted)
         return light
 
-    def _shaded(self, qx: Real, qy: Real, z: Real, far: Real, long: Real, across: Real, sky: Flags) -> Picture:
+    def _shaded(
+        self, qx: Real, qy: Real, z: Real, far: Real, long: Real, across: Real, sky: Flags
+    ) -> Picture:
         """Return the light from the water that is seen, whose undisplaced positions are given."""
         shape = far.shape
         light = np.zeros((*shape, 3))
@@ -398,7 +405,9 @@ def shade(mean: Real, water: Water, view: Real, z: Real, foam: Real) -> Picture:
     length = np.sqrt(1.0 + nx * nx + ny * ny)
     facing = np.clip((nx * view[:, 0] + ny * view[:, 1] + view[:, 2]) / length, 0.02, 1.0)
     sigma = np.sqrt(along)
-    fresnel = 0.02 + 0.98 * (1.0 - facing) ** (5.0 * np.exp(-2.69 * sigma)) / (1.0 + 22.7 * sigma**1.5)
+    fresnel = 0.02 + 0.98 * (1.0 - facing) ** (5.0 * np.exp(-2.69 * sigma)) / (
+        1.0 + 22.7 * sigma**1.5
+    )
     up = 2.0 * facing / length - view[:, 2]  # of the mirrored ray
     lifted = np.where(up >= 0.0, up, -0.6 * up)
     dim = np.where(up >= 0.0, 1.0, 0.6)  # it meets other water on its way

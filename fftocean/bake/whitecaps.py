@@ -62,7 +62,9 @@ class Whitecaps:
         self._state: Real | None = None
 
     @classmethod
-    def before(cls, moments: Sequence[Real], step: float, foam: Foam, cover: float | None = None) -> "Whitecaps":
+    def before(
+        cls, moments: Sequence[Real], step: float, foam: Foam, cover: float | None = None
+    ) -> "Whitecaps":
         """
         Return the foam that has gathered over some moments.
 

@@ -92,7 +92,11 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     waves = ocean.modes()
     k = np.sqrt(waves.kx * waves.kx + waves.ky * waves.ky)
     a, ux, uy = waves.amplitude, waves.kx / k, waves.ky / k
-    horizontal = a if math.isinf(ocean.depth) else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
+    horizontal = (
+        a
+        if math.isinf(ocean.depth)
+        else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
+    )
     on_cosine = np.stack(
         [
             a,
@@ -103,7 +107,9 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
             -horizontal * uy * waves.ky,
         ]
     )
-    on_sine = np.stack([-horizontal * ux, -horizontal * uy, -a * waves.kx, -a * waves.ky, a * waves.omega])
+    on_sine = np.stack(
+        [-horizontal * ux, -horizontal * uy, -a * waves.kx, -a * waves.ky, a * waves.omega]
+    )
     start = waves.omega * t + waves.phase
     flat_x, flat_y = px.ravel(), py.ravel()
     cosines, sines = np.zeros((6, flat_x.size)), np.zeros((5, flat_x.size))

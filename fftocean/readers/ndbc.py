@@ -147,7 +147,9 @@ def _undirected(table: _Table, source_format: str) -> "Dataset":
     )
 
 
-def _directed(spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text") -> "Dataset":
+def _directed(
+    spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text"
+) -> "Dataset":
     frequency, order = layout.frequencies(f"{spectrum.name}: the frequencies", spectrum.frequency)
     for table in moments:
         if not np.array_equal(table.frequency, spectrum.frequency):

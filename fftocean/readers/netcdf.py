@@ -191,7 +191,9 @@ def tidy(
     unit = "m2/Hz/degree" if directional else "m2/Hz"
     density, counts = layout.densities(where, values, unit, negative=negative)
     if not directional:
-        pair = circular.find(raw, spectrum.name, source, lambda v: _table(source, v.isel(picked), order)[:, f_order])
+        pair = circular.find(
+            raw, spectrum.name, source, lambda v: _table(source, v.isel(picked), order)[:, f_order]
+        )
         if pair is not None:
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)

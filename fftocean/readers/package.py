@@ -38,7 +38,10 @@ def as_dataset(given: Any, source: str) -> "Dataset":
     elif hasattr(given, "dims") and hasattr(given, "coords") and hasattr(given, "to_dataset"):
         dataset = _named(given, source)
     else:
-        raise ReaderError(f"{source} must be an xarray.Dataset, or the xarray.DataArray of its densities, got {type(given).__name__}")
+        raise ReaderError(
+            f"{source} must be an xarray.Dataset, or the xarray.DataArray of its densities, got "
+            f"{type(given).__name__}"
+        )
     return _without_left_overs(dataset)
 
 
@@ -63,7 +66,11 @@ def _without_left_overs(dataset: "Dataset") -> "Dataset":
     if name is None:
         return dataset
     spectrum = dataset[name]
-    if "dir" not in spectrum.dims and spectrum.attrs.get("standard_name") in (_DIRECTIONAL, None) and name == "efth":
+    if (
+        "dir" not in spectrum.dims
+        and spectrum.attrs.get("standard_name") in (_DIRECTIONAL, None)
+        and name == "efth"
+    ):
         attrs = {**spectrum.attrs, "standard_name": _UNDIRECTED}
         if _per_angle(attrs.get("units")):
             attrs["units"] = "m2 s"
@@ -73,7 +80,11 @@ def _without_left_overs(dataset: "Dataset") -> "Dataset":
             continue
         attrs = dict(dataset[axis].attrs)
         unit = units.parse(attrs.get("units"))
-        prose = isinstance(attrs.get("units"), str) and unit is None and re.search(r"\s", attrs["units"]) is not None
+        prose = (
+            isinstance(attrs.get("units"), str)
+            and unit is None
+            and re.search(r"\s", attrs["units"]) is not None
+        )
         turned = axis == "dir" and unit is not None and unit.is_(**powers) and unit.scale == 1.0
         if prose or (turned and np.ptp(dataset[axis].values) > 2.0 * np.pi + 1e-3):
             attrs["units"] = right
@@ -91,7 +102,11 @@ def _per_angle(text: object) -> bool:
 def _once_round(dataset: "Dataset", name: str) -> "Dataset":
     """Leave out a last direction that repeats the first, as TRIAXYS tables have it."""
     d = dataset["dir"].values
-    if d.size < 5 or "dir" not in dataset[name].dims or abs(abs(float(d[-1]) - float(d[0])) - 360.0) > 1e-6:
+    if (
+        d.size < 5
+        or "dir" not in dataset[name].dims
+        or abs(abs(float(d[-1]) - float(d[0])) - 360.0) > 1e-6
+    ):
         return dataset
     if dataset[name].size > layout.MAX_VALUES:
         return dataset

@@ -26,7 +26,6 @@ def test_the_formulas_of_the_sidecar_find_the_water(found, format_, name, frame)
 def test_the_axes_lie_on_the_screen_as_the_manifest_says(browser, found):
     """A right-handed frame with Y up: the engine's own camera puts the axes where "east" and "north" are."""
     from water import Text
-
     said = Text.of(browser.site.folders["bakes"] / "three-bin-sea", "height")
     assert said.handed == "right"
     on_screen(found[1], said)

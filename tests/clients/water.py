@@ -130,6 +130,4 @@ def half_step(values):
 
 def steepest(field):
     """Return the largest difference of neighbouring samples, per channel, (channels,)."""
-    return np.maximum(
-        *(np.max(np.abs(field - np.roll(field, 1, axis)), axis=(-3, -2)).reshape(-1, field.shape[-1]).max(axis=0) for axis in (-3, -2))
-    )
+    return np.maximum(*(np.max(np.abs(field - np.roll(field, 1, axis)), axis=(-3, -2)).reshape(-1, field.shape[-1]).max(axis=0) for axis in (-3, -2)))

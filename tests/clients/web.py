@@ -38,12 +38,7 @@ class Site:
 class _Handler(http.server.SimpleHTTPRequestHandler):
     """GET of files below the folders; isolated from other origins, as engines with threads demand."""
 
-    extensions_map = {
-        **http.server.SimpleHTTPRequestHandler.extensions_map,
-        ".js": "text/javascript",
-        ".mjs": "text/javascript",
-        ".wasm": "application/wasm",
-    }  # noqa: E501,RUF012
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm"}  # noqa: E501,RUF012
 
     def __init__(self, folders, *args, **kwargs):
         self._folders = folders

@@ -368,7 +368,9 @@ def test_ndbc_archive_of_a_buoy(wavespectra, tmp_path):
     for name in names:
         lines = (DATA / name).read_text().splitlines()
         if name[5] in "jk":
-            lines[1:] = [" ".join(line.split()[:5] + [f"{float(v) / 100.0:.2f}" for v in line.split()[5:]]) for line in lines[1:]]
+            lines[1:] = [
+                " ".join(line.split()[:5] + [f"{float(v) / 100.0:.2f}" for v in line.split()[5:]]) for line in lines[1:]
+            ]
         (tmp_path / name).write_text("\n".join(lines) + "\n")
     theirs = wavespectra.read_ndbc_ascii([str(tmp_path / name) for name in names])
     ours = readers.open(DATA / "41010d2019.txt", bins=36)

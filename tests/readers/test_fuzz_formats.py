@@ -153,9 +153,7 @@ def test_what_is_wrong_is_named(name, change, message, tmp_path):
     assert name in str(caught.value)
 
 
-@pytest.mark.parametrize(
-    "head", [b"'WAVEWATCH III SPECTRA' 5000 5000 5000 ''\n", b"TRIAXYS BUOY DATA REPORT\n", b"a\nnfreqs,9999\nndir,9999\nnrecs,9999\n"]
-)
+@pytest.mark.parametrize("head", [b"'WAVEWATCH III SPECTRA' 5000 5000 5000 ''\n", b"TRIAXYS BUOY DATA REPORT\n", b"a\nnfreqs,9999\nndir,9999\nnrecs,9999\n"])
 def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
     """A header can declare any size, and a packed file hold any number of lines: refused within a few MB."""
     import tracemalloc

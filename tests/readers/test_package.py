@@ -56,7 +56,9 @@ def test_partitions_are_counted_as_places(spectra):
     """With those of one place and time the parts make up the whole, and `site` picks one."""
     one = spectra.isel(site=0, time=[2])
     parts = one.spec.partition.ptm3(parts=3)
-    heights = [readers.Realised.from_spectrum(parts, site=i).hs_source for i in range(3) if float(parts.isel(part=i).sum()) > 0.0]
+    heights = [
+        readers.Realised.from_spectrum(parts, site=i).hs_source for i in range(3) if float(parts.isel(part=i).sum()) > 0.0
+    ]
     whole = readers.Realised.from_spectrum(one).hs_source
     assert np.sqrt(np.sum(np.square(heights))) == pytest.approx(whole, rel=1e-5)
 

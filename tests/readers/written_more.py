@@ -12,7 +12,9 @@ from written import FREQUENCY, TIMES, TO, Order
 
 FROM = (TO + 180.0) % 360.0
 STEP = 15.0
-EDGES = np.concatenate([FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), FREQUENCY[-1:]])
+EDGES = np.concatenate(
+    [FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), FREQUENCY[-1:]]
+)
 
 
 def undirected(order: Order) -> np.ndarray:
@@ -112,7 +114,9 @@ def write_datawell(path: Path, order: Order) -> Path:
     hs = 400.0 * np.sqrt(np.sum(s * np.gradient(FREQUENCY)))
     head = [10, f"{hs:.1f}", 4.5, f"{s.max():.9E}", 25.0, 19.6, 7, -0.17, 0.37, 0.26, 213.8, 68.2]
     lines = [str(v) for v in head]
-    for f, e, m, d, g, k in zip(FREQUENCY, s / s.max(), np.degrees(mean) % 360.0, np.degrees(sigma), skewness, kurtosis, strict=True):
+    for f, e, m, d, g, k in zip(
+        FREQUENCY, s / s.max(), np.degrees(mean) % 360.0, np.degrees(sigma), skewness, kurtosis, strict=True
+    ):
         lines.append(f"{f:.9f},{e:.9E},{m:.6f},{d:.6f},{g:.6f},{k:.6f}")
     path.write_text("\r\n".join(lines) + "\r\n")
     return path
