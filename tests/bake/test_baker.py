@@ -380,7 +380,8 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
 @pytest.mark.parametrize("form", ["exr", "ktx2", "exr-atlas", "zarr"])
 def test_overwrite_removes_what_the_manifest_or_the_job_lists(tmp_path, form, left):
     """Either is enough: whatever the bake wrote goes, for any format, and the bytes are those of a fresh folder."""
-    other = job(bake__format=form, bake__engine="unity", bake__maps=["displacement", "jacobian"], bake__pictures=["tiling", "sheet"])
+    engine = "unity" if form == "exr-atlas" else "canonical"
+    other = job(bake__format=form, bake__engine=engine, bake__maps=["displacement", "jacobian"], bake__pictures=["tiling", "sheet"])
     fo.bake(other, tmp_path / "out", executor="serial")
     (tmp_path / "out/notes.txt").write_text("mine")
     for name in {"manifest.json", "job.json"} - set(left):
