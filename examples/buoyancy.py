@@ -1,7 +1,9 @@
 """
 A box rides the sea: heave, pitch and roll at 50 Hz, pushed by the pressure of the water under a grid of float points.
 
-    python examples/buoyancy.py [--seconds 60] [--picture buoyancy.png]
+    python examples/buoyancy.py [--seconds 60] [--picture buoyancy.png | --no-picture]
+
+The picture needs matplotlib (in a checkout: pip install ".[plot]"); without it the run is the same.
 
 The box is moored loosely above one place. Under each float point the water presses upward with rho g times the depth to which the point
 is submerged; the sum of these forces and of their moments, with damping against the water's own vertical velocity, moves the box.
@@ -10,6 +12,7 @@ let go from above its balance: its period must be the closed form's.
 """
 
 import argparse
+import importlib.util
 import math
 import time
 from dataclasses import dataclass
@@ -103,7 +106,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--picture", type=Path, default=Path("buoyancy.png"))
+    parser.add_argument("--no-picture", action="store_true", help="draw nothing")
     options = parser.parse_args()
+    drawn = not options.no_picture
+    if drawn and importlib.util.find_spec("matplotlib") is None:
+        print("matplotlib is not installed, so no picture is drawn; in a checkout: pip install '.[plot]'")
+        drawn = False
     box = Box()
     damped = box.heave_period / math.sqrt(1.0 - box.damping**2)
     measured = period_of(ride(box, None, 20.0, heave=0.3)[:, 1])
@@ -121,7 +129,8 @@ def main() -> None:
     heave, roll, pitch = np.std(track[:, 1:4], axis=0)
     angles = f"4 sigma of roll {np.degrees(4 * roll):.0f}, of pitch {np.degrees(4 * pitch):.0f} degrees"
     print(f"Hs {sea.hs:.2f} m; heave {4 * heave:.2f} m; {angles}")
-    draw(query, box, track, options.picture)
+    if drawn:
+        draw(query, box, track, options.picture)
 
 
 def draw(query: fo.Query, box: Box, track: np.ndarray, picture: Path) -> None:

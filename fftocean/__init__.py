@@ -1,5 +1,5 @@
 """
-fftocean: order a sea in the words of oceanography, get a tile of water that repeats without a seam in space and in time.
+fftocean: seamlessly tiling, looping ocean surfaces with the statistics of a specified sea state.
 
 Names are loaded when first used, so that `import fftocean` does not wait for compilers and FFT libraries.
 """

@@ -1,16 +1,18 @@
-"""The command line: `fftocean bake | check | info | verify | bench | plot | presets`. The only room that prints."""
+"""The command line: `fftocean bake | check | info | verify | bench | plot | presets`."""
 
 import argparse
 import contextlib
+import difflib
 import json
 import math
 import os
+import re
 import signal
 import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from fftocean.bake.check import Finding
+    from fftocean.bake.estimate import Estimate
     from fftocean.bake.job import Job
 
 EPILOG = """\
@@ -28,6 +31,7 @@ exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity, 6 fol
 """
 EXAMPLES = {
     "bake": "fftocean bake -o sea\nfftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22\n"
+    "fftocean bake -o sea --fps 30 --engine godot --format exr-atlas\n"
     "fftocean bake gale.toml -o part --frames 0:64:2 --downsample 2 --dry-run",
     "check": "fftocean check sea\nfftocean check sea --repair",
     "info": "fftocean info\nfftocean info gale.toml --size 800",
@@ -36,6 +40,51 @@ EXAMPLES = {
     "plot": "fftocean plot\nfftocean plot gale.toml -o gale.png",
     "presets": "fftocean presets",
 }
+TRY = """\
+usage: fftocean COMMAND [options]
+
+try:
+  fftocean bake -o sea        bake the default sea, then look at sea/preview.png
+  fftocean info               describe it: waves, tile, loop, files, memory, time
+  fftocean bake --help        every option of a command
+  fftocean --help             all commands
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that answers with its own command's usage and the nearest word that it knows."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
+        """Refuse here what this command does not know, before the main parser does."""
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            flag = next((word for word in unknown if word.startswith("-")), "").partition("=")[0]
+            hint = _nearest(flag, self._option_string_actions, 0.7) or _key_of(flag)
+            self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
+        return known, unknown
+
+    def error(self, message: str) -> NoReturn:
+        """Print a short usage and the error on stderr; leave with 2."""
+        if choice := re.search(r"invalid choice: '(.*?)' \(choose from (.*)\)", message):
+            words = re.findall(r"[\w.-]+", choice[2])
+            message += _nearest(choice[1], words)
+        self.print_usage(sys.stderr)
+        self.exit(2, f"{self.prog}: error: {_plain(message)}; see {self.prog} --help\n")
+
+
+def _nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """Return a suggestion for a misspelt word, or nothing."""
+    near = difflib.get_close_matches(word, list(known), 1, cutoff)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def _key_of(flag: str) -> str:
+    """Return a suggestion for a flag that is a key of a job without a flag of its own, or nothing."""
+    from fftocean.bake.parameters import PARAMETERS
+
+    word = flag.lstrip("-").replace("-", "_")
+    keys = [p.key for p in PARAMETERS if word and word in p.key.split(".")]
+    return f"; did you mean --set {keys[0]}=VALUE?" if keys else ""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -44,7 +93,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with _sigterm_leaves(), warnings.catch_warnings():
             warnings.simplefilter("always", SeaWarning)
             warnings.showwarning = _show_warning
-            options = _parser().parse_args(arguments)
+            given = sys.argv[1:] if arguments is None else arguments
+            if not given:
+                print(TRY, end="", file=sys.stderr)
+                return 2
+            options = _parser().parse_args(given)
             code: int = options.run(options)
             if sys.stdout:
                 sys.stdout.flush()  # what cannot be printed shows here, not after the last line
@@ -105,31 +158,52 @@ def _plain(text: object) -> str:
 
 def _parser() -> argparse.ArgumentParser:
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="fftocean",
-        description="Order a sea in the words of oceanography, get a tile of water that repeats without a seam in space and in time.",
+        usage="fftocean COMMAND [options]",
+        description="Specify a sea state; get a seamlessly tiling, looping ocean surface; verify "
+        "that it has\nthe statistics you asked for; export it to any game engine.",
         epilog="example:\n  fftocean bake -o sea\n\n" + EPILOG,
         formatter_class=raw,
     )
     parser.add_argument("--version", action="version", version=f"fftocean {fftocean.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, run, summary, add_flags in (
-        ("bake", _bake, "write a looping sequence of maps, a manifest and a contact sheet", _add_bake_flags),
-        ("check", _check, "find any frame that is missing, cut, changed or swapped, and any map that is not water", _add_check_flags),
-        ("info", _info, "say what a job means: the sea, the tile, the loop, the files, the time it takes", _add_info_flags),
-        ("verify", _verify, "prove the tile: FFT against the direct sum, seam, loop, Parseval, energy", _add_verify_flags),
+    for name, run, given, summary, add_flags in (
+        ("bake", _bake, "[JOB.toml] [-o DIR]", "write a looping sequence of maps, a manifest and previews", _add_bake_flags),
+        ("check", _check, "DIR", "find files of a bake that are missing or changed, and maps that fail physical checks", _add_check_flags),
+        ("info", _info, "[JOB.toml] [--tiles N:SIZE,...]", "describe a job: sea, tile, loop, files, memory, time", _add_info_flags),
+        (
+            "verify",
+            _verify,
+            "[JOB.toml]",
+            "verify the tile: FFT against the direct sum, seam, loop, Parseval, energy",
+            _add_verify_flags,
+        ),
         (
             "bench",
             _bench,
-            "measure what a frame costs here, against the textbook, the direct sum and two threads (two minutes)",
+            "[-o FILE]",
+            "measure the cost of a frame here, beside a textbook FFT and the direct sum (two minutes)",
             _add_bench_flags,
         ),
-        ("plot", _plot, "draw the sea that is ordered, and what the tile delivers of it", _add_plot_flags),
-        ("presets", _presets, "list the Beaufort scale and the sea states, with the height each promises and delivers", lambda _: None),
+        ("plot", _plot, "[JOB.toml] [-o FILE]", "plot the specified sea and what the tile realises of it", _add_plot_flags),
+        (
+            "presets",
+            _presets,
+            "",
+            "list the Beaufort scale and the sea states, with wind, wave height and period",
+            lambda _: None,
+        ),
     ):
         examples = "\n".join("  " + line for line in EXAMPLES[name].splitlines())
         command = commands.add_parser(
-            name, help=summary, description=summary, epilog=f"example:\n{examples}\n\n{EPILOG}", formatter_class=raw
+            name,
+            prog=f"fftocean {name}",
+            usage=f"fftocean {name} {given} [options]".replace("  ", " "),
+            help=summary,
+            description=summary,
+            epilog=f"example:\n{examples}\n\n{EPILOG}",
+            formatter_class=raw,
         )
         command.set_defaults(run=run)
         add_flags(command)
@@ -138,14 +212,18 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_bake_flags(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", type=_path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
-    command.add_argument("--overwrite", action="store_true", help="bake over another job's folder; the same job's bake goes on without it")
+    command.add_argument("--overwrite", action="store_true", help="replace a folder that holds another job (resuming needs no flag)")
     command.add_argument(
-        "--downsample", type=_whole, default=1, metavar="K", help="a K-th of the samples a side: the same waves, but for those too short"
+        "--downsample",
+        type=_whole,
+        default=1,
+        metavar="K",
+        help="bake 1/K of the samples a side; waves too short for it are dropped",
     )
     _add_tiles_flag(command)
-    command.add_argument("--dry-run", action="store_true", help="say what would be written, and write nothing")
+    command.add_argument("--dry-run", action="store_true", help="print what would be written; refuse what a bake would refuse")
     _add_work_flags(command)
-    command.add_argument("--json", action="store_true", help="what happens as lines of JSON on stdout: start, survey, frame, done, error")
+    command.add_argument("--json", action="store_true", help="print events as lines of JSON: start, survey, frame, done, error")
     command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
     _add_job_flags(command)
 
@@ -165,34 +243,34 @@ def _add_tiles_flag(command: argparse.ArgumentParser) -> None:
 
 
 def _add_check_flags(command: argparse.ArgumentParser) -> None:
-    command.add_argument("folder", metavar="DIR", type=_path, help="a folder that was baked")
-    command.add_argument("--repair", action="store_true", help="write again what is wrong, with the same bytes")
-    command.add_argument("--job", metavar="JOB.toml", type=_path, help="for --repair: the job file beside which the measured spectra lie")
+    command.add_argument("folder", metavar="DIR", type=_path, help="folder of a bake")
+    command.add_argument("--repair", action="store_true", help="write wrong files again, with the same bytes")
+    command.add_argument("--job", metavar="JOB.toml", type=_path, help="job file; measured spectra are looked up next to it")
     _add_work_flags(command)
-    command.add_argument("--json", action="store_true", help="what is found as lines of JSON on stdout: finding, frame, done, error")
-    command.add_argument("--quiet", action="store_true", help="no progress bar; nothing printed where nothing is wrong")
+    command.add_argument("--json", action="store_true", help="print findings as lines of JSON: finding, frame, done, error")
+    command.add_argument("--quiet", action="store_true", help="no progress bar; print nothing if there is no problem")
 
 
 def _add_work_flags(command: argparse.ArgumentParser) -> None:
     help_ = "serial, processes, dask, a scheduler's tcp://..., or auto: processes where that is faster (default: auto)"
     command.add_argument("--executor", default="auto", metavar="NAME", help=help_)
-    command.add_argument("--workers", type=_whole, metavar="N", help="how many of them (default: one for each processor)")
+    command.add_argument("--workers", type=_whole, metavar="N", help="number of workers (default: one for each processor)")
 
 
 def _add_verify_flags(command: argparse.ArgumentParser) -> None:
     _add_job_flags(command)
-    command.add_argument("--t", type=float, default=3.7, metavar="T", help="time to look at [s] (default: 3.7)")
+    command.add_argument("--t", type=float, default=3.7, metavar="T", help="time of the frame to verify [s] (default: 3.7)")
     command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
 
 
 def _add_bench_flags(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--seconds", type=float, default=120.0, metavar="S", help="time to take, about [s] (default: 120)")
+    command.add_argument("--seconds", type=float, default=120.0, metavar="S", help="approximate time to take [s] (default: 120)")
     command.add_argument("--n", type=int, nargs="+", metavar="N", help="samples a side to measure (default: 128 256 512 1024)")
     command.add_argument(
         "-o", "--output", type=_path, default=Path("bench.png"), metavar="FILE", help="picture to write (default: bench.png)"
     )
-    command.add_argument("--no-picture", action="store_true", help="write none")
-    command.add_argument("--json", type=_path, metavar="FILE", help="the figures as JSON")
+    command.add_argument("--no-picture", action="store_true", help="write no picture")
+    command.add_argument("--json", type=_path, metavar="FILE", help="write the figures as JSON")
     command.add_argument("--quiet", action="store_true", help="no progress bar")
 
 
@@ -216,8 +294,12 @@ def _path(text: str) -> Path:
     return Path(text)
 
 
+def _add_info_flags(command: argparse.ArgumentParser) -> None:
+    _add_job_flags(command)
+
+
 def _add_job_flags(command: argparse.ArgumentParser) -> None:
-    """The job file, flags for the keys that have one, and --set for all."""
+    """Add the job file, flags for the keys that have one, and --set for all."""
     from fftocean.bake.parameters import PARAMETERS
 
     command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
@@ -234,6 +316,9 @@ def _add_job_flags(command: argparse.ArgumentParser) -> None:
             group.add_argument(
                 f"--{p.flag}", metavar=p.flag.upper(), help=f"{p.help}{choices}{unit} (default: {default})".replace("%", "%%")
             )
+        if p.key == "bake.frames":
+            help_ = "frames a second, instead of --frames: loop times rate must be a whole number"
+            group.add_argument("--fps", type=float, metavar="RATE", help=help_)
     group.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="any key of a job file, such as sea.wind.speed=12")
 
 
@@ -250,7 +335,25 @@ def _job(options: argparse.Namespace) -> "Job":
     for key, value in changes.items():
         if key in BY_KEY and BY_KEY[key].many and isinstance(value, str):
             changes[key] = [value]
-    return job.replaced(changes)
+    job = job.replaced(changes)
+    return job if options.fps is None else _at_rate(job, options.fps, changes)
+
+
+def _at_rate(job: "Job", rate: float, changes: dict[str, Any]) -> "Job":
+    """Return a job with as many frames as its loop has at a rate [1/s]."""
+    if "bake.frames" in changes:
+        raise JobError("--fps and a number of frames must not be given together; leave one out")
+    if not (math.isfinite(rate) and rate > 0.0):
+        raise JobError(f"--fps must be above 0 and finite, got {rate:g}")
+    loop = job.settings["ocean.loop"]
+    frames = round(loop * rate) if loop * rate < 1e9 else 0
+    if frames < 1 or abs(loop * rate - frames) > 1e-6 * frames:
+        near = max(1, min(round(loop * rate), 10**9)) if math.isfinite(loop * rate) else 1
+        raise JobError(
+            f"--fps must give the loop a whole number of frames, got {loop * rate:.6g} for "
+            f"{loop:g} s at {rate:g} a second; {near} frames want --loop {near / rate:.6g}"
+        )
+    return job.replaced({"bake.frames": frames})
 
 
 def _bake(options: argparse.Namespace) -> int:
@@ -275,17 +378,19 @@ def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell:
 
     start = time.perf_counter()
     with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
-        at = {"done": 0, "frames": 0}
+        at = {"done": 0, "frames": 0, "kept": 0}
 
         def listen(event: dict[str, Any]) -> None:
             at.update(done=event.get("kept", event.get("done", 0)), frames=event["frames"]) if event["event"] in (
                 "start",
                 "frame",
             ) else None
+            at["kept"] = event.get("kept", at["kept"])
             if event["event"] == "survey":
                 show(event["done"], event["total"], f"surveying {event['what']}")
             elif at["frames"]:
-                show(at["done"], at["frames"], "baking")
+                all_done = at["done"] == at["frames"]
+                show(at["done"], at["frames"], "drawing pictures" if all_done else "baking")
             if tell:
                 tell(event)
 
@@ -302,10 +407,11 @@ def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell:
             )
         except (KeyboardInterrupt, SystemExit):
             if at["frames"]:
-                print(f"note: {at['done']} of {at['frames']} frames are finished; the same command goes on from there", file=sys.stderr)
+                finished = f"{at['done']} of {at['frames']} frames are finished"
+                print(f"note: {finished}; the same command goes on from there", file=sys.stderr)
             raise
     if not (options.quiet or options.json):
-        _sum_up(options, manifest, time.perf_counter() - start)
+        _sum_up(options, manifest, time.perf_counter() - start, kept=at["kept"])
     return 0
 
 
@@ -346,19 +452,27 @@ def _tiles(text: str) -> list[tuple[int, float]]:
         raise argparse.ArgumentTypeError(f"must be n:size,n:size such as 512:500,512:71,256:9.3, got {text!r:.80}") from None
 
 
-def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: float) -> None:
-    """What was made, in three lines, and what to look at."""
+def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: float, kept: int) -> None:
+    """Print what was made, in three lines, and what to look at."""
     from fftocean.bake.layout import SHEET
 
     statistics = manifest["statistics"]
     _advise(statistics)
     maps = sum(len(row["files"]) for row in manifest["frames"])
-    print(f"Hs {statistics['ordered']['hs']:.3g} m ordered, {statistics['hs']:.3g} m delivered; Tp {statistics['ordered']['tp']:.3g} s")
+    specified = statistics["ordered"]
+    realised = f"{statistics['hs']:.3g} m realised; Tp {specified['tp']:.3g} s"
+    print(f"Hs {specified['hs']:.3g} m specified, {realised}")
     nx, ny = manifest["ocean"]["n"]
-    print(f"{maps} maps of {nx} x {ny} in {seconds:.1f} s: {_plain(options.output)}")
+    frames = len(manifest["frames"])
+    if kept == frames:
+        print(f"nothing to bake: all {maps} maps of {nx} x {ny} were there: {_plain(options.output)}")
+    else:
+        again = f", {kept} of {frames} frames were there" if kept else ""
+        print(f"{maps} maps of {nx} x {ny} in {seconds:.1f} s{again}: {_plain(options.output)}")
     _note_folds(manifest["extremes"])
     print(_blending(manifest["blend"]))
-    print(f"look at {_plain(options.output / (SHEET if 'preview' in manifest else ''))}")
+    if "preview" in manifest:
+        print(f"preview: {_plain(options.output / SHEET)}")
 
 
 def _note_folds(extremes: Mapping[str, Any]) -> None:
@@ -379,21 +493,52 @@ def _blending(blend: dict[str, Any]) -> str:
 
 
 def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int:
-    """Say what a bake would write."""
+    """Print what a bake would write; refuse what it would refuse."""
     from dataclasses import asdict
 
+    from fftocean.bake.baker import scene_for
+    from fftocean.bake.claim import header_of, require_possible
+    from fftocean.bake.crews import check_executor
     from fftocean.bake.estimate import estimate
+    from fftocean.bake.order import frames_of
     from fftocean.bake.tiles import estimate_tiles
 
+    options.executor = check_executor(options.executor, options.workers)
     work = {"frames": subset, **{name: getattr(options, name) for name in ("downsample", "executor", "workers")}}
-    e = estimate_tiles(job, options.tiles, **work) if options.tiles else estimate(job, **work)
+    if options.tiles:
+        e = estimate_tiles(job, options.tiles, **work)
+    else:
+        chosen = frames_of(subset, job.frames)
+        scene = scene_for(job, options.downsample, len(chosen))
+        header = header_of(job, frames=chosen, downsample=options.downsample, backend=scene.ocean.backend)
+        require_possible(options.output, header, overwrite=options.overwrite)
+        e = estimate(job, **work)
     if options.json:
         _print_event({"event": "estimate", "folder": str(options.output), **asdict(e)})
         return 0
     who = f"{e.workers} {e.executor}" if e.executor != "serial" else "one process"
     print(f"would write {e.files} files, about {e.bytes / 1e6:.3g} MB, for {e.frames} frames to {_plain(options.output)}")
-    print(f"about {e.seconds:.0f} s here, by {who}, with {e.memory / 2**20:.0f} MiB of memory each")
+    print(f"about {e.seconds:.0f} s here, by {who}")
+    print(f"memory: {_memory(e)}")
+    print(f"video memory of the maps in an engine: {_video(e)}")
     return 0
+
+
+def _memory(e: "Estimate") -> str:
+    """Return the memory of a bake in words."""
+    each = f"about {_mebibytes(e.memory)} in each of {e.workers} at work"
+    return each + (f", then {_mebibytes(e.container)} for the container" if e.container else "")
+
+
+def _video(e: "Estimate") -> str:
+    """Return the video memory of a bake in words."""
+    return f"{_mebibytes(e.video)} for {e.frames} frames, {_mebibytes(e.video / e.frames)} a frame"
+
+
+def _mebibytes(size: float) -> str:
+    """Return a number of bytes in MiB, or in GiB where it is that large."""
+    number = size / 2**20
+    return f"{number / 1024:.3g} GiB" if number >= 1000.0 else f"{number:.3g} MiB"
 
 
 def _check(options: argparse.Namespace) -> int:
@@ -442,7 +587,7 @@ def _report(findings: "Sequence[Finding]", options: argparse.Namespace, tell: "C
         return
     if not findings:
         if not options.quiet:
-            print(f"all is well: {_plain(options.folder)}")
+            print(f"no problems found: {_plain(options.folder)}")
         return
     from rich.table import Table
     from rich.text import Text
@@ -453,7 +598,7 @@ def _report(findings: "Sequence[Finding]", options: argparse.Namespace, tell: "C
     for f in findings:
         table.add_row(f.kind, Text(_plain(f.path)), "" if f.frame is None else str(f.frame), Text(_plain(f.detail)))
     _console().print(table)
-    print(f"{len(findings)} {'thing is' if len(findings) == 1 else 'things are'} wrong: {_plain(options.folder)}")
+    print(f"{len(findings)} problem{'s' * (len(findings) != 1)}: {_plain(options.folder)}")
 
 
 def _bench(options: argparse.Namespace) -> int:
@@ -553,8 +698,8 @@ def _info(options: argparse.Namespace) -> int:
     ordered = statistics.ordered
     assert ordered is not None  # a job has a sea
     table = Table(title="\nSea", title_justify="left", box=None, pad_edge=False)
-    for heading in ("", "ordered", "delivered by this draw", "expect to scatter by"):
-        table.add_column(heading, justify="left" if not heading else "right")
+    for heading in ("", "specified", "realised", "expected scatter (1 sigma)"):
+        table.add_column(heading, justify="left" if not heading else "right", no_wrap=not heading)
     scatter = 0.5 * statistics.sampling_error * statistics.hs
     table.add_row("significant wave height Hs", f"{ordered.hs:.3f} m", f"{statistics.hs:.3f} m", f"{scatter:.3f} m")
     table.add_row("peak period Tp", f"{ordered.tp:.2f} s", f"{statistics.tp:.2f} s")
@@ -581,7 +726,8 @@ def _info(options: argparse.Namespace) -> int:
     table.add_row("FFT library", ocean.backend)
     cost = estimate(job, scene=scene)
     table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")
-    table.add_row("memory", f"about {cost.memory / 2**20:.0f} MiB, in each of {cost.workers} at work")
+    table.add_row("memory", _memory(cost))
+    table.add_row("video memory", f"{_video(cost)}, as textures in an engine")
     table.add_row("time to bake", f"about {cost.seconds:.0f} s here")
     table.add_row("between frames", blend.sentence(blend.loss(ocean, job.frames)))
     console.print(table)
@@ -623,12 +769,16 @@ def _verify(options: argparse.Namespace) -> int:
     checks = verify(ocean, t)
     title = f"{_plain(job.source)}: {ocean.grid.nx} x {ocean.grid.ny}, {ocean.dtype}, t = {t:g} s"
     table = Table(title=Text(title), title_justify="left")
-    for heading in ("what", "against", "apart", "allowed", "because", ""):
-        table.add_column(heading, justify="right" if heading in ("apart", "allowed") else "left")
+    console = _console()
+    wide = console.width >= 100  # the reasons are what a narrow terminal can do without
+    for heading in ("quantity", "against", "error", "tolerance", *(["reason"] if wide else []), ""):
+        number = heading in ("error", "tolerance")
+        table.add_column(heading, justify="right" if number else "left", no_wrap=number or not heading)
     for c in checks:
         verdict = "[green]ok[/]" if c.passed else "[bold red]FAILED[/]"
-        table.add_row(c.name, c.against, f"{c.figure:.1e}", f"{c.bound:.1e}", c.reason, verdict)
-    _console().print(table)
+        reason = [c.reason] if wide else []
+        table.add_row(c.name, c.against, f"{c.figure:.1e}", f"{c.bound:.1e}", *reason, verdict)
+    console.print(table)
     failed = [c.name for c in checks if not c.passed]
     print(f"{len(checks) - len(failed)} of {len(checks)} checks passed" + (f"; failed: {', '.join(failed)}" if failed else ""))
     return 5 if failed else 0
@@ -638,7 +788,7 @@ def _plot(options: argparse.Namespace) -> int:
     from fftocean import plots
 
     path = plots.save(plots.plot_job(_job(options).ocean()), options.output)
-    print(f"look at {_plain(path)}")
+    print(f"plot: {_plain(path)}")
     return 0
 
 
@@ -653,10 +803,11 @@ def _presets(_: argparse.Namespace) -> int:
         ("Sea states, WMO code table 3700: middle of the range, fully developed", "Sea.sea_state", presets.sea_state_table()),
     ):
         table = Table(title=title, title_justify="left", box=None, pad_edge=False)
-        for heading in ("call", "name", "wind m/s", "knots", "Hs promised m", "Hs by quadrature m", "Tp s"):
-            table.add_column(heading, justify="left" if heading in ("call", "name") else "right")
+        for heading in ("call", "name", "U10 m/s", "knots", "Hs m", "computed m", "Tp s"):
+            words = heading in ("call", "name")
+            table.add_column(heading, justify="left" if words else "right", no_wrap=True)
         for row in rows:
-            numbers = (f"{row.wind:.1f}", f"{row.wind_knots:.0f}", f"{row.hs:.3f}", f"{row.measured_hs:.9f}", f"{row.tp:.1f}")
+            numbers = (f"{row.wind:.1f}", f"{row.wind_knots:.0f}", f"{row.hs:.3f}", f"{row.measured_hs:.7f}", f"{row.tp:.1f}")
             table.add_row(f"{call}({row.number})", row.name, *numbers)
         console.print(table)
         console.print()

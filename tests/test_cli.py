@@ -6,6 +6,7 @@ import functools
 import io
 import json
 import os
+import re
 import resource
 import shlex
 import signal
@@ -274,8 +275,11 @@ def test_times_that_cannot_be_are_refused(run, t):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        ([], "the following arguments are required: COMMAND"),
+        (["bkae"], "did you mean bake?"),
         (["bkae"], "invalid choice: 'bkae'"),
+        (["bake", "--wind", "3"], "did you mean --set sea.wind.speed=VALUE?"),
+        (["info", "--frmaes", "3"], "did you mean --frames?"),
+        (["check", "out", "--repiar"], "did you mean --repair?"),
         (["bake", "--frame"], "expected one argument"),
         (["bake", "--wind", "3"], "unrecognized arguments: --wind"),
         (["bake", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
@@ -289,6 +293,23 @@ def test_usage_errors_exit_2(run, arguments, part):
     assert not out
     assert part in err
     assert err.startswith("usage: fftocean")
+
+
+@pytest.mark.parametrize("command", ["bake", "check", "info", "verify", "bench", "plot", "presets"])
+def test_a_wrong_flag_is_answered_with_its_own_command_s_usage(run, command):
+    """In two lines: the usage of that command alone, and the error."""
+    code, out, err = run(command, *(["out"] if command == "check" else []), "--nonsense")
+    assert (code, out) == (2, "")
+    usage, error = err.splitlines()
+    assert usage.startswith(f"usage: fftocean {command} ")
+    assert error == f"fftocean {command}: error: unrecognized arguments: --nonsense; see fftocean {command} --help"
+
+
+def test_a_bare_command_says_what_to_try(run):
+    code, out, err = run()
+    assert (code, out) == (2, "")
+    for line in ("fftocean bake -o sea", "fftocean info", "fftocean --help"):
+        assert line in err
 
 
 def test_version(run):
@@ -328,7 +349,7 @@ def test_help_does_not_wait_for_compilers():
     program = (
         f"import sys; from fftocean.cli import main\ntry: main(['--help'])\nexcept SystemExit: print(sorted({heavy} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", program], env=environment(), capture_output=True, text=True, timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], env=environment(), capture_output=True, text=True, timeout=600)
     assert done.stdout.endswith("\n[]\n"), done.stdout + done.stderr
 
 
@@ -344,9 +365,9 @@ def environment(**more):
 def test_a_bake_says_what_it_made(run):
     code, out, err = run("bake", "-o", "out", "--n", "8,4", "--frames", "2", "--maps", "height,normal")
     assert code == 0
-    assert "Hs 1.26 m ordered" in out
+    assert "Hs 1.26 m specified" in out
     assert "4 maps of 8 x 4 in " in out
-    assert out.endswith(f"look at {Path('out/preview.png')}\n")
+    assert out.endswith(f"preview: {Path('out/preview.png')}\n")
     assert not err
     assert sorted(p.name for p in Path("out/normal").iterdir()) == ["0000.exr", "0001.exr"]
 
@@ -388,7 +409,7 @@ def test_no_wind_bakes_an_exactly_flat_sea_and_says_so(run, monkeypatch):
     code, out, err = run("bake", "-o", "out", *SMALL, "--set", "sea.wind.speed=0", "--maps", "height,normal")
     assert code == 0
     assert "wind speed 0 m/s raises no waves: the sea is exactly flat\n" in err
-    assert "Hs 0 m ordered, 0 m delivered" in out
+    assert "Hs 0 m specified, 0 m realised" in out
     for channel in exr.decode(Path("out/height/0000.exr").read_bytes()):
         assert not channel.any()
     x, y, z = exr.decode(Path("out/normal/0000.exr").read_bytes())
@@ -417,7 +438,7 @@ def test_info_describes_any_tile(run, n):
         "7 m/s",
         "significant wave height Hs",
         "loop frequency error",
-        "723 files of 3 maps",
+        "724 files of 3 maps",
         "MB",
         "time to bake",
     ):
@@ -553,7 +574,7 @@ def test_a_full_disk_under_stdout_exits_4():
     """One line, no traceback, nothing ignored at exit. (A broken pipe: rich exits 1, silently.)"""
     command = [sys.executable, "-m", "fftocean.cli", "info", "--n", "4"]
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run(command, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+        done = subprocess.run(command, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True, timeout=600)
     assert done.returncode == 4
     assert done.stderr.endswith("fftocean: output: No space left on device\n")
     assert all(line.startswith(("note: ", "fftocean: ")) for line in done.stderr.splitlines())
@@ -638,7 +659,7 @@ def test_a_command_runs_in_any_thread():
     thread.start()
     thread.join()
     assert codes == [0]
-    assert "look at" in said.getvalue()
+    assert "preview:" in said.getvalue()
     assert signal.getsignal(signal.SIGTERM) is before
 
 
@@ -660,7 +681,7 @@ def test_flags_override_the_file_and_so_does_set(run):
 @pytest.mark.parametrize("maps", ["--maps height", "--set bake.maps=height", "--set bake.maps=['height']", "--maps height,height"])
 def test_one_map_needs_no_brackets(run, maps):
     assert run("bake", "-o", "out", *SMALL, *maps.split())[0] == 0
-    assert sorted(p.name for p in Path("out").iterdir()) == ["height", "job.json", "manifest.json", "preview.png"]
+    assert sorted(p.name for p in Path("out").iterdir()) == ["height", "job.json", "manifest.json", "preview.png", "preview.webp"]
 
 
 @pytest.mark.usefixtures("quick")
@@ -683,7 +704,7 @@ def test_two_bakes_give_the_same_bytes(run):
         assert run("bake", "-o", folder, "--n", "12,20", "--frames", "3", "--maps", "height,displacement,normal,jacobian")[0] == 0
     one, two = ({p.relative_to(f): p.read_bytes() for p in Path(f).rglob("*") if p.is_file()} for f in ("one", "two"))
     assert one == two
-    assert len(one) == 3 * 4 + 3
+    assert len(one) == 3 * 4 + 4
 
 
 def test_an_empty_output_is_not_the_current_folder(tmp_path, monkeypatch, capsys):
@@ -739,16 +760,134 @@ def test_a_dry_run_writes_nothing_and_foretells_the_files(run, monkeypatch):
     flags = ("--n", "64", "--frames", "6", "--maps", "height,normal")
     code, out, err = run("bake", "-o", "out", *flags, "--dry-run")
     assert (code, err) == (0, "")
-    assert "would write 15 files, about " in out
+    assert "would write 16 files, about " in out
     assert "for 6 frames to out" in out
     assert not Path("out").exists()
     code, out, _ = run("bake", "-o", "out", *flags, "--dry-run", "--json")
     told = json.loads(out)
-    assert (told["event"], told["frames"], told["files"]) == ("estimate", 6, 15)
+    assert (told["event"], told["frames"], told["files"]) == ("estimate", 6, 16)
     assert run("bake", "-o", "out", *flags)[0] == 0
     sizes = [p.stat().st_size for p in Path("out").rglob("*") if p.is_file()]
     assert len(sizes) == told["files"]
     assert sum(sizes) == pytest.approx(told["bytes"], rel=0.2)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--executor", "thread"],
+        ["--workers", "2000"],
+        ["--frames", "9:2"],
+        ["--downsample", "3"],
+        ["--format", "r16"],
+        ["--set", "bake.pictures=spectrum"],
+        ["-o", "a file"],
+        ["-o", "a file/below"],
+        ["-o", "/dev/full"],
+        ["-o", "link"],
+        ["-o", "other"],
+        ["-o", "foreign", "--overwrite"],
+        ["-o", "foreign"],
+    ],
+    ids=str,
+)
+@pytest.mark.usefixtures("quick")
+def test_a_dry_run_refuses_what_a_run_refuses(run, arguments, monkeypatch):
+    """With the same words and code."""
+    Path("a file").write_text("")
+    Path("target").mkdir()
+    Path("link").symlink_to("target", target_is_directory=True)
+    Path("foreign/height").mkdir(parents=True)
+    Path("foreign/height/0000.exr").write_bytes(b"mine")
+    run("bake", "-o", "other", "--n", "9", "--frames", "1")
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    flags = ["--n", "8", "-o", "out", *arguments]
+    dry = run("bake", *flags, "--dry-run")
+    assert dry[0] in (2, 4)
+    assert run("bake", *flags) == dry
+    assert not Path("out").exists()
+
+
+@pytest.mark.parametrize(("rate", "loop", "frames"), [("30", "16", 480), ("24", "2.5", 60), ("0.25", "16", 4), ("29.97", "100", 2997)])
+def test_frames_a_second(run, rate, loop, frames):
+    code, out, _ = run("info", "--n", "4", "--fps", rate, "--loop", loop)
+    assert code == 0
+    assert re.search(rf"bake.frames +{frames} *\n", out)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--fps", "7.01"], "got 112.16 for 16 s at 7.01 a second; 112 frames want --loop 15.9772"),
+        (["--fps", "0"], "--fps must be above 0"),
+        (["--fps", "nan"], "--fps must be above 0"),
+        (["--fps", "1e300"], "whole number of frames"),
+        (["--fps", "1e-9"], "whole number of frames"),
+        (["--fps", "30", "--frames", "480"], "--fps and a number of frames"),
+    ],
+)
+def test_rates_that_cannot_be_are_refused(run, arguments, part):
+    assert part in clean(run("bake", "-o", "out", *arguments))
+
+
+def test_a_rate_and_a_part_of_the_loop_go_together(run):
+    code, out, _ = run("bake", "-o", "out", "--n", "8", "--fps", "3", "--frames", "0:10", "--dry-run")
+    assert code == 0
+    assert "for 10 frames to out" in out
+
+
+@pytest.mark.usefixtures("quick")
+def test_names_are_case_blind(run):
+    """Of formats, engines, maps, kinds and executors; what is written is one spelling."""
+    Path("job.toml").write_text(
+        "[[sea.systems]]\nspectrum = { kind = 'JONSWAP', hs = 1.5, tp = 4.0 }\nspreading = { kind = 'Cosine-Squared' }\n"
+    )
+    flags = ("--format", "EXR", "--engine", "Unity", "--maps", "Height,NORMAL", "--lookup", "Lagrangian", "--executor", "SERIAL")
+    assert run("bake", "job.toml", "-o", "out", *SMALL, *flags)[0] == 0
+    job = json.loads(Path("out/job.json").read_text())["job"]
+    assert (job["bake.format"], job["bake.engine"], job["bake.maps"]) == ("exr", "unity", ["height", "normal"])
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_finished_bake_says_that_all_was_there(run):
+    flags = ("bake", "-o", "out", "--n", "8", "--frames", "3", "--maps", "height")
+    assert "3 maps of 8 x 8 in " in run(*flags)[1]
+    assert "nothing to bake: all 3 maps of 8 x 8 were there: out\n" in run(*flags)[1]
+    Path("out/height/0001.exr").unlink()
+    assert ", 2 of 3 frames were there: out\n" in run(*flags)[1]
+
+
+def test_memory_counts_containers_and_video_memory_is_named(run):
+    """Of 6 frames of 64 x 64: 4 halves of a displacement, whose container is held twice; one of height."""
+    flags = ("--n", "64", "--frames", "6", "--maps", "displacement,height", "--dry-run", "--json")
+    told = json.loads(run("bake", "-o", "out", *flags, "--format", "bin")[1])
+    assert told["video"] == 6 * 64 * 64 * 2 * (4 + 1)  # graphics cards have no three channels
+    assert told["container"] == 2 * 6 * 64 * 64 * 2 * 3
+    assert json.loads(run("bake", "-o", "out", *flags)[1])["container"] == 0.0
+    out = run("bake", "-o", "out", *flags[:-1], "--format", "bin")[1]
+    assert "then 0.281 MiB for the container" in out
+    assert "video memory of the maps in an engine: 0.234 MiB for 6 frames, 0.0391 MiB a frame" in out
+
+
+@pytest.mark.parametrize("command", [["info", "--n", "16"], ["presets"], ["verify", "--n", "8"], ["check", "out"]], ids=lambda c: c[0])
+def test_tables_keep_their_figures_at_80_columns(run, command, monkeypatch):
+    """No line is longer, no number or call is cut with an ellipsis, and the verdicts are there."""
+    from rich.console import Console
+
+    (Path("out") / "height").mkdir(parents=True)
+    run("bake", "-o", "out", *SMALL, "--maps", "height", "--set", "bake.pictures=[]")
+    Path("out/height/0000.exr").write_bytes(b"")
+    monkeypatch.setattr(cli, "_console", lambda **_: Console(width=80, highlight=False))
+    _, out, _ = run(*command)
+    assert max(map(len, out.splitlines())) <= 80
+    assert "…" not in out
+    for part in {
+        "info": ["significant wave height Hs", "directional spread"],
+        "presets": ["Sea.beaufort(12)", "Sea.sea_state(9)", "Smooth (wavelets)"],
+        "verify": ["stretch_xx", "1.0e-12", "ok"],
+        "check": ["height/0000.exr"],
+    }[command[0]]:
+        assert part in out
 
 
 def events(out):
@@ -795,7 +934,7 @@ def baked(run, quick):  # noqa: ARG001 - for what it does
 
 
 def test_check_says_that_all_is_well(run, baked):
-    assert run("check", baked) == (0, "all is well: out\n", "")
+    assert run("check", baked) == (0, "no problems found: out\n", "")
     assert run("check", baked, "--quiet") == (0, "", "")
     code, out, err = run("check", baked, "--json")
     assert (code, events(out), err) == (0, [{"event": "done", "findings": 0}], "")
@@ -809,7 +948,7 @@ def test_check_names_what_is_wrong_and_repair_mends_it(run, baked):
     assert (code, err) == (5, "")
     assert "cut" in out
     assert "height/0001.exr" in out
-    assert out.endswith("2 things are wrong: out\n")
+    assert out.endswith("2 problems: out\n")
     code, out, _ = run("check", baked, "--json")
     assert code == 5
     found = events(out)
@@ -821,7 +960,7 @@ def test_check_names_what_is_wrong_and_repair_mends_it(run, baked):
     code, out, _ = run("check", baked, "--repair")
     assert code == 0
     assert "repaired: 2 frames were written again" in out
-    assert out.endswith("all is well: out\n")
+    assert out.endswith("no problems found: out\n")
     assert {p: p.read_bytes() for p in baked.rglob("*") if p.is_file()} == expected
 
 

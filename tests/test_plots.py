@@ -447,7 +447,7 @@ plots.save(plots.plot_spectrum(fo.Sea()), {str(tmp_path / "a.png")!r})
 assert "matplotlib.pyplot" not in sys.modules
 """
     environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=60, env={**environment, "MPLBACKEND": "tkagg"})
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=600, env={**environment, "MPLBACKEND": "tkagg"})
     assert (tmp_path / "a.png").is_file()
 
 

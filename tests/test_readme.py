@@ -1,9 +1,16 @@
 """What the README and the notebooks show runs."""
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+
+import fftocean as fo
+from fftocean.bake import pictures
+from fftocean.physics import presets
 
 ROOT = Path(__file__).parent.parent
 
@@ -30,6 +37,28 @@ def test_the_two_commands_are_one_line_each():
     assert len(after("run", "bash").strip().splitlines()) == len(after("test", "bash").strip().splitlines()) == 1
 
 
+DEFAULT = ("README.md", "fftocean/bake/default.toml")
+
+
+@pytest.mark.parametrize("name", [*DEFAULT, *(f"examples/{p.name}" for p in sorted((ROOT / "examples").glob("*.toml")))])
+@pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+def test_waves_in_prose_are_those_of_the_job(name):
+    """Each "waves of H m (Hs) and T s (Tp)", to the digits given; and a breeze, gale or storm by the name of its wind."""
+    text = " ".join((ROOT / name).read_text(encoding="utf-8").replace("#", " ").split())
+    job = fo.Job.default() if name in DEFAULT else fo.Job.read(ROOT / name)
+    waves = re.findall(r"waves of (\d+\.?\d*) m \(Hs\) and (\d+\.?\d*) s \(Tp\)", text)
+    named = []
+    assert waves or name not in DEFAULT
+    for given in waves:
+        for said, true in zip(given, (job.sea().hs, job.sea().tp), strict=True):
+            assert said == f"{true:.{len(said.partition('.')[2])}f}"
+    scale = {row.name.lower(): row.number for row in presets.beaufort_table()}
+    for wind in re.findall(r"\ba ((?:\w+ )?(?:breeze|gale|storm)) (?:on a|that has|\(beaufort)", text.lower()):
+        assert scale[wind] == pictures.beaufort_of(job.settings["sea.wind.speed"])
+        named.append(wind)
+    assert named or name not in DEFAULT
+
+
 def test_linked_files_exist():
     for target in re.findall(r"\]\(([^)#:]+)\)", (ROOT / "README.md").read_text(encoding="utf-8")):
         assert (ROOT / target).exists(), target
@@ -42,7 +71,7 @@ def test_notebooks_run(path):
     import nbformat
 
     notebook = nbformat.read(path, as_version=4)
-    nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}).execute()
+    nbclient.NotebookClient(notebook, timeout=1200, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}).execute()
     assert not any(output.output_type == "error" for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs)
 
 
@@ -60,3 +89,17 @@ def test_every_test_that_the_errata_name_is_there():
         if line.startswith("| ") and not line.startswith(("| where", "| printed", "| as often written", "|---"))
     ]
     assert [row for row in rows if "test_" not in row] == []
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_the_box_rides_with_and_without_matplotlib(tmp_path, there):
+    """The example ends well without it, and says what it would need."""
+    script = "import runpy, sys; sys.argv[1:] = ['--seconds', '0.2', '--picture', 'box.png']; "
+    script += "" if there else "sys.modules.update(matplotlib=None); "
+    script += f"runpy.run_path({str(ROOT / 'examples/buoyancy.py')!r}, run_name='__main__')"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "MPLBACKEND": "Agg"}
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    assert "10 steps at 50 Hz" in done.stdout
+    assert (tmp_path / "box.png").exists() == there
+    assert ("pip install '.[plot]'" in done.stdout) == (not there)

@@ -365,7 +365,7 @@ if {suffix == ".nc"}:
     assert place.read_bytes() == place.with_name("room.nc").read_bytes()
 science.write(second, place)
 """
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False, cwd=ROOT)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=600, check=False, cwd=ROOT)
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -1,6 +1,7 @@
 """The block scheme is the table in `fields.py`, whatever is asked of it."""
 
 import math
+import threading
 import time
 
 import numpy as np
@@ -136,12 +137,14 @@ def test_whoever_is_interrupted_waits_for_the_others():
     """When one thread's work raises, the lock must not be given back while another still writes."""
     synthesis = fo.Ocean(SEA, n=256, size=100.0, threads=2)._synthesis
     first = synthesis._desks[0]
-    still_at_it = []
+    still_at_it, begun = [], threading.Event()
 
     def work(desk, _):
         if desk is first:
+            begun.wait(600.0)
             raise KeyboardInterrupt
         still_at_it.append(True)
+        begun.set()
         time.sleep(0.2)
         still_at_it.pop()
 

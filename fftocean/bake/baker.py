@@ -14,7 +14,7 @@ from typing import Any
 from fftocean import foam
 from fftocean.arrays import available_memory
 from fftocean.bake import blend, layout, maps, pictures
-from fftocean.bake.claim import claim, discard_work, header_of, require_claimable
+from fftocean.bake.claim import claim, discard_work, header_of, require_claimable, require_replaceable
 from fftocean.bake.containers import assemble, intact, unpack
 from fftocean.bake.contents import Contents
 from fftocean.bake.crews import check_executor, crew_of
@@ -63,7 +63,7 @@ def bake(
     Args:
         job: what to bake.
         folder: where to; made if it is not there.
-        overwrite: bake over another job's folder, whose frames are removed first.
+        overwrite: bake over another job's folder; what its job or manifest lists is removed first.
         frames: a part of the loop, `start:stop:step` as Python slices; None is all of it.
         downsample: how many times fewer samples a side: the same waves, but for those too short (see `Job.downsampled`).
         executor: "serial", "processes", "dask" for a cluster of this machine's own, "tcp://..." for a scheduler's, or "auto": processes,
@@ -83,7 +83,7 @@ def bake(
     """
     if not isinstance(job, Job):
         raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
-    check_executor(executor, workers)
+    executor = check_executor(executor, workers)
     folder = Path(folder)
     require_free(folder)
     chosen = frames_of(frames, job.frames)
@@ -175,6 +175,7 @@ def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[En
         OutputError: the folder holds another bake, and is not to be overwritten.
     """
     if overwrite:
+        require_replaceable(folder)
         discard_work(folder)
         return []
     require_claimable(folder, order.header)

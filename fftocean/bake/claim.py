@@ -1,10 +1,12 @@
 """Whose folder it is: what makes a bake's bytes what they are, and the refusal of a folder that holds anything else."""
 
+import errno
 import itertools
 import json
 import os
 import platform
 import shutil
+import stat
 import zlib
 from collections.abc import Mapping, Sequence
 from importlib import metadata
@@ -14,11 +16,23 @@ from typing import Any
 import fftocean
 from fftocean.bake.files import as_json, digest, read_json, read_whole, remove, sweep, write_whole
 from fftocean.bake.job import Job
-from fftocean.bake.layout import JOB_FILE, MANIFEST_FILE, WORK_FOLDER, leftovers, rooms
+from fftocean.bake.layout import (
+    DRAWN,
+    JOB_FILE,
+    MANIFEST_FILE,
+    SHEET,
+    SIDECARS,
+    WORK_FOLDER,
+    leftovers,
+    rooms,
+)
 from fftocean.bake.parameters import PARAMETERS
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.export.formats import FORMATS
 from fftocean.transforms import library
+
+FILES_OF_PICTURES = {"sheet": SHEET, **DRAWN}
+"""The files of pictures, by the names that a job gives those."""
 
 CHECK = "check"
 """The key that holds the SHA-256 of all the others."""
@@ -141,18 +155,120 @@ def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
         raise OutputError(f"{folder} holds the bake of another job ({changes:.400}); choose another folder, or --overwrite")
 
 
+def claimed(folder: Path) -> list[Path]:
+    """Return the files of an earlier bake in a folder: those that its manifest or its job lists."""
+    listed: set[str] = set()
+    jobs: list[Mapping[str, Any]] = []
+    for file in (MANIFEST_FILE, JOB_FILE):
+        try:
+            tree = read_checked(folder / file)
+        except (IntegrityError, OutputError):
+            continue  # none of ours, or damaged: it claims nothing
+        listed |= _paths_in(tree)
+        jobs += [tree["job"]] if isinstance(tree.get("job"), dict) else []
+
+    def ours(path: Path) -> bool:
+        name = path.relative_to(folder).as_posix()
+        return name in listed or any(_is_of(job, name) for job in jobs)
+
+    return [path for path in leftovers(folder) if ours(path)]
+
+
+def _paths_in(tree: Any) -> set[str]:
+    """Return every path that a manifest gives."""
+    if isinstance(tree, Mapping):
+        here = {tree["path"]} if isinstance(tree.get("path"), str) else set()
+        return here.union(*(_paths_in(value) for value in tree.values()))
+    if isinstance(tree, list):
+        return set().union(*(_paths_in(value) for value in tree))
+    return set()
+
+
+def _is_of(job: Mapping[str, Any], name: str) -> bool:
+    """Return whether a bake of a job writes a file of that name, as far as the job says."""
+    form = FORMATS.get(str(job.get("bake.format")))
+    pictures, maps = job.get("bake.pictures"), job.get("bake.maps")
+    if isinstance(pictures, list) and name in {FILES_OF_PICTURES.get(str(p)) for p in pictures}:
+        return True
+    if form is None or not isinstance(maps, list):
+        return False
+    for m in map(str, maps):
+        if name in {m + suffix for suffix in (form.suffix, *SIDECARS)}:
+            return True
+        if name.startswith(f"{m}{form.suffix}/"):
+            return True  # a folder that is one container
+        number = name.removeprefix(f"{m}/").removesuffix(form.suffix)
+        if name == f"{m}/{number}{form.suffix}" and number.isdigit():
+            return int(number[:9]) < int(job.get("bake.frames") or 0)
+    return False
+
+
+def require_replaceable(folder: Path) -> None:
+    """
+    Refuse to bake over files that no bake claims, `--overwrite` or not.
+
+    Raises:
+        OutputError: the folder holds a file with a name of ours that neither a job nor a manifest
+            there lists: it is somebody's own.
+    """
+    ours = set(claimed(folder))
+    foreign = [path for path in leftovers(folder) if path not in ours]
+    sealed = any(_is_sealed(folder / file) for file in (MANIFEST_FILE, JOB_FILE))
+    if not sealed:
+        foreign += [path for path in (folder / MANIFEST_FILE, folder / JOB_FILE) if os.path.lexists(path)]
+    for path in foreign:
+        name = path.relative_to(folder).as_posix()
+        raise OutputError(
+            f"{folder} holds {name}, which is not listed in a {JOB_FILE} or {MANIFEST_FILE} of a bake "
+            "there, and is not overwritten; move it away, or choose another folder"
+        )
+
+
+def _is_sealed(path: Path) -> bool:
+    try:
+        read_checked(path)
+    except (IntegrityError, OutputError):
+        return False
+    return True
+
+
+def require_possible(folder: Path, header: Mapping[str, Any], *, overwrite: bool) -> None:
+    """
+    Refuse, without writing anything, what `bake` would refuse of a folder.
+
+    Raises:
+        OutputError: it cannot be made or written to, or holds something else.
+    """
+    if folder.is_symlink():
+        raise OutputError(f"{folder} must be a folder of its own, and is a link to {folder.resolve()}")
+    try:
+        if os.path.lexists(folder) and not stat.S_ISDIR(folder.stat().st_mode):
+            raise NotADirectoryError(errno.EEXIST, os.strerror(errno.EEXIST))
+        there = next(place for place in (folder, *folder.absolute().parents) if os.path.lexists(place))
+        if not stat.S_ISDIR(there.stat().st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        if not os.access(there, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as error:
+        raise OutputError(f"{folder} could not be made a folder: {error.strerror or error}") from None
+    if overwrite:
+        require_replaceable(folder)
+    else:
+        require_claimable(folder, header)
+
+
 def claim(folder: Path, header: Mapping[str, Any], *, overwrite: bool) -> None:
     """
     Mark a folder as this bake's, before its first frame. The caller holds the lock, and has saved in the journal what is to be kept.
 
     The manifest goes first of all: from then on the folder is no finished bake, whatever happens.
     """
+    stale = claimed(folder) if overwrite else []
     remove(folder / MANIFEST_FILE)
     for room in rooms(folder):
         sweep(room)
-    if overwrite:
-        for stale in leftovers(folder):
-            remove(stale)
+    for path in stale:
+        remove(path)
     write_whole(folder / JOB_FILE, as_json(checked(header)))
 
 

@@ -1,6 +1,7 @@
 """A bake on a Dask cluster: one of this machine's own, or that of a scheduler, whose workers see the same folder."""
 
 import contextlib
+import multiprocessing
 import queue
 import time
 import uuid
@@ -17,6 +18,13 @@ from fftocean.bake.order import Entry, Order, Task
 from fftocean.errors import FFTOceanError, JobError, OutputError, how_to_install
 
 PATIENCE = 10.0  # [s] for a scheduler to answer
+START = 120.0  # [s] for the first worker of a local cluster, which imports the package, to be there
+GUARD = (
+    "each worker of executor 'dask' imports the main program: in a script, call bake under "
+    "if __name__ == '__main__': (executor 'processes' needs no such guard)"
+)
+NO_DASHBOARD = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+"""A scheduler serves HTTP even without a dashboard, on port 8787 and all interfaces if not told."""
 
 
 def require_dask() -> None:
@@ -28,6 +36,17 @@ def require_dask() -> None:
     """
     if util.find_spec("distributed") is None:
         raise JobError(f"executor 'dask' needs the package distributed: {how_to_install('dist')}")
+
+
+def require_main_program() -> None:
+    """
+    Stop a worker that imports an unguarded script and so arrives at the script's own bake.
+
+    Raises:
+        SystemExit: this process is being started by another, which reports the error.
+    """
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(f"fftocean: {GUARD}")
 
 
 class Cluster:
@@ -63,11 +82,26 @@ class Cluster:
             address: Any = self._address
             if address is None:
                 address = self._open.enter_context(
-                    cluster(n_workers=self.workers, threads_per_worker=1, dashboard_address=None, silence_logs=50, memory_limit=0)
+                    cluster(
+                        n_workers=self.workers,
+                        threads_per_worker=1,
+                        dashboard_address=None,
+                        scheduler_kwargs=NO_DASHBOARD,
+                        silence_logs=50,
+                        memory_limit=0,
+                    )
                 )
-            self._client = self._open.enter_context(client(address, timeout=PATIENCE, set_as_default=False))
-            self._client.wait_for_workers(1, timeout=3 * PATIENCE)
+            own = self._address is None
+            self._client = self._open.enter_context(
+                client(address, timeout=START if own else PATIENCE, set_as_default=False)
+            )
+            self._client.wait_for_workers(1, timeout=START if own else 3 * PATIENCE)
             self.workers = len(self._client.scheduler_info(n_workers=-1)["workers"])
+        except RuntimeError as error:
+            self._open.close()
+            if self._address is None and "failed to start" in str(error):
+                raise JobError(f"the workers of a local Dask cluster did not start: {GUARD}") from None
+            raise
         except (OSError, TimeoutError, ValueError) as error:
             self._open.close()
             raise OutputError(f"{self._address or 'a local Dask cluster'} could not be reached: {error!s:.200}") from error

@@ -1,25 +1,34 @@
-"""Who is asked to bake: executors by their names, and how many of them this machine has room for."""
+"""Executors by their names."""
 
 from fftocean.bake import cluster
 from fftocean.bake.executors import Crew, Processes, Serial
+from fftocean.bake.parameters import spelled
 from fftocean.errors import JobError
 
 EXECUTORS = ("auto", "serial", "processes", "dask")
 
 
-def check_executor(name: str, workers: int | None) -> None:
+def check_executor(name: str, workers: int | None) -> str:
     """
-    Refuse an executor that there is not.
+    Return an executor's name as we write it.
 
     Raises:
-        JobError: the name is unknown, the number is none, or Dask is not installed.
+        JobError: the name is unknown, the number of workers out of range, or Dask not installed.
     """
+    name = spelled(name, EXECUTORS) or name
     if name not in EXECUTORS and "://" not in name:
-        raise JobError(f"executor must be one of {', '.join(EXECUTORS)}, or an address such as tcp://host:8786, got {name!r:.80}")
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024):
+        raise JobError(
+            f"executor must be one of {', '.join(EXECUTORS)}, or an address such as tcp://host:8786, got {name!r:.80}"
+        )
+    if workers is not None and (
+        isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024
+    ):
         raise JobError(f"workers must be a whole number between 1 and 1024, got {workers!r:.40}")
     if name == "dask" or "://" in name:
         cluster.require_dask()
+        if name == "dask":
+            cluster.require_main_program()
+    return name
 
 
 def crew_of(name: str, workers: int, lock: int) -> Crew:

@@ -24,6 +24,8 @@ class Estimate:
     bytes: int  # about
     seconds: float  # about, on this machine
     memory: float  # of each process [bytes]
+    container: float  # of this process beside it, to put the largest container together [bytes]
+    video: float  # that the maps of all frames take in an engine [bytes]
     executor: str
     workers: int
 
@@ -59,9 +61,34 @@ def estimate(
         bytes=round(float(np.mean(sizes)) * len(chosen)) + 700_000 * len(scene.job.pictures) + 1200 * len(chosen),
         seconds=3.0 + each * rounds / hands + (1.5 if name != "serial" else 0.0),
         memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
+        container=_container(scene, len(chosen)),
+        video=video_memory(scene, len(chosen)),
         executor=name,
         workers=hands,
     )
+
+
+def video_memory(scene: Scene, frames: int) -> float:
+    """Return the bytes that the maps of some frames take as textures, three channels as four."""
+    return sum(_texels(scene, frames, {3: 4}.get(n, n)) for n in _channels(scene))
+
+
+def _container(scene: Scene, frames: int) -> float:
+    """Return the bytes to hold the largest map's sequence twice, as parts and put together."""
+    if scene.form.scope == "frame":
+        return 0.0
+    return 2.0 * max(_texels(scene, frames, n) for n in _channels(scene))
+
+
+def _channels(scene: Scene) -> list[int]:
+    return [len(MAPS[name].names) for name in scene.job.maps]
+
+
+def _texels(scene: Scene, frames: int, channels: int) -> float:
+    """Return the bytes of some frames of a map, uncompressed, with its mip levels."""
+    each = np.dtype(scene.form.stored).itemsize * channels
+    levels = sum(4.0**-level for level in range(scene.levels))
+    return float(frames * scene.ocean.grid.nx * scene.ocean.grid.ny * each) * levels
 
 
 def _bytes_of(scene: Scene, j: int) -> int:

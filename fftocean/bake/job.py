@@ -43,7 +43,7 @@ class Job:
 
     @classmethod
     def default(cls) -> "Job":
-        """The embedded sea: a fresh breeze on a large lake."""
+        """Return the embedded sea: a moderate breeze on a large lake."""
         return cls.from_toml(
             resources.files("fftocean.bake").joinpath("default.toml").read_text(encoding="utf-8"), source="the default sea"
         )
@@ -73,7 +73,8 @@ class Job:
 
     @classmethod
     def from_toml(cls, text: str, *, source: str = "job") -> "Job":
-        """Parse a job; see `read` for what is refused."""
+        """Parse a job; see `read` for what is refused. A byte-order mark at the start is skipped."""
+        text = text.removeprefix("\ufeff")
         if len(text) > MAX_BYTES:
             raise JobError(f"{source} must have at most {MAX_BYTES} bytes, got {len(text)}")
         for number, line in enumerate(text.split("\n"), 1):  # as TOML has them: `splitlines` would break a key at U+2028

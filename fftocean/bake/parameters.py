@@ -5,6 +5,7 @@ The same rows feed the TOML reader, the command line's flags, the manifest's uni
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,57 +79,63 @@ class Parameter:
             if not isinstance(value, bool):
                 raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
             return value
-        if not isinstance(value, str) or value not in self.choices:
+        word = spelled(value, self.choices) if isinstance(value, str) else None
+        if word is None:
             raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
-        return value
+        return word
+
+
+def spelled(word: str, names: Iterable[str]) -> str | None:
+    """Return the name among some that a word means, whatever its case; None where there is none."""
+    return next((name for name in names if name.casefold() == word.strip().casefold()), None)
 
 
 WIND = (
     Parameter("sea.wind.speed", 7.0, "wind 10 m above the water; 0 is a flat sea", limits.WIND_SPEED),
-    Parameter("sea.wind.fetch", 35e3, "distance over which it blows", limits.FETCH),
-    Parameter("sea.wind.direction", 0.0, "toward which it blows, counter-clockwise from +x (east)", limits.DIRECTION),
+    Parameter("sea.wind.fetch", 35e3, "distance over which the wind blows", limits.FETCH),
+    Parameter("sea.wind.direction", 0.0, "direction toward which the wind blows, counter-clockwise from +x (east)", limits.DIRECTION),
     Parameter("sea.wind.gamma", 3.3, "JONSWAP peak enhancement while the sea grows", limits.PEAK_ENHANCEMENT),
     Parameter("sea.wind.blend", 0.5, "spreading: 0 is Donelan-Banner, 1 is cos^2", limits.FRACTION),
 )
 WATER = (
     Parameter("sea.depth", math.inf, "still-water depth; inf is deep water", limits.DEPTH),
-    Parameter("sea.surface_tension", 0.0, "of the water; 0.074 brings capillary ripples", limits.SURFACE_TENSION),
+    Parameter("sea.surface_tension", 0.0, "surface tension of the water; 0.074 adds capillary ripples", limits.SURFACE_TENSION),
 )
 TILE = (
     Parameter("ocean.n", 256, "samples a side", limits.SAMPLES, pair=True, flag="n"),
     Parameter("ocean.size", 100.0, "width of the tile", limits.SIZE, pair=True, flag="size"),
-    Parameter("ocean.seed", 1, "which of all the seas that it could be", limits.SEED, flag="seed"),
+    Parameter("ocean.seed", 1, "random seed", limits.SEED, flag="seed"),
     Parameter("ocean.loop", 16.0, "period after which the water repeats", limits.LOOP, flag="loop"),
     Parameter("ocean.choppiness", 1.0, "factor on horizontal displacement; 1 is wave theory", limits.CHOPPINESS, flag="choppiness"),
-    Parameter("ocean.band_low", 0.0, "wavenumbers to hold, from here", limits.BAND_START),
-    Parameter("ocean.band_high", math.inf, "up to here: bands that adjoin make one sea of several tiles", limits.BAND_EDGE),
-    Parameter("ocean.amplitudes", "gaussian", "as in nature, or fixed for random phases alone", choices=("gaussian", "fixed")),
+    Parameter("ocean.band_low", 0.0, "lowest wavenumber that the tile holds", limits.BAND_START),
+    Parameter("ocean.band_high", math.inf, "highest wavenumber that the tile holds", limits.BAND_EDGE),
+    Parameter("ocean.amplitudes", "gaussian", "gaussian, as in nature, or fixed: random phases alone", choices=("gaussian", "fixed")),
 )
 OUTPUT = (
     Parameter("bake.frames", 240, "frames in the loop", limits.FRAMES, flag="frames"),
-    Parameter("bake.maps", MAPS[:3], "what to write", choices=MAPS, many=True, flag="maps"),
-    Parameter("bake.format", "exr", "of the files", choices=FORMATS, flag="format"),
-    Parameter("bake.engine", "canonical", "whose axes, rows, unit and green sign", choices=ENGINES, flag="engine"),
+    Parameter("bake.maps", MAPS[:3], "maps to write", choices=MAPS, many=True, flag="maps"),
+    Parameter("bake.format", "exr", "file format", choices=FORMATS, flag="format"),
+    Parameter("bake.engine", "canonical", "target engine (sets axes, row order, unit, normal-map green)", choices=ENGINES, flag="engine"),
     Parameter(
         "bake.lookup",
         "lagrangian",
-        "maps by undisplaced position, or eulerian: by place",
+        "index maps by rest position (lagrangian) or by world position (eulerian)",
         choices=("lagrangian", "eulerian"),
         flag="lookup",
     ),
     Parameter(
         "bake.normals",
         "engine",
-        "of normal maps: signed, -1 to 1, or packed, 0 to 1; engine: as its stock materials read",
+        "values of normal maps: signed (-1 to 1), packed (0 to 1), or as the engine's stock materials read",
         choices=("engine", "signed", "packed"),
         flag="normals",
     ),
-    Parameter("bake.mips", False, "smaller levels of each map too; with the format ktx2", switch=True, flag="mips"),
+    Parameter("bake.mips", False, "mip levels of each map; with the format ktx2", switch=True, flag="mips"),
     Parameter("bake.pictures", ("sheet", "animation"), "pictures to look at, beside the maps", choices=PICTURES, many=True, none=True),
 )
 FOAM = (
     Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", limits.FOAM_TAU),
-    Parameter("bake.foam.threshold", 0.72, "squeeze below which water foams: 1 is still water, 0 a folding crest", limits.FOAM_THRESHOLD),
+    Parameter("bake.foam.threshold", 0.72, "squeeze below which water foams: 1 is still, 0 folding", limits.FOAM_THRESHOLD),
     Parameter("bake.foam.strength", 60.0, "foam made per unit of squeeze below the threshold", limits.FOAM_STRENGTH),
 )
 PARAMETERS = (*WIND, *WATER, *TILE, *OUTPUT, *FOAM)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from fftocean.bake.parameters import spelled
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.limits import (
     DEPTH,
@@ -167,6 +168,7 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
 def _one_of(key: str, table: Any, kinds: Mapping[str, list[tuple[Rules, Callable[..., Made]]]]) -> Made:
     """Make what an inline table names by its `kind`, from the first set of keys that fits."""
     got = table.get("kind") if isinstance(table, dict) else table
+    got = spelled(got, kinds) or got if isinstance(got, str) else got
     if not isinstance(table, dict) or not isinstance(got, str) or got not in kinds:
         raise JobError(f"{key} must be a table whose kind is one of {', '.join(kinds)}, got {got!r:.60}")
     kind, values = got, {k: v for k, v in table.items() if k != "kind"}

@@ -113,7 +113,7 @@ def faults(order, place, counts, chance):
 
 def damage(kind, folder, expected, chance):
     """Damage a bake in one place, and return the files in which."""
-    frames = [name for name in expected if name not in ("job.json", "manifest.json", "preview.png")]
+    frames = [name for name in expected if name not in ("job.json", "manifest.json", "preview.png", "preview.webp")]
     name = chance.choice(sorted(expected))
     data = bytearray(expected[name])
     if kind == "flips":

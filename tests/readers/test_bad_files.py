@@ -82,12 +82,12 @@ def test_rubbish(data, message, tmp_path):
 
 
 def require_cheap_refusal(path, message):
-    """Within 2 s and 16 MiB."""
+    """Within 2 s of this process and 16 MiB."""
     tracemalloc.start()
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(ReaderError, match=message):
         readers.open(path)
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < 2.0
     assert tracemalloc.get_traced_memory()[1] < 16 * 2**20
     tracemalloc.stop()
 
