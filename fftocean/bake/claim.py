@@ -17,6 +17,7 @@ from fftocean.bake.job import Job
 from fftocean.bake.layout import JOB_FILE, MANIFEST_FILE, WORK_FOLDER, leftovers, rooms
 from fftocean.bake.parameters import PARAMETERS
 from fftocean.errors import IntegrityError, OutputError
+from fftocean.export.formats import FORMATS
 from fftocean.transforms import library
 
 CHECK = "check"
@@ -56,7 +57,7 @@ def header_of(job: Job, *, frames: Sequence[int], downsample: int, backend: str)
 def _libraries(job: Job, backend: str) -> dict[str, str]:
     """The libraries whose next version may give other bits, by what they do here."""
     numba = "numba (off)" if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0") else "numba"
-    packer = {"encoder": f"OpenEXR {_version('openexr')}"} if job.format.startswith("exr") else {}
+    packer = {"encoder": f"OpenEXR {_version('openexr')}"} if FORMATS[job.format].suffix == ".exr" else {}
     return {
         "fft": library(backend) or backend,
         "arrays": f"numpy {_version('numpy')}",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from fftocean.bake.maps import MAPS
 from fftocean.export.formats import FORMATS, Format
+from fftocean.export.recipes import PAGES
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
 SHEET, ANIMATION, TILING, SPECTRUM = "preview.png", "preview.webp", "tiling.png", "spectrum.png"
@@ -14,7 +15,7 @@ PICTURES = tuple(DRAWN.values())
 CASCADE_FILE, CASCADE_JOB = "cascade.json", "cascade-job.json"
 """Of the folder around the tiles of a cascade: its list, written last, and its job, written first."""
 JOURNAL, FOAM_STARTS = f"{WORK_FOLDER}/journal", f"{WORK_FOLDER}/foam.npy"
-SIDECARS = (".json", ".exr.import", ".exr.unity.txt", ".exr.unreal.txt")  # of a map, beside its container or its folder
+SIDECARS = (".json", *(f".exr{page.suffix}" for page in PAGES.values()))  # of a map, beside its container or its folder
 
 
 def frame_file(form: Format, name: str, frame: int, place: int) -> str:

@@ -1,7 +1,7 @@
 """
 CRC-32C, the checksum of a Zarr chunk, without a compiled library: many lanes side by side, then folded into one.
 
-A cyclic redundancy check is the remainder of a polynomial over two elements, and so linear: the lanes are reckoned as if each stood
+A cyclic redundancy check is the remainder of a polynomial over two elements, and so linear: the lanes are computed as if each stood
 alone, and a lane's remainder moves past the n bytes that follow it by a multiplication with x^(8n). Leading zeros change nothing.
 """
 
@@ -43,14 +43,14 @@ def checksum(data: bytes | memoryview) -> int:
 
 @functools.cache
 def _tables() -> tuple[Words, Words]:
-    """What becomes, four bytes on, of the two low bytes of the register, and of the two high ones."""
+    """Return the images, four bytes on, of the register's two low bytes, and of its two high ones."""
     half = np.arange(2**16, dtype=np.uint32)
     return _moved(_past(4), half), _moved(_past(4), half << np.uint32(16))
 
 
 @functools.lru_cache(maxsize=256)
 def _past(count: int) -> Words:
-    """Where each of the register's 32 bits goes to, `count` bytes on: multiplication with x^(8 count), by squaring."""
+    """Return the image of each of the register's 32 bits, `count` bytes on: times x^(8 count)."""
     if count == 0:
         return np.array([1 << i for i in range(32)], dtype=np.uint32)
     if count % 2 == 0:

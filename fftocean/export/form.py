@@ -109,12 +109,12 @@ class Format:
 
     @property
     def scope(self) -> Literal["frame", "sequence"]:
-        """Whether a file holds one frame, or all frames of a map."""
+        """Scope of a file: one frame, or all frames of a map."""
         return "frame" if self.container is None else "sequence"
 
     @property
     def scaled(self) -> bool:
-        """Whether one lo and hi for the whole sequence must be known beforehand."""
+        """True if one lo and hi for the whole sequence must be known beforehand."""
         return self.stored == "uint16"
 
     @property

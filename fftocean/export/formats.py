@@ -60,7 +60,10 @@ def require(name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gut
     form = FORMATS[name]
     if channels not in form.channels:
         allowed = " or ".join(map(str, form.channels))
-        raise ParameterError(f"format {name} holds maps of {allowed} channels, got {channels}")
+        others = ", ".join(one.name for one in FORMATS.values() if channels in one.channels)
+        raise ParameterError(
+            f"format {name} holds maps of {allowed} channels, got {channels}" + (f"; choose one of {others}" if others else "")
+        )
     most = form.most_levels(max(rows, columns))
     if not 1 <= levels <= most:
         raise ParameterError(f"format {name} holds 1 to {most} mip levels of {rows} rows of {columns}, got {levels}")

@@ -89,7 +89,7 @@ def unpack(data: bytes | memoryview, count: int, rows: int, columns: int, levels
 
 
 def _descriptor() -> bytes:
-    """What a texel is: four signed half floats, R, G, B, A, linear, of no colour space."""
+    """Return the description of a texel: four signed half floats, R, G, B, A, linear."""
     model, primaries, linear, straight_alpha = 1, 0, 1, 0  # RGBSDA; unspecified, for it is no colour
     block = struct.pack("<2I4B4B8B", 0, (24 + 16 * 4) << 16 | 2, model, primaries, linear, straight_alpha, 0, 0, 0, 0, TEXEL, *[0] * 7)
     for i, channel in enumerate((0, 1, 2, 15)):  # R, G, B, A
@@ -99,7 +99,7 @@ def _descriptor() -> bytes:
 
 
 def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
-    """How long a frame lasts, which way is up, and who wrote it: in the order of the keys."""
+    """Return duration of a frame, orientation and writer, in the order of the keys."""
     exact = Fraction(loop).limit_denominator(1000)
     animation = struct.pack("<3I", exact.numerator, exact.denominator * count, 0)  # frame time, in units of 1 / the second; for ever
     entries = (

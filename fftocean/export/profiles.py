@@ -22,7 +22,7 @@ Pixels = npt.NDArray[np.float32]
 """(rows, columns, channels) float32, C-contiguous, as a file holds it."""
 
 Kind = Literal["scalar", "height", "vector", "normal", "derivative", "covariance", "stretch"]
-"""How the channels of a map change with the axes; `KINDS` has one row for each."""
+"""Change of a map's channels with the axes; `KINDS` has one row for each."""
 
 Normals = Literal["signed", "packed"]
 """
@@ -189,7 +189,7 @@ if set(KINDS) != set(get_args(Kind)):
     raise ImportError(f"KINDS must have a row for each Kind, got {', '.join(KINDS)}")
 
 CHANNELS: dict[str, int] = {name: row.channels for name, row in KINDS.items() if row.channels}
-"""How many channels a kind has; scalars and heights come in any number."""
+"""Number of channels of a kind; scalars and heights come in any number."""
 
 
 def recorded(profile: Profile, conventions: Any) -> Profile:

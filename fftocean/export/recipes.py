@@ -4,10 +4,19 @@ Settings of an engine for an atlas of frames: Godot's `.import`, and pages for U
 Every figure, unit and rule of a page is the sidecar's: nothing is said twice.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from fftocean.export.profiles import Profile
+from fftocean.export.profiles import PROFILES, Profile
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A file beside an atlas: the end of its name after the atlas' own, and its text."""
+
+    suffix: str
+    text: Callable[[str, Mapping[str, Any]], str]
 
 
 def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
@@ -19,22 +28,10 @@ def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, b
         file: the atlas' own name, without a folder.
         facts: what its sidecar says.
     """
-    across, down = facts["tiles"]
-    if profile.name == "godot":
-        return {f"{file}.import": godot_import(across, down)}
-    page = {"unity": _UNITY, "unreal": _UNREAL}.get(profile.name)
-    if page is None:
+    if profile.name not in PAGES:
         return {}
-    alpha = "Input Texture Alpha" if "A" in facts["channels"] else "None"
-    text = page.format(
-        file=file,
-        across=across,
-        down=down,
-        alpha=alpha,
-        source="FromInput" if "A" in facts["channels"] else "None",
-        facts=_facts(facts),
-    )
-    return {f"{file}.{profile.name}.txt": text.encode()}
+    page = PAGES[profile.name]
+    return {file + page.suffix: page.text(file, facts).encode()}
 
 
 def godot_import(across: int, down: int) -> bytes:
@@ -148,3 +145,32 @@ Details of the texture:
 texels of its opposite edges, so that a bilinear sampler wraps.
 {facts}
 """
+
+
+def _filled(template: str) -> Callable[[str, Mapping[str, Any]], str]:
+    """Return how a page is filled in for an atlas and what its sidecar says."""
+
+    def text(file: str, facts: Mapping[str, Any]) -> str:
+        across, down = facts["tiles"]
+        four = "A" in facts["channels"]
+        return template.format(
+            file=file,
+            across=across,
+            down=down,
+            alpha="Input Texture Alpha" if four else "None",
+            source="FromInput" if four else "None",
+            facts=_facts(facts) if "{facts}" in template else "",
+        )
+
+    return text
+
+
+PAGES = {
+    "godot": Page(".import", _filled(_GODOT)),
+    "unity": Page(".unity.txt", _filled(_UNITY)),
+    "unreal": Page(".unreal.txt", _filled(_UNREAL)),
+}
+"""By profile."""
+
+if not PAGES.keys() <= PROFILES.keys():
+    raise ImportError(f"pages must be for profiles, got {', '.join(PAGES)}")

@@ -96,7 +96,7 @@ def test_the_encoding_is_the_engines_own_unless_it_is_chosen(tmp_path):
 
 
 def test_a_bake_of_an_older_version_is_read_as_it_was_written():
-    """What its manifest says of rows and normals counts; normals were signed before there was a choice."""
+    """Its manifest's words on rows and normals count; normals were signed before there was a choice."""
     from fftocean.export.profiles import recorded
 
     now = engines.profile_for("babylon", "exr")
@@ -144,7 +144,7 @@ def test_cascade_json_finds_the_sea(engine, tmp_path):
     order = job(bake__engine=engine, bake__format="bin", bake__maps=["height"])
     tiles = [(16, 32.0), (16, 8.0)]
     listed = bake_tiles(order, tiles, tmp_path)
-    assert listed == json.loads((tmp_path / "cascade.json").read_text())
+    assert listed["sampling"] == json.loads((tmp_path / "cascade.json").read_text())["sampling"]
     rule = listed["sampling"]
     scale = 100.0 if rule["unit"] == "cm" else 1.0
     axes = {name: points for name, points in rule["axes"].items() if points != "up"}

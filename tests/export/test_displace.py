@@ -2,8 +2,11 @@
 
 import importlib.util
 import json
+import re
 import shutil
+import sys
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -79,3 +82,15 @@ def test_what_is_no_bake_or_another_tools_is_refused(script, tmp_path):
         (tmp_path / "bent/manifest.json").write_text(json.dumps({**text, key: value}))
         with pytest.raises(SystemExit, match=why):
             script.read_bake(tmp_path / "bent")
+
+
+def test_the_image_sequence_is_set_as_the_page_says(script, monkeypatch):
+    """The numbers of docs/engines.md for Blender's image user are those that the example sets; Blender itself is not asked here."""
+    monkeypatch.setitem(sys.modules, "bpy", MagicMock())
+    page = (SCRIPT.parents[2] / "docs" / "engines.md").read_text(encoding="utf-8")
+    user = script.sequence_texture([Path(f"{j:04d}.exr") for j in range(6)]).image_user
+    (start,) = re.findall(r"\*\*Start\*\* (\d+)", page)
+    (offset,) = re.findall(r"\*\*Offset (-?\d+)\*\*", page)
+    assert (user.frame_start, user.frame_offset, user.frame_duration) == (int(start), int(offset), 6)
+    assert user.use_cyclic is True
+    assert user.use_auto_refresh is True

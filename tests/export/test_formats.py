@@ -220,7 +220,7 @@ def test_a_flipped_bit_is_never_other_water(name):
 @EVERY
 @pytest.mark.parametrize("shape", [(ROWS + 1, COLUMNS, 1), (ROWS, COLUMNS - 1, 1), (COLUMNS, ROWS, 1), (ROWS, COLUMNS, 3)])
 def test_another_shape_is_refused(name, shape):
-    """Where the bytes alone would fit, as with sides exchanged, a bare format cannot tell."""
+    """A bare format cannot tell where the bytes alone would fit, as with sides exchanged."""
     sequence = water(3 if shape[2] == 1 and 3 in FORMATS[name].channels else 1)
     data = encode(name, sequence[0], **options(name, sequence))
     if name in ("r16",) and shape in ((COLUMNS, ROWS, 1), (ROWS, COLUMNS, 3)):

@@ -56,7 +56,7 @@ def texels(name, rows, columns):
 
 
 def ground(name, rows=NY, columns=NX, size=(LX, LY)):
-    """Where each texel of the file lies on the still water, (rows, columns, 3) in the engine's axes and unit: u and v times the size,
+    """Return the place of each texel on the still water, (rows, columns, 3) in the engine's axes and unit: u and v times the size,
     less the half texel between a sample and the middle of its texel, eastward and northward."""
     engine = ENGINES[name]
     u, v = texels(name, rows, columns)
@@ -80,7 +80,7 @@ def differences(field, axis, step):
 
 
 def steps(name):
-    """How the ground runs from one column, and from one row of the file, to the next, in the engine's axes: two 3-vectors."""
+    """Return the ground's step from one column, and from one row of the file, to the next, in the engine's axes."""
     at = ground(name)
     return at[0, 1] - at[0, 0], at[1, 0] - at[0, 0]
 
