@@ -422,16 +422,24 @@ def _bake_cascade(options: argparse.Namespace, job: "Job", subset: str | None, t
 
     if options.dry_run:
         return _dry_run(options, job, subset)
+    at: dict[str, Any] = {}
     with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
 
         def listen(event: dict[str, Any]) -> None:
-            if event["event"] == "frame":
-                show(event["done"], event["frames"], f"baking tile {event['tile'] + 1} of {event['tiles']}")
+            if event["event"] in ("start", "frame"):
+                at.update(done=event.get("kept", event.get("done")), **{key: event[key] for key in ("frames", "tile", "tiles")})
+                show(at["done"], at["frames"], f"baking tile {at['tile'] + 1} of {at['tiles']}")
             if tell:
                 tell(event)
 
         work = {name: getattr(options, name) for name in ("overwrite", "downsample", "executor", "workers")}
-        listed = bake_tiles(job, options.tiles, options.output, frames=subset, listen=listen, **work)
+        try:
+            listed = bake_tiles(job, options.tiles, options.output, frames=subset, listen=listen, **work)
+        except (KeyboardInterrupt, SystemExit):
+            if at:
+                finished = f"{at['done']} of {at['frames']} frames of tile {at['tile'] + 1} of {at['tiles']} are finished"
+                print(f"note: {finished}; the same command goes on from there", file=sys.stderr)
+            raise
     if not (options.quiet or options.json):
         _advise(listed["statistics"])
         for line in summary(listed):

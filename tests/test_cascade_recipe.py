@@ -1,4 +1,7 @@
-"""The recipe of docs/cascades.md, executed line by line on baked files, against a sum of all waves one by one."""
+"""
+The recipe of docs/cascades.md, executed line by line on baked files, against a sum of all waves one
+by one.
+"""
 
 import functools
 import json
@@ -51,7 +54,9 @@ def normalize(v):
 
 
 def recipe():
-    """The page's GLSL block as Python, by its syntax alone: types, semicolons, braces and comments."""
+    """
+    The page's GLSL block as Python, by its syntax alone: types, semicolons, braces and comments.
+    """
     (block,) = re.findall(r"```glsl\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     lines = []
     for line in block.splitlines():
@@ -104,7 +109,10 @@ def baked(tmp_path_factory):
 
 
 def summed(cascade, x, y, t):
-    """Displacement, slopes, stretches of the summed water, our axes, choppiness applied: every wave of every tile, deep water."""
+    """
+    Displacement, slopes, stretches of the summed water, our axes, choppiness applied: every wave of
+    every tile, deep water.
+    """
     w = cascade.modes()
     k, c = np.hypot(w.kx, w.ky), cascade.choppiness
     phase = np.outer(x, w.kx) + np.outer(y, w.ky) - w.omega * t - w.phase
@@ -148,7 +156,9 @@ def places():
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_recipe_is_the_summed_water(baked, engine):
-    """In each engine's own axes and unit; float32 files of some metres and slopes of a tenth: 2e-6."""
+    """
+    In each engine's own axes and unit; float32 files of some metres and slopes of a tenth: 2e-6.
+    """
     folders, cascade = baked
     world, (first, second, up), unit, _ = ENGINES[engine]
     x, y = places()
@@ -204,7 +214,9 @@ def test_the_recipe_s_foam_is_that_of_the_sum(baked):
 
 
 def exact_foam(cascade, x, y, settings):
-    """Coverage over the loop, (times, places): the integral over all the past, 600 rectangles a loop."""
+    """
+    Coverage over the loop, (times, places): the integral over all the past, 600 rectangles a loop.
+    """
     dense = 600
     times = np.arange(dense) * (LOOP / dense)
     squeeze = []

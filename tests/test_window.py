@@ -175,7 +175,10 @@ def test_a_cascade_gives_no_field_that_does_not_add_up(cascade, name):
 
 
 def test_a_window_as_labelled_data(cascade):
-    """Coordinates are those of the world; every number is the window's; attributes are those of all tiles together."""
+    """
+    Coordinates are those of the world; every number is the window's; attributes are those of all
+    tiles together.
+    """
     pytest.importorskip("xarray")
     window = fo.Window(cascade, n=(6, 5), size=(30.0, 20.0), x=100.0, y=-50.0)
     data = fo.to_xarray(window, [1.0, 2.5], ("height", "jacobian"))

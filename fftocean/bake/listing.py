@@ -1,4 +1,6 @@
-"""Job and list of a cascade's bake: which tiles a folder holds, and what their manifests must say."""
+"""
+Job and list of a cascade's bake: which tiles a folder holds, and what their manifests must say.
+"""
 
 import os
 import shutil
@@ -20,7 +22,9 @@ from fftocean.errors import IntegrityError, JobError, OutputError, ParameterErro
 from fftocean.grid import Grid
 
 REPLACED = ("ocean.n", "ocean.size", "ocean.band_low", "ocean.band_high")
-"""Keys of a job whose values are those of the tiles instead; the seeds of tiles follow from its own."""
+"""
+Keys of a job whose values are those of the tiles instead; the seeds of tiles follow from its own.
+"""
 
 HEADER = ("tool", "version", "job", "units", "subset", "downsample", "inputs")
 """What says which cascade a folder holds: all of its job's file, and the head of its list."""
@@ -77,7 +81,9 @@ def shares_of(job: Job, tiles: Sequence[Any]) -> list[Share]:
 
 
 SUMMED = ("sheet", "animation")
-"""Pictures that show the water: of a cascade, that of all tiles together. The others show a tile."""
+"""
+Pictures that show the water: of a cascade, that of all tiles together. The others show a tile.
+"""
 
 
 def header_of(job: Job, shares: Sequence[Share], *, frames: Sequence[int], downsample: int) -> dict[str, Any]:
@@ -131,7 +137,8 @@ def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
     Refuse a folder that holds anything but this cascade.
 
     Raises:
-        OutputError: it holds another one, the bake of one tile, or files that this one would replace.
+        OutputError: it holds another one, the bake of one tile, or files that this one would
+            replace.
     """
     other = "choose another folder, or --overwrite"
     for name in (layout.JOB_FILE, layout.MANIFEST_FILE):

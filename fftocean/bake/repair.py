@@ -30,19 +30,21 @@ def repair(
     listen: Listen | None = None,
 ) -> dict[str, Any]:
     """
-    Write again all of a bake that `check` finds missing or changed, and remove what it finds extra; everything else stays.
+    Write again all of a bake that `check` finds missing or changed, and remove what it finds extra;
+    everything else stays.
 
     Args:
         folder: that `bake` wrote, or the folder around the tiles of a cascade.
-        job: what was baked, where it must be known from which file: its measured spectra are looked for beside that. None takes the
-            folder's own word for it.
+        job: what was baked, where it must be known from which file: its measured spectra are looked
+            for beside that. None takes the folder's own word for it.
         executor, workers, progress, listen: as for `bake`.
 
     Returns:
         The manifest.
 
     Raises:
-        IntegrityError: neither the manifest nor the job's file is what was written, or what was written again has other bytes.
+        IntegrityError: neither the manifest nor the job's file is what was written, or what was
+            written again has other bytes.
         OutputError: a file cannot be written, or this installation would not write the same bytes.
         FolderInUseError: a bake is under way there.
     """
@@ -115,7 +117,7 @@ def _mend_tiles(folder: Path, broken: Sequence[str], job: Job | None, **options:
         header = {key: before[key] for key in listing.HEADER}
         write_whole(folder / layout.CASCADE_JOB, as_json(checked(header)))
     own, tiles = listing.job_of(header, source=str(folder / layout.CASCADE_JOB))
-    work = {key: value for key, value in options.items() if key in ("executor", "workers")}
+    work = {key: value for key, value in options.items() if key in ("executor", "workers", "listen")}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SeaWarning)  # said when it was baked
         shares = {share.path: share.job for share in listing.shares_of(own if job is None else summable(job), tiles)}

@@ -119,7 +119,7 @@ def water_estimate(
         files=sum(part.files for part in parts) + drawn + 2,
         bytes=sum(part.bytes for part in parts) + 700_000 * drawn,
         seconds=sum(part.seconds for part in parts),
-        memory=max(part.memory for part in parts),
+        memory=(sum if most.executor == "serial" else max)(part.memory for part in parts),  # one process holds all tiles
     )
 
 

@@ -30,7 +30,9 @@ from fftocean.export import rules
 from fftocean.statistics import Statistics, measure
 
 INGREDIENTS = ("displacement", "derivative", "stretch")
-"""What a shader displaces and lights the water of several tiles with; baked where no maps are named."""
+"""
+What a shader displaces and lights the water of several tiles with; baked where no maps are named.
+"""
 
 INSTEAD = {
     "normal": "bake derivative and stretch, and form the normal of their sums",

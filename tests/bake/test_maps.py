@@ -1,6 +1,5 @@
 """What goes into the maps: each channel against the ocean's own fields, by either lookup, and its smaller levels."""
 
-import dataclasses
 from typing import get_args
 
 import numpy as np

@@ -1,4 +1,7 @@
-"""A cascade as one bake: its tiles are the cascade's own, and every promise of a bake holds for the folder around them."""
+"""
+A cascade as one bake: its tiles are the cascade's own, and every promise of a bake holds for the
+folder around them.
+"""
 
 import hashlib
 import json
@@ -44,7 +47,10 @@ def bake(folder, job=JOB, tiles=SMALL, **options):
 
 @pytest.fixture(scope="module", autouse=True)
 def remembered():
-    """Integrals over the sea take most of the time of a small bake: each is made once. One picture for all, too."""
+    """
+    Integrals over the sea take most of the time of a small bake: each is made once. One picture for
+    all, too.
+    """
     with pytest.MonkeyPatch.context() as patch:
         for name in ("outside_band", "ordered"):
             integrate, known = getattr(statistics, name), {}
@@ -123,7 +129,10 @@ def test_loaded_tiles_add_up_to_the_sea(made):
 
 
 def test_bounds_add_up_and_hold(tmp_path):
-    """No water goes higher or farther than the sums of the tiles' own extremes; the least Jacobian is that of the sum."""
+    """
+    No water goes higher or farther than the sums of the tiles' own extremes; the least Jacobian is
+    that of the sum.
+    """
     listed = bake(tmp_path / "sea", tiles=TILES)
     cascade = fo.Cascade(JOB.sea(), TILES, seed=1, loop=16.0)
     extremes = listed["extremes"]
@@ -172,7 +181,10 @@ def test_maps_that_are_not_named_are_the_ingredients(tmp_path):
 
 
 def test_which_maps_add_up():
-    """By their definition: a map adds up if doubling the waves doubles it (or quadruples a covariance), on two seas of one tile."""
+    """
+    By their definition: a map adds up if doubling the waves doubles it (or quadruples a
+    covariance), on two seas of one tile.
+    """
     one = fo.Ocean.from_modes([(1, 0, 0.3, 0.1), (1, 2, 0.2, 1.0)], n=8, size=20.0, loop=8.0, dtype="float64")
     two = fo.Ocean.from_modes([(1, 0, 0.6, 0.1), (1, 2, 0.4, 1.0)], n=8, size=20.0, loop=8.0, dtype="float64")
     for name, m in MAPS.items():
@@ -349,7 +361,10 @@ def test_a_list_that_contradicts_its_tiles_is_found(copy, name):
 
 
 def test_a_tile_of_another_sea_is_found(copy, tmp_path):
-    """Each tile is a faultless bake, and they are not one sea: another choppiness; another loop; the same job with other frames."""
+    """
+    Each tile is a faultless bake, and they are not one sea: another choppiness; another loop; the
+    same job with other frames.
+    """
     for key, value in (("ocean.choppiness", 0.5), ("ocean.loop", 20.0), ("bake.frames", 4)):
         other = tmp_path / key
         bake(other, JOB.replaced({"bake.pictures": ["sheet", "tiling"], key: value}))

@@ -186,6 +186,19 @@ def test_slopes_and_stretches_are_along_the_engines_axes(frame, name):
 
 
 @everywhere
+def test_stretch_is_the_gradient_of_the_displacement_map(frame, name):
+    """Along the engine's own two axes, from the displacement file's pixels: shear included, and the same either way round."""
+    profile, (first, second) = PROFILES[name], ENGINES[name].flat
+    ours = frame.choppiness * np.stack([frame.stretch_xx, frame.stretch_xy, frame.stretch_yy], axis=-1)
+    pixels = arrange(profile, "stretch", ours).astype(float)
+    surface = arrange(profile, "vector", displacement(frame)).astype(float)
+    (xx, xy), (yx, yy) = gradient(name, surface[..., first]), gradient(name, surface[..., second])
+    for channel, expected in ((0, xx), (1, xy), (1, yx), (2, yy)):
+        assert np.max(np.abs(pixels[..., channel] - expected)) < 2e-6
+    assert np.std(pixels[..., 1]) > 0.01
+
+
+@everywhere
 def test_covariance_is_of_the_slopes_as_they_stand_in_the_file(frame, name):
     ours = np.stack([frame.slope_x**2, frame.slope_x * frame.slope_y, frame.slope_y**2], axis=-1)
     zero = np.zeros_like(frame.slope_x)
