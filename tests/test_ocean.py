@@ -402,7 +402,10 @@ def test_values_are_frozen():
         o.amplitudes.forward[1, 1] = 1.0
     with pytest.raises(dataclasses.FrozenInstanceError):
         o.amplitudes.depth = 3.0
-    assert dataclasses.replace(SHALLOW, depth=7.0).depth == 7.0
+    swell = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP(peak=1.0)), depth=5.0)
+    assert dataclasses.replace(swell, depth=7.0).depth == 7.0
+    with pytest.raises(fo.ParameterError, match=r"got 7 m for the sea and 5 m for systems\[0\].spectrum \(TMA\)"):
+        dataclasses.replace(SHALLOW, depth=7.0)
 
 
 def test_capillary_waves_run_faster():
