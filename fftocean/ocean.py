@@ -19,7 +19,7 @@ from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.kernels import passes
-from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
+from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, LOOP, MOMENTS, THREADS, TIME
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import POINTWISE, Synthesis, Turn
@@ -144,6 +144,7 @@ class Ocean:
         workers = THREADS.check_whole("threads", threads)
         self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
         self._frequency = _frequencies(amplitudes, self._synthesis.columns)
+        self._few_turns = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
         self._lock, self._pid = threading.Lock(), os.getpid()
         self._recipe = (sea, self.seed, amplitudes, choppiness, dtype, backend, planning, threads)
 
@@ -221,18 +222,23 @@ class Ocean:
         """
         Return the j-th of `count` equally spaced frames of the loop; j and j + count give equal bits, for any whole j.
 
+        The phase of each wave is a whole number of turns times j/count, in exact arithmetic for `count` up to 2^32.
+
         Raises:
             ParameterError: this ocean does not loop, `j` or `count` is not a whole number, and as `frame`.
         """
         if self.loop is None or self.amplitudes.cycles is None:
             raise ParameterError("loop_frame needs an ocean that loops: Ocean(..., loop=16.0)")
-        count = FRAMES.check_whole("count", count)
+        count = MOMENTS.check_whole("count", count)
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
 
         def turn(columns: slice, out: Real) -> None:
-            passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
+            if count <= 2**26 and self._few_turns:
+                passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
+            else:
+                passes.turns_in_fine_loop(self._frequency[columns], step, count, out)
 
         return self._render(self.loop * step / count, fields, out, turn)
 
@@ -262,7 +268,8 @@ class Ocean:
             ParameterError: as `loop_frame` and `frames`.
         """
         fields = named(fields)
-        return self._pipeline((partial(self.loop_frame, j, count, fields) for j in range(FRAMES.check_whole("count", count))), ahead, reuse)
+        steps = range(MOMENTS.check_whole("count", count))
+        return self._pipeline((partial(self.loop_frame, j, count, fields) for j in steps), ahead, reuse)
 
     def _pipeline(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
         """Run jobs in their order, some of them ahead; each takes an earlier frame, or None, as `out`."""
