@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean import noise
-from fftocean.arrays import Complex, Integer, Real
+from fftocean.arrays import Complex, Integer, Real, brief_repr
 from fftocean.errors import ParameterError
 from fftocean.grid import Grid
 from fftocean.limits import ANGLE, DEPTH, LENGTH, LOOP, SEED
@@ -34,6 +34,9 @@ class Modes(NamedTuple):
     phase: Real  # [rad]
     omega: Real  # [rad/s]; on a loop, a whole number of turns in its period
 
+    def __repr__(self) -> str:
+        return brief_repr(self)
+
 
 @dataclass(frozen=True, slots=True)
 class Amplitudes:
@@ -54,6 +57,8 @@ class Amplitudes:
     draw: Literal["gaussian", "fixed", "given"]
     band: Band = WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     cycles: Integer | None = field(init=False)  # whole turns in a loop
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         cycles = None if self.loop is None else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))

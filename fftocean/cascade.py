@@ -160,10 +160,12 @@ class Cascade:
         return tuple(ocean.loop_frame(j, count, fields) for ocean in self.oceans)
 
     def __repr__(self) -> str:
+        shown = 3  # tiles
         tiles = ", ".join(
             f"{o.grid.nx} x {o.grid.ny} over {o.grid.lx:g} x {o.grid.ly:g} m for {low:.3g} to {high:.3g} rad/m"
-            for o, (low, high) in zip(self.oceans, self.bands, strict=True)
+            for o, (low, high) in zip(self.oceans[:shown], self.bands, strict=False)
         )
+        tiles += f", {len(self) - shown} more" if len(self) > shown else ""
         return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike, precision_of, require_memory
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
@@ -83,7 +83,9 @@ class Ocean:
         threads: int = 1,
     ) -> None:
         if not isinstance(sea, Sea):
-            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
+        if not isinstance(amplitudes, str):
+            raise ParameterError(f"amplitudes must be 'gaussian' or 'fixed', got {described(amplitudes)}")
         grid, dtype, loop = _checked(n, size, dtype, loop)
         band = _checked_band(band)
         if loop is not None and loop < 4.0 * (longest := longest_period(sea, band)):
@@ -126,6 +128,8 @@ class Ocean:
             ParameterError: a wave that the grid cannot hold, or a value out of range.
         """
         grid, dtype, loop = _checked(n, size, dtype, loop)
+        if not isinstance(modes, Iterable):
+            raise ParameterError(f"modes must be a list of (mx, my, amplitude, phase), got {described(modes)}")
         amplitudes = place_modes(modes, grid, depth=depth, surface_tension=surface_tension, loop=loop)
         ocean = cls.__new__(cls)
         ocean.seed = None  # there is no chance in it
@@ -257,6 +261,8 @@ class Ocean:
         Raises:
             ParameterError: as `frame`, when the frame in question comes up; `ahead` out of range.
         """
+        if not isinstance(times, Iterable):
+            raise ParameterError(f"times must be numbers of seconds in a list or a generator, got {described(times)}")
         fields = named(fields)
         return self._pipeline((partial(self.frame, t, fields) for t in times), ahead, reuse)
 

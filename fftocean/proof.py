@@ -12,6 +12,7 @@ import numpy as np
 
 from fftocean import gerstner
 from fftocean.arrays import Integer, Real
+from fftocean.errors import ParameterError, described
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.gerstner import Surface
 from fftocean.ocean import Frame, Ocean
@@ -48,7 +49,12 @@ def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
 
     Returns:
         The checks in order; the ocean is proven if all `.passed`.
+
+    Raises:
+        ParameterError: not an ocean.
     """
+    if not isinstance(ocean, Ocean):
+        raise ParameterError(f"what is verified must be an Ocean (of a cascade, each of its oceans), got {described(ocean)}")
     return [*_fields(ocean, t), *_seam(ocean, t), *_loop(ocean), *_parseval(ocean, t), *_energy(ocean, measure(ocean))]
 
 

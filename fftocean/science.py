@@ -23,7 +23,7 @@ import numpy as np
 from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
 from fftocean.bake.files import write_whole
-from fftocean.errors import OutputError, ParameterError, SeaWarning
+from fftocean.errors import OutputError, ParameterError, SeaWarning, described
 from fftocean.fields import FIELDS
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
@@ -371,7 +371,7 @@ _MOST = 10**6
 
 def _require_ocean(ocean: Any) -> None:
     if not isinstance(ocean, Ocean):
-        raise ParameterError(f"ocean must be an Ocean, got {ocean!r:.80}")
+        raise ParameterError(f"ocean must be an Ocean, got {described(ocean)}")
 
 
 def _require(name: str) -> Any:

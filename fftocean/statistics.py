@@ -137,10 +137,8 @@ def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     places = _places(tiles)
     total: Folding | None = None
     for j in range(count):
-        if period is None:
-            frames = [tile.frame(j * span / count, _STRETCHES) for tile in tiles]
-        else:
-            frames = [tile.loop_frame(j, count, _STRETCHES) for tile in tiles]
+        t = j * (span if period is None else period) / count
+        frames = [tile.frame(t, _STRETCHES) for tile in tiles]
         if len(frames) == 1:
             xx, xy, yy = (frames[0][name] for name in _STRETCHES)
         else:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real, require_memory, shortened
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import digest
+from fftocean.bake.files import digest, path_of
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
@@ -23,6 +23,10 @@ class Bake:
     times: Real  # of the frames, (frames,) [s]
     frames: tuple[int, ...]  # which of the loop's they are
     manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        shapes = ", ".join(f"{name} {' x '.join(map(str, array.shape))}" for name, array in self.maps.items())
+        return shortened(f"Bake({len(self.frames)} frames of {shapes})")
 
     def __getitem__(self, name: str) -> Real:
         """
@@ -54,7 +58,7 @@ def load(folder: str | Path, *, maps: Iterable[str] | None = None, frames: Itera
         OutputError: a file is there and cannot be read.
         JobError: a map or a frame that was not baked.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     contents = Contents.of(folder, read_manifest(folder))
     wanted = (maps,) if isinstance(maps, str) else tuple(contents.job.maps if maps is None else maps)
     for name in wanted:

@@ -10,7 +10,7 @@ from fftocean.bake.baker import bake
 from fftocean.bake.check import check
 from fftocean.bake.claim import HEADER, checked, differences, read_checked
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import as_json, remove, write_whole
+from fftocean.bake.files import as_json, path_of, remove, write_whole
 from fftocean.bake.job import Job
 from fftocean.bake.ledger import Listen, Progress
 from fftocean.bake.manifest import read_manifest
@@ -43,7 +43,7 @@ def repair(
         OutputError: a file cannot be written, or this installation would not write the same bytes.
         FolderInUseError: a bake is under way there.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     findings = check(folder)
     manifest: dict[str, Any] | None
     try:

@@ -7,7 +7,7 @@ from typing import Any
 
 import fftocean
 from fftocean.bake.baker import bake
-from fftocean.bake.files import as_json, make_folder, remove, write_whole
+from fftocean.bake.files import as_json, make_folder, path_of, remove, write_whole
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.cascade import Tile, tile_jobs
@@ -40,7 +40,7 @@ def bake_tiles(job: Job, tiles: Iterable[Tile], folder: str | Path = "out", **op
         JobError: tiles that cannot share a sea.
         OutputError, FolderInUseError: as `bake`.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     try:
         shares = tile_jobs(tiles, job.settings["ocean.seed"])
     except ParameterError as error:

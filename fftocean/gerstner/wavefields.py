@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, require_memory
+from fftocean.arrays import Real, RealLike, brief_repr, require_memory
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
 from fftocean.limits import ANGLE, DEPTH, DIRECTION, LENGTH, LOOP, PERIOD, SAMPLES, SIZE, TIME, Count, Quantity
@@ -51,6 +51,8 @@ class YUp:
     binormal: Real  # d position / dz, not normalised
     normal: Real  # unit; along binormal x tangent, which is up here: tangent x binormal points down
 
+    __repr__ = brief_repr
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class WaveSurface:
@@ -74,6 +76,8 @@ class WaveSurface:
     velocity_x: Real  # of the particle, d position / dt [m/s]
     velocity_y: Real
     velocity_z: Real
+
+    __repr__ = brief_repr
 
     @property
     def x(self) -> Real:
@@ -159,6 +163,8 @@ class Waves:
     omega: Real  # [rad/s]
     sharpness: Real  # q [-]
     tau: float = 0.0  # time constant of the start [s]; 0 is no start: the sea has always been there
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         columns = {"kx": (self.kx, COMPONENT), "ky": (self.ky, COMPONENT), "amplitude": (self.amplitude, LENGTH)}

@@ -231,8 +231,8 @@ class Sea:
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]
         more = [f"{len(self.systems) - 3} more systems"] if len(self.systems) > 3 else []
-        water = [f"depth={self.depth:g}" + _by(self.depth_from)]
-        if self.surface_tension or self.surface_tension_from:
+        water = [f"depth={self.depth:g}" + (_by(self.depth_from) if math.isfinite(self.depth) else "")]
+        if self.surface_tension:
             water.append(f"surface_tension={self.surface_tension:g}" + _by(self.surface_tension_from))
         return f"Sea({', '.join([*shown, *more, *water])})"
 
