@@ -16,6 +16,7 @@ from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_mode
 from fftocean.arrays import Real, RealLike, precision_of, require_memory
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, potential_factor
+from fftocean.forks import no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.kernels import passes
@@ -60,7 +61,8 @@ class Ocean:
         threads: how many threads share the work on one frame; the bytes are the same for any number.
 
     An ocean owns plans and buffers, and locks them while it computes: threads may share one, but only one of them works at a
-    time; give each its own to work in parallel.
+    time; give each its own to work in parallel. A fork waits for what other threads have begun (see `forks`), and the child may
+    use the oceans that it got and make new ones.
 
     Raises:
         ParameterError: a value out of range, a sea whose spectrum is not finite and >= 0, or more memory than there is.
@@ -96,7 +98,8 @@ class Ocean:
                 stacklevel=2,
             )
         self.seed: int | None = seed  # checked where it is used, next
-        drawn = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
+        with no_fork():
+            drawn = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
         self._set_up(sea, drawn, choppiness, dtype, backend, planning, threads)
 
     @classmethod
@@ -146,7 +149,8 @@ class Ocean:
         self.dtype = dtype
         self._require_range()
         workers = THREADS.check_whole("threads", threads)
-        self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
+        with no_fork():
+            self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
         self._frequency = _frequencies(amplitudes, self._synthesis.columns)
         self._few_turns = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
         self._lock, self._pid = threading.Lock(), os.getpid()
@@ -332,7 +336,7 @@ class Ocean:
     def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
         fields = named(fields)
         arrays = self._outputs(fields, out)
-        with self._locked():
+        with no_fork(), self._locked():
             self._synthesis.run(turn, arrays, self.choppiness)
         frame = Frame(t, self.grid, self.choppiness, arrays)
         if out is not None:

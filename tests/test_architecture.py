@@ -11,7 +11,7 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
 FLOORS = {
-    0: ["constants", "errors", "host", "arrays", "limits"],
+    0: ["constants", "errors", "host", "forks", "arrays", "limits"],
     1: ["physics", "grid", "noise"],
     2: ["amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
@@ -44,8 +44,8 @@ STAIRS = [
 ]
 STEP = {module: (stair, step) for stair, steps in enumerate(STAIRS) for step, modules in enumerate(steps) for module in modules}
 
-ONLY = {room: {"arrays", "errors"} for room in ("kernels", "export")}  # bare arrays in, bare arrays out
-ONLY |= {"wisdom": {"errors", "host"}, "transforms": {"arrays", "errors", "wisdom"}}
+ONLY = {room: {"arrays", "errors", "forks"} for room in ("kernels", "export")}  # bare arrays in, bare arrays out
+ONLY |= {"wisdom": {"errors", "host"}, "transforms": {"arrays", "errors", "forks", "wisdom"}}
 NEVER = {
     "gerstner": {"fields", "transforms", "synthesis", "ocean", "kernels", "amplitudes"}
 }  # a check must not share code with the checked

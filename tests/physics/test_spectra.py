@@ -461,7 +461,7 @@ def test_the_peak_adds_what_the_quadrature_says(gamma):
 @pytest.mark.parametrize(("speed", "shortest"), [(14.0, 100.0 * 14.0**2 / 9.80665), (7.0, 100.0 * 7.0**2 / 9.80665)])
 def test_a_very_short_fetch_is_warned_of_with_its_unit(speed, shortest):
     """Below g F/U^2 = 100, as of 200 km written as 200; a preset, whose fetch is sought from 1 m on, warns of none."""
-    words = r"is very short .* \(%s m\) on; fetch is in metres: 200 km is 200e3" % f"{shortest:.4g}"
+    words = rf"is very short .* \({shortest:.4g} m\) on; fetch is in metres: 200 km is 200e3"
     for make in (JONSWAP.from_wind, Sea.from_wind):
         with pytest.warns(SeaWarning, match=words):
             make(speed=speed, fetch=0.999 * shortest)
