@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import CosinePower as CosinePower
     from fftocean.physics.spreading import CosineSquared as CosineSquared
     from fftocean.physics.spreading import DonelanBanner as DonelanBanner
+    from fftocean.physics.spreading import LongCrested as LongCrested
     from fftocean.physics.spreading_laws import CosineN as CosineN
     from fftocean.physics.spreading_laws import CustomSpreading as CustomSpreading
     from fftocean.physics.spreading_laws import GodaSuzuki as GodaSuzuki
@@ -104,7 +105,7 @@ _ROOMS = {
     "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
     "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
-    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner"),
+    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner", "LongCrested"),
     "fftocean.physics.spreading_laws": (
         "CosineN",
         "CustomSpreading",

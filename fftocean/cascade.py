@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.amplitudes import WHOLE, Band, Draw, Modes, seed_amplitudes
+from fftocean.amplitudes import Draw, Modes, seed_amplitudes
 from fftocean.arrays import precision_of, require_memory
+from fftocean.cells import WHOLE, Band
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid

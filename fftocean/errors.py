@@ -73,3 +73,8 @@ def described(value: object) -> str:
     if text.startswith((f"{kind}(", f"<{kind}")):
         return text if len(text) <= 60 else f"{text[:57]}..."
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
+def how_to_install(extra: str) -> str:
+    """Return how to install an optional part of the package, which comes from a checkout."""
+    return f"in a checkout of fftocean, pip install '.[{extra}]'"

@@ -14,7 +14,7 @@ from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
 from fftocean.errors import ParameterError
-from fftocean.gerstner.wavefields import Waves
+from fftocean.gerstner.waves import Waves
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME
 from fftocean.ocean import Ocean

@@ -10,8 +10,8 @@ keeps its roughness (LEAN mapping: Olano & Baker 2010). Over any level
 
 import numpy as np
 
-from fftocean.amplitudes import wavenumber_density
 from fftocean.arrays import Real
+from fftocean.cells import Cells
 from fftocean.grid import Grid
 from fftocean.kernels import mips as kernel
 from fftocean.ocean import Ocean
@@ -86,22 +86,18 @@ def beyond(sea: Sea, grid: Grid, shortest: float) -> Real:
     highest = 2.0 * np.pi / shortest
     reach_x, reach_y = grid.reach
     total = np.zeros(3)
-    for system in sea.systems:
-        # the system's own direction among them, so that the narrowest swell is hit
-        theta = np.radians(system.direction % 360.0) + np.arange(_RAYS) * (2.0 * np.pi / _RAYS)
-        cosine, sine = np.cos(theta), np.sin(theta)
-        with np.errstate(divide="ignore"):  # along an axis the other edge is never met
-            edge = np.minimum((reach_x + 0.5) * grid.dkx / np.abs(cosine), (reach_y + 0.5) * grid.dky / np.abs(sine))
+    for part, theta, weight, edge in Cells(sea, grid.dkx, grid.dky).rays((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky):
         octaves = np.log(np.maximum(highest / edge, 1.0))
-        k = edge * np.exp(octaves * np.linspace(0.0, 1.0, _STEPS + 1)[:, None])
-        weight = np.array([1.0, *[4.0, 2.0] * (_STEPS // 2 - 1), 4.0, 1.0])[:, None] * octaves / (3.0 * _STEPS)
-        # k^2 S(k) k dk = k^4 S(k) d ln k
-        rough = np.sum(weight * k**4 * wavenumber_density(sea, system, k * cosine, k * sine), axis=0) * (2.0 * np.pi / _RAYS)
+        k = edge[:, None] * np.exp(octaves[:, None] * np.linspace(0.0, 1.0, _STEPS + 1))
+        steps = np.array([1.0, *[4.0, 2.0] * (_STEPS // 2 - 1), 4.0, 1.0]) * octaves[:, None] / (3.0 * _STEPS)
+        # k^2 dk = k^3 d ln k
+        rough = part.share * weight * np.sum(steps * k**3 * part.density(k, theta[:, None]), axis=1)
+        cosine, sine = np.cos(theta), np.sin(theta)
         total += [np.sum(rough * cosine**2), np.sum(rough * cosine * sine), np.sum(rough * sine**2)]
     return total
 
 
-_RAYS, _STEPS = 720, 64
+_STEPS = 64
 
 
 def _chain(texels: Real) -> list[Real]:

@@ -13,6 +13,8 @@ from fftocean.arrays import Complex, Integer, Real
 Words = npt.NDArray[np.uint64]
 _LOW = np.uint64(0xFFFFFFFF)
 _HALF = np.uint64(32)
+_ELEVEN = np.uint64(11)
+_BLOCK = 2**13  # waves at a time: what stays in cache
 
 
 def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
@@ -35,12 +37,15 @@ def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> 
 
 def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
     """Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1)."""
-    zero = np.zeros(np.shape(mx), dtype=np.uint64)
-    counter = (np.asarray(mx).astype(np.uint64) & _LOW, np.asarray(my).astype(np.uint64) & _LOW, zero, zero)
-    a, b, c, d = philox(counter, (seed & 0xFFFFFFFF, seed >> 32))
-    scale, eleven = 2.0**-53, np.uint64(11)
-    first = ((((a << _HALF) | b) >> eleven).astype(np.float64) + 1.0) * scale
-    second = (((c << _HALF) | d) >> eleven).astype(np.float64) * scale
+    mx, my = np.broadcast_arrays(mx, my)
+    first, second = np.empty(mx.shape), np.empty(mx.shape)
+    waves = mx.ravel(), my.ravel()
+    for start in range(0, mx.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        x, y = (m[block].astype(np.uint64) & _LOW for m in waves)
+        a, b, c, d = philox((x, y, np.zeros_like(x), np.zeros_like(x)), (seed & 0xFFFFFFFF, seed >> 32))
+        first.reshape(-1)[block] = ((((a << _HALF) | b) >> _ELEVEN).astype(np.float64) + 1.0) * 2.0**-53
+        second.reshape(-1)[block] = (((c << _HALF) | d) >> _ELEVEN).astype(np.float64) * 2.0**-53
     return first, second
 
 

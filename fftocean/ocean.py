@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fftocean.amplitudes import WHOLE, Amplitudes, Band, Draw, Modes, place_modes, seed_amplitudes
+from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike, precision_of, require_memory
+from fftocean.cells import WHOLE, Band
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.forks import no_fork

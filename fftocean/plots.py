@@ -17,10 +17,12 @@ import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.bake.files import write_whole
+from fftocean.cells import Cells
 from fftocean.constants import GRAVITY
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, how_to_install
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
+from fftocean.physics.panels import gauss, split
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, TabulatedSpectrum
 from fftocean.statistics import Statistics, measure, ordered
@@ -176,7 +178,8 @@ def style() -> AbstractContextManager[None]:
     try:
         from matplotlib import style
     except ImportError as error:
-        raise ParameterError(f"plots need matplotlib: pip install 'fftocean[plot]' ({error})") from error
+        hint = how_to_install("plot")
+        raise ParameterError(f"plots need matplotlib: {hint} ({error})") from error
     context: AbstractContextManager[None] = style.context(["default", _STYLE])
     return context
 
@@ -312,12 +315,22 @@ def _polar_spectrum(sea: Sea, highest: float, rings: int = 160, sectors: int = 2
         Edges of the cells in frequency, (rings + 1,) [Hz], and in direction, (sectors + 1,) [rad], counter-clockwise from +x,
         and the density, (rings, sectors) [m^2/Hz/degree].
     """
-    parts_f, parts_theta = 3, 10
+    parts_f = 3
     frequency, theta = np.linspace(0.0, highest, rings + 1), np.linspace(0.0, 2.0 * math.pi, sectors + 1)
     omega = (np.arange(rings * parts_f) + 0.5) * (2.0 * math.pi * highest / (rings * parts_f))
-    around = (np.arange(sectors * parts_theta) + 0.5) * (2.0 * math.pi / (sectors * parts_theta))
-    fine = sea.density(omega[:, None], around[None, :]) * (2.0 * math.pi * math.pi / 180.0)
-    return frequency, theta, fine.reshape(rings, parts_f, sectors, parts_theta).mean(axis=(1, 3))
+    density = np.zeros((rings * parts_f, sectors))
+    for part in Cells(sea, 1.0, 1.0).parts:
+        spectrum = part.share * part.system.spectrum(omega)
+        if part.long_crested:
+            density[:, int(part.direction / (2.0 * math.pi) * sectors) % sectors] += spectrum
+            continue
+        sector, low, high = split(theta[:-1], theta[1:], part.theta)
+        around, weight = gauss(low, high, 4)
+        spread = part.system.spreading(omega[:, None], around.ravel() - part.direction, part.system.spectrum.peak) * weight.ravel()
+        pieces = spectrum[:, None] * np.sum(spread.reshape(omega.size, *weight.shape), axis=2)
+        density += np.add.reduceat(pieces, np.searchsorted(sector, np.arange(sectors)), axis=1)
+    density *= 2.0 * math.pi * math.pi / 180.0 / (2.0 * math.pi / sectors)
+    return frequency, theta, density.reshape(rings, parts_f, sectors).mean(axis=1)
 
 
 _ALL_ROUND = 79.0  # [degrees]: the mean of all directions is then shorter than 0.05, and its own direction means little

@@ -16,7 +16,7 @@ from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
 from fftocean.errors import FieldError, ParameterError
 from fftocean.fields import potential_factor
-from fftocean.gerstner.wavefields import Waves
+from fftocean.gerstner.waves import Waves
 from fftocean.kernels import interpolate, surface
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME, Quantity

@@ -23,7 +23,7 @@ import numpy as np
 from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
 from fftocean.bake.files import write_whole
-from fftocean.errors import OutputError, ParameterError, SeaWarning, described
+from fftocean.errors import OutputError, ParameterError, SeaWarning, described, how_to_install
 from fftocean.fields import FIELDS
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
@@ -385,4 +385,5 @@ def _require(name: str) -> Any:
         return importlib.import_module(name)
     except ImportError as error:
         package = name.partition(".")[0]
-        raise ParameterError(f"{package} must be installed for labelled data: pip install 'fftocean[science]' ({error})") from error
+        hint = how_to_install("science")
+        raise ParameterError(f"{package} must be installed for labelled data: {hint} ({error})") from error

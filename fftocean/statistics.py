@@ -5,16 +5,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.amplitudes import WHOLE, Amplitudes, Band
+from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
+from fftocean.cells import WHOLE, Band, Cells
 from fftocean.errors import ParameterError, described
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate
 from fftocean.limits import FRAMES, LOOP
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
-from fftocean.physics.sea import Sea, WaveSystem
+from fftocean.physics.panels import direction_panels, energetic_frequencies, frequency_panels, gauss, parts_of
+from fftocean.physics.sea import Sea
+from fftocean.physics.spreading import LongCrested
 from fftocean.products import Folding, folding_of
 
 
@@ -179,68 +182,40 @@ def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float
     Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest; or what lies beside its band.
 
     The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every direction the sea's energy is
-    summed along omega up to the edges of the two rectangles: another way round than the sum over cells, which it checks.
+    summed along |k| up to the edges of the two rectangles, without cells.
     """
     reach_x, reach_y = grid.reach
-    below = inside = 0.0
-    for system in sea.systems:
-        theta = _directions(system)
-        nearest = dispersion.angular_frequency(
-            np.maximum(_edge(theta, 0.5 * grid.dkx, 0.5 * grid.dky), band[0]), sea.depth, sea.surface_tension
-        )
-        farthest = dispersion.angular_frequency(
-            np.minimum(_edge(theta, (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky), band[1]), sea.depth, sea.surface_tension
-        )
-        omega = _frequencies(system, float(np.max(farthest)))
-        density = _shared_out(system, omega, theta)
-        steps = 0.5 * (density[1:] + density[:-1]) * np.diff(omega)[:, None]
-        running = np.concatenate([np.zeros((1, theta.size)), np.cumsum(steps, axis=0)])
-        weight = 2.0 * np.pi / _DIRECTIONS
-        below += weight * sum(float(np.interp(nearest[i], omega, running[:, i])) for i in range(theta.size))
-        inside += weight * sum(float(np.interp(farthest[i], omega, running[:, i])) for i in range(theta.size))
-    return below, max(sea.variance - inside, 0.0)
-
-
-_DIRECTIONS = 720
-
-
-def _edge(theta: Real, half_x: float, half_y: float) -> Real:
-    """Distance from the centre of a rectangle to its edge in direction theta."""
-    with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
-        return np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
-
-
-def _frequencies(system: WaveSystem, highest: float) -> Real:
-    """Frequencies on which to integrate a system [rad/s], up to `highest` at least."""
-    breaks = getattr(system.spectrum, "breaks", ())
-    omega = moments.spectral_grid([system.spectrum.peak], breaks, 1000)
-    if highest > omega[-1]:
-        omega = np.concatenate([omega, np.geomspace(omega[-1], highest, 400)[1:]])
-    return omega
-
-
-def _directions(system: WaveSystem) -> Real:
-    """Directions all round [rad], one of them the system's own, so that even the narrowest swell is hit."""
-    return math.radians(system.direction % 360.0) + np.arange(_DIRECTIONS) * (2.0 * np.pi / _DIRECTIONS)
-
-
-def _shared_out(system: WaveSystem, omega: Real, theta: Real) -> Real:
-    """S(omega) D(omega, theta) on a grid, (omega, theta), D summing to 1 on these directions too: narrower ones would alias."""
-    density = system.density(omega[:, None], theta[None, :])
-    along = np.sum(density, axis=1, keepdims=True) * (2.0 * np.pi / _DIRECTIONS)
-    shared: Real = density * np.divide(system.spectrum(omega)[:, None], along, out=np.zeros_like(along), where=along > 0.0)
-    return shared
+    cells = Cells(sea, grid.dkx, grid.dky)
+    inner, outer = (0.5 * grid.dkx, 0.5 * grid.dky), ((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky)
+    # what lies below: all up to the lower edge of the band, and what the inner rectangle has of the band
+    below = cells.inside(*outer, (0.0, band[0])) + cells.inside(*inner, band)
+    return below, max(sea.variance - cells.inside(*outer, (0.0, band[1])), 0.0)
 
 
 def _polar(sea: Sea) -> tuple[Real, Real]:
-    """The sea's variance by direction, with the directions; two arrays of one shape."""
+    """Return the sea's variance by direction, with the directions [rad]; two arrays of one shape."""
     variance: list[Real] = [np.zeros(0)]
     theta: list[Real] = [np.zeros(0)]
-    for system in sea.systems:
-        omega, around = _frequencies(system, 0.0), _directions(system)
-        cells = _shared_out(system, omega, around) * np.gradient(omega)[:, None]
-        variance.append(np.sum(cells, axis=0))
-        theta.append(around)
+    around: Real
+    weight: Real
+    along: Real
+    for whole in sea.systems:
+        for share, system in parts_of(whole):
+            direction = math.radians(system.direction % 360.0)
+            edges = frequency_panels(system).edges
+            if isinstance(system.spreading, LongCrested):
+                around, weight = np.zeros(1), np.ones(1)
+                along = np.array([np.sum(energetic_frequencies(system, edges)[1])])
+            else:
+                panels = direction_panels(system, energetic_frequencies(system, edges)[0]).edges
+                around, weight = (a.ravel() for a in gauss(panels[:-1], panels[1:]))
+                omega, d_omega = (a.ravel() for a in gauss(edges[:-1], edges[1:]))
+                energy = system.spectrum(omega) * d_omega
+                some = energy > 1e-12 * np.max(energy, initial=0.0)
+                spread = system.spreading(omega[some][:, None], around, float(system.spectrum.peak))
+                along = np.sum(energy[some][:, None] * spread, axis=0)
+            variance.append(share * along * weight)
+            theta.append(around + direction)
     return np.concatenate(variance), np.concatenate(theta)
 
 

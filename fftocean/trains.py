@@ -13,7 +13,7 @@ from fftocean.arrays import Integer, Real, RealLike, brief_repr
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError, described
 from fftocean.fields import potential_factor
-from fftocean.gerstner.wavefields import Waves
+from fftocean.gerstner.waves import Waves
 from fftocean.kernels import passes
 from fftocean.limits import CHOPPINESS, DEPTH
 from fftocean.ocean import Ocean

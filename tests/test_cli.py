@@ -46,7 +46,12 @@ def place(tmp_path, monkeypatch):
 def quick(monkeypatch):
     """No picture and no integrals over the sea, which take most of the time of a small bake; test_baker.py has them."""
     monkeypatch.setattr(baker, "measure", lambda ocean: some_statistics(0.0 if ocean.amplitudes.variance == 0.0 else 0.1))
-    monkeypatch.setattr(preview, "contact_sheet", lambda *_: b"picture")
+    no_pictures(monkeypatch)
+
+
+def no_pictures(monkeypatch, size=7):
+    monkeypatch.setattr(preview, "contact_sheet", lambda *_, **__: bytes(size))
+    monkeypatch.setattr(preview, "animation", lambda *_, **__: bytes(size))
 
 
 @functools.cache
@@ -379,7 +384,7 @@ def test_a_bar_where_there_is_one(quiet, monkeypatch, capsys):
 
 def test_no_wind_bakes_an_exactly_flat_sea_and_says_so(run, monkeypatch):
     """All heights 0, all normals up, by the whole way: only the picture is left out."""
-    monkeypatch.setattr(preview, "contact_sheet", lambda *_: b"picture")
+    no_pictures(monkeypatch)
     code, out, err = run("bake", "-o", "out", *SMALL, "--set", "sea.wind.speed=0", "--maps", "height,normal")
     assert code == 0
     assert "wind speed 0 m/s raises no waves: the sea is exactly flat\n" in err
@@ -730,7 +735,7 @@ def test_workers_and_downsample_are_whole_numbers(run, number):
 
 def test_a_dry_run_writes_nothing_and_foretells_the_files(run, monkeypatch):
     """Their number to one, their bytes to a fifth: frames of a sea are much alike."""
-    monkeypatch.setattr(preview, "contact_sheet", lambda *_: bytes(700_000))
+    no_pictures(monkeypatch, 700_000)
     flags = ("--n", "64", "--frames", "6", "--maps", "height,normal")
     code, out, err = run("bake", "-o", "out", *flags, "--dry-run")
     assert (code, err) == (0, "")

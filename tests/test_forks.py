@@ -128,5 +128,7 @@ print(codes)
 
 def test_a_child_makes_oceans_though_other_threads_were_making_some():
     """Two of eleven such forks hung while plans were made and destroyed; each child ends itself by an alarm, and the script by a limit."""
-    ran = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=300, check=False)
+    ran = subprocess.run(
+        [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=300, check=False
+    )
     assert ran.stdout.strip() == str([0] * 20), ran.stderr[-2000:]

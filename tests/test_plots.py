@@ -433,7 +433,7 @@ def test_what_cannot_be_drawn_is_refused(crossed, tmp_path):
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(fo.ParameterError, match=r"plots need matplotlib: pip install 'fftocean\[plot\]'"):
+    with pytest.raises(fo.ParameterError, match=r"plots need matplotlib: in a checkout of fftocean, pip install '\.\[plot\]'"):
         plots.plot_spectrum(CROSSED)
 
 

@@ -52,7 +52,7 @@ def test_every_test_that_the_errata_name_is_there():
     named = re.findall(r"`(?:(tests/[\w/]+\.py)::)?(test_\w+)`", text)
     assert len(named) > 30
     for file, name in named:
-        source = (ROOT / (file or "tests/gerstner/test_wavefields.py")).read_text(encoding="utf-8")
+        source = (ROOT / (file or "tests/gerstner/test_few_waves.py")).read_text(encoding="utf-8")
         assert f"def {name}(" in source, f"{file}::{name}"
     rows = [
         line

@@ -398,7 +398,8 @@ def test_a_missing_package_is_named_with_the_extra(package, tmp_path, monkeypatc
         "h5netcdf": lambda: science.write(data, tmp_path / "a.nc"),
         "zarr": lambda: science.write(data, tmp_path / "a.zarr"),
     }
-    with pytest.raises(ParameterError, match=rf"{package} must be installed for labelled data: pip install 'fftocean\[science\]'"):
+    hint = r"in a checkout of fftocean, pip install '\.\[science\]'"
+    with pytest.raises(ParameterError, match=rf"{package} must be installed for labelled data: {hint}"):
         needs[package]()
     assert not list(tmp_path.iterdir())
 

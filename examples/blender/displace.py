@@ -1,27 +1,68 @@
 """
 An animated sea in Blender from a bake, and a check that its vertices are where the water is.
 
-Blender's Displace modifier moves a grid by the displacement maps, as an image sequence that loops. Blender is a Python module of
-its own version and with its own numpy, so it has an environment to itself:
+Blender's Displace modifier moves a grid by the displacement maps, as an image sequence that loops.
+The scene has a lit, smooth-shaded material, a sun, a sky and a camera. Blender is a Python module
+of its own version and with its own numpy, so it has an environment to itself:
 
     python3.11 -m venv blender-env && blender-env/bin/pip install bpy==5.0.1 "numpy<2"
     fftocean bake sea.toml -o sea --engine blender --maps displacement
     blender-env/bin/python examples/blender/displace.py sea --save sea.blend
 
-With `--expected FILE.npy`, (frames, ny, nx, 3) of displacements in metres by any other way, it says how far the vertices are from them.
+With `--expected FILE.npy`, (frames, ny, nx, 3) of displacements in metres by any other way, it says
+how far the vertices are from them. A bake that this script does not understand is refused, with the
+flag that makes one that it does.
 """
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 
-import bpy
-import numpy as np
+FORMATS = ("exr", "exr-float")
+SAMPLES = "u = X / size_x + 0.5 / nx, v = Y / size_y + 0.5 / ny, repeated"  # what `sea_mesh` does
+
+
+def read_bake(folder):
+    """Return the manifest of a bake that this script understands; leave with the reason if it does not."""
+    try:
+        manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        sys.exit(f"{folder} must be a finished bake with its manifest.json: {error}")
+    try:
+        conventions, job = manifest["conventions"], manifest["job"]
+        axes, samples = conventions["axes"], conventions["samples"]
+        maps, subset, rows = manifest["maps"], manifest["subset"], manifest["frames"]
+        tool, count = manifest["tool"], job["bake.frames"]
+        manifest["ocean"]["n"], manifest["ocean"]["size"], manifest["ocean"]["loop"]
+    except (KeyError, TypeError) as error:
+        sys.exit(f"{folder}/manifest.json must be a bake's of fftocean, and has no {error}")
+    if tool != "fftocean":
+        sys.exit(f"{folder}/manifest.json must be of fftocean, got {tool!r}")
+    if not axes.startswith("X east, Y north, Z up") or conventions["unit"] != "m":
+        sys.exit(f"{folder} is not in Blender's axes and metres ({axes}): bake with --engine blender")
+    if samples != SAMPLES:
+        sys.exit(f"{folder} must be sampled at {SAMPLES}, got {samples}: bake with --engine blender")
+    if "displacement" not in maps:
+        sys.exit(f"{folder} must have displacement maps, got {', '.join(maps)}: bake with --maps displacement")
+    if maps["displacement"]["format"] not in FORMATS:
+        got = maps["displacement"]["format"]
+        sys.exit(f"{folder} must have the format {' or '.join(FORMATS)}, got {got}: bake with --format exr")
+    if maps["displacement"]["unit"] != "m" or list(maps["displacement"]["channels"]) != ["R", "G", "B"]:
+        sys.exit(f"{folder} must have displacements in metres in R, G and B")
+    if subset != "all" or len(rows) != count:
+        sys.exit(f"{folder} must hold the whole loop, got frames {subset} of {count}: bake without start:stop:step")
+    if [row["frame"] for row in rows] != list(range(count)):
+        sys.exit(f"{folder} must hold frames 0 to {count - 1} in order")
+    return manifest
 
 
 def sea_mesh(n, size):
-    """A grid of nx times ny vertices, each with the middle of its texel as UV: x = i lx/nx belongs to u = (i + 0.5)/nx."""
+    """Return a grid of nx times ny vertices, each with the middle of its texel as UV."""
+    import bpy
+    import numpy as np
+
     (nx, ny), (lx, ly) = n, size
     i, j = np.meshgrid(np.arange(nx), np.arange(ny))
     still = np.stack([i * lx / nx, j * ly / ny, np.zeros_like(i, float)], axis=-1).reshape(-1, 3)
@@ -32,11 +73,14 @@ def sea_mesh(n, size):
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     mesh.uv_layers.new(name="texels").data.foreach_set("uv", uv[corners].astype(np.float32).reshape(-1))
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     return mesh
 
 
 def sequence_texture(files):
-    """The maps as they are: no colour space, no clamping, no filter between texels, repeated in space and in time."""
+    """Return the maps as they are: no colour space, no clamping, repeated in space and in time."""
+    import bpy
+
     image = bpy.data.images.load(str(files[0].resolve()))
     image.source = "SEQUENCE"
     image.colorspace_settings.name = "Non-Color"
@@ -48,38 +92,97 @@ def sequence_texture(files):
     texture.extension = "REPEAT"
     user = texture.image_user
     user.frame_start, user.frame_duration, user.use_cyclic, user.use_auto_refresh = 1, len(files), True, True
-    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, ours 0
+    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, ours 0: -1
     return texture
 
 
+def water_material():
+    """Return a dark, shiny dielectric, lit by the scene."""
+    import bpy
+
+    material = bpy.data.materials.new("water")
+    material.use_nodes = True
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (0.01, 0.05, 0.08, 1.0)
+    shader.inputs["Roughness"].default_value = 0.08
+    shader.inputs["IOR"].default_value = 1.333
+    return material
+
+
+def light_and_camera(size, height):
+    """Put a sun, a sky and a camera around a tile, [m]; `height` is that of its highest wave."""
+    import bpy
+    from mathutils import Vector
+
+    scene, (lx, ly) = bpy.context.scene, size
+    middle = Vector((0.5 * lx, 0.5 * ly, 0.0))
+    sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+    sun.data.energy, sun.rotation_euler = 3.0, (math.radians(65.0), 0.0, math.radians(20.0))
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (0.45, 0.6, 0.8, 1.0)
+    scene.world = world
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = middle + Vector((0.0, -0.9 * ly, 0.35 * ly + 2.0 * height))
+    camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
+    camera.data.clip_end = 10.0 * (lx + ly)
+    for thing in (sun, camera):
+        scene.collection.objects.link(thing)
+    scene.camera = camera
+
+
 def animated_sea(folder):
-    """The object with its modifier in an empty scene, and the manifest it was made from."""
-    manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
-    axes = manifest["conventions"]["axes"]
-    if not axes.startswith("X east, Y north, Z up") or "north" not in manifest["conventions"]["rows"]:
-        sys.exit(f"{folder} is not in Blender's frame ({axes}): bake with --engine blender")
+    """Return the object with its modifier in a scene of its own, and the manifest it was made from."""
+    manifest = read_bake(folder)
+    import bpy
+
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    sea = bpy.data.objects.new("sea", sea_mesh(manifest["ocean"]["n"], manifest["ocean"]["size"]))
-    bpy.context.scene.collection.objects.link(sea)
+    size = manifest["ocean"]["size"]
+    sea = bpy.data.objects.new("sea", sea_mesh(manifest["ocean"]["n"], size))
+    sea.data.materials.append(water_material())
+    scene = bpy.context.scene
+    scene.collection.objects.link(sea)
     modifier = sea.modifiers.new("waves", "DISPLACE")
     modifier.texture = sequence_texture([folder / row["files"]["displacement"]["path"] for row in manifest["frames"]])
     modifier.texture_coords, modifier.uv_layer = "UV", "texels"
     modifier.direction, modifier.mid_level, modifier.strength = "RGB_TO_XYZ", 0.0, 1.0
-    scene = bpy.context.scene
+    light_and_camera(size, manifest["extremes"]["max_height"])
     scene.frame_start, scene.frame_end = 1, len(manifest["frames"])
     frames_per_second = len(manifest["frames"]) / manifest["ocean"]["loop"]
-    scene.render.fps, scene.render.fps_base = max(1, round(frames_per_second)), max(1, round(frames_per_second)) / frames_per_second
+    scene.render.fps = max(1, round(frames_per_second))
+    scene.render.fps_base = scene.render.fps / frames_per_second
     return sea, manifest
 
 
 def vertices(sea, frame):
-    """Where the vertices are at a frame, counted from 0, (vertices, 3)."""
+    """Return where the vertices are at a frame, counted from 0, (vertices, 3)."""
+    import bpy
+    import numpy as np
+
     bpy.context.scene.frame_set(frame + 1)
     mesh = sea.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
     out = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", out)
     sea.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh_clear()
     return out.reshape(-1, 3)
+
+
+def report_distances(sea, manifest, path):
+    """Print how far the vertices are from displacements in a file."""
+    import numpy as np
+
+    still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
+    sea.data.vertices.foreach_get("co", still)
+    expected = np.load(path).reshape(len(manifest["frames"]), -1, 3).astype(np.float64)
+    apart = [np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e) for j, e in enumerate(expected)]
+    again = np.abs(vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0))  # one past the end is the beginning
+    height, width = np.max(np.abs(expected[..., 2])), np.max(np.hypot(expected[..., 0], expected[..., 1]))
+    step = np.spacing(np.abs(expected).astype(np.float16)).astype(np.float64)  # of a half: what a half map may be off by half of
+    print(f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, horizontal to {width:.3f} m")
+    print(f"largest distance along an axis: {np.max(apart):.3g} m")
+    print(f"beyond the half step that a half may be off: {max(0.0, np.max(apart - 0.5 * step)):.3g} m")
+    print(f"frame F against frame 0: {np.max(again):.3g} m")
 
 
 def main():
@@ -90,18 +193,10 @@ def main():
     options = parser.parse_args()
     sea, manifest = animated_sea(options.folder)
     if options.expected:
-        still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
-        sea.data.vertices.foreach_get("co", still)
-        expected = np.load(options.expected).reshape(len(manifest["frames"]), -1, 3).astype(np.float64)
-        apart = [np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e) for j, e in enumerate(expected)]
-        again = np.abs(vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0))  # one past the end is the beginning
-        height, width = np.max(np.abs(expected[..., 2])), np.max(np.hypot(expected[..., 0], expected[..., 1]))
-        step = np.spacing(np.abs(expected).astype(np.float16)).astype(np.float64)  # of a half: what a half map may be off by half of
-        print(f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, horizontal to {width:.3f} m")
-        print(f"largest distance along an axis: {np.max(apart):.3g} m")
-        print(f"beyond the half step that a half may be off: {max(0.0, np.max(apart - 0.5 * step)):.3g} m")
-        print(f"frame F against frame 0: {np.max(again):.3g} m")
+        report_distances(sea, manifest, options.expected)
     if options.save:
+        import bpy
+
         bpy.ops.wm.save_as_mainfile(filepath=str(options.save.resolve()))
 
 

@@ -1,29 +1,51 @@
-# Heights of a baked sea in Godot 4: `fftocean bake sea.toml -o sea --engine godot --maps height --format bin --lookup eulerian`
+# Heights of a baked sea in Godot 4:
+#     fftocean bake sea.toml -o sea --engine godot --maps height --format bin --lookup eulerian
 #     var sea := SeaHeights.new("res://sea/height.json")
 #     var y := sea.at(boat.position.x, boat.position.z, Time.get_ticks_msec() / 1000.0)
+# A sea that this reader does not understand leaves `error` set, and no heights.
 # In an export preset, list *.bin and *.json as files to include.
 class_name SeaHeights
 extends RefCounted
 
+const EXPECTED := { "schema": 1.0, "dtype": "float16, little-endian", "levels": 1.0, "lookup": "eulerian", "closes": true }
+
 var s: Dictionary
 var heights: PackedFloat32Array # [frame, row, column], metres
+var error := ""
 
 
 func _init(json: String) -> void:
-	s = JSON.parse_string(FileAccess.get_file_as_string(json))
+	var found: Variant = JSON.parse_string(FileAccess.get_file_as_string(json))
+	if not found is Dictionary:
+		return _refuse("%s must be a sidecar in JSON" % json)
+	s = found
+	for key: String in EXPECTED:
+		if s.get(key) != EXPECTED[key]:
+			return _refuse("%s must be %s, got %s" % [key, EXPECTED[key], s.get(key)])
+	if s["channels"]["R"] != "height":
+		return _refuse("R must be height, got %s" % s["channels"]["R"])
 	var bytes := FileAccess.get_file_as_bytes(json.get_base_dir().path_join(s["file"]))
-	heights.resize(int(s["frames"]) * int(s["rows"]) * int(s["columns"]))
-	assert(bytes.size() == 8 * heights.size(), "%s must have %d bytes" % [s["file"], 8 * heights.size()])
-	for i in heights.size():
+	var count := int(s["frames"]) * int(s["rows"]) * int(s["columns"])
+	if bytes.size() != 8 * count:
+		return _refuse("%s must have %d bytes, got %d" % [s["file"], 8 * count, bytes.size()])
+	heights.resize(count)
+	for i in count:
 		heights[i] = bytes.decode_half(8 * i) # R of RGBA
+
+
+func _refuse(why: String) -> void:
+	error = why
+	push_error(why)
 
 
 # Bilinear between samples, linear between frames; the sea repeats in x, z and t.
 func at(x: float, z: float, t: float) -> float:
+	if error:
+		return NAN
 	var frames := int(s["frames"])
 	var rows := int(s["rows"])
 	var columns := int(s["columns"])
-	var place := [t / s["loop"] * frames, s["row_origin"] + s["row_sign"] * z / s["size"][1] * rows, x / s["size"][0] * columns]
+	var place := [(t - s["start"]) / s["loop"] * frames, s["row_origin"] + s["row_sign"] * z / s["size"][1] * rows, x / s["size"][0] * columns]
 	var sum := 0.0
 	for corner in 8:
 		var weight := 1.0

@@ -1,11 +1,17 @@
-// Heights of a baked sea in JavaScript: `fftocean bake sea.toml -o sea --engine three --maps height --format bin --lookup eulerian`
+// Heights of a baked sea in JavaScript:
+//     fftocean bake sea.toml -o sea --engine three --maps height --format bin --lookup eulerian
 //     const json = await (await fetch('sea/height.json')).json();
 //     const sea = new SeaHeights(json, await (await fetch('sea/' + json.file)).arrayBuffer());
 //     const y = sea.at(boat.position.x, boat.position.z, clock.getElapsedTime());
-// The same bytes are a texture: new THREE.DataArrayTexture(new Uint16Array(buffer), columns, rows, frames), type HalfFloatType.
+// The same bytes are a texture: new THREE.DataArrayTexture(new Uint16Array(buffer), columns, rows,
+// frames), type HalfFloatType.
 
 export class SeaHeights {
   constructor(sidecar, buffer) {
+    const expected = { schema: 1, dtype: 'float16, little-endian', levels: 1, lookup: 'eulerian', closes: true };
+    for (const [key, value] of Object.entries(expected))
+      if (sidecar[key] !== value) throw new Error(`${key} must be ${value}, got ${sidecar[key]}`);
+    if (sidecar.channels.R !== 'height') throw new Error(`R must be height, got ${sidecar.channels.R}`);
     this.s = sidecar;
     const count = sidecar.frames * sidecar.rows * sidecar.columns;
     if (buffer.byteLength !== 8 * count) throw new Error(`${sidecar.file} must have ${8 * count} bytes, got ${buffer.byteLength}`);
@@ -15,8 +21,8 @@ export class SeaHeights {
 
   // Bilinear between samples, linear between frames; the sea repeats in x, z and t.
   at(x, z, t) {
-    const { frames, rows, columns, row_origin, row_sign, loop, size } = this.s;
-    const place = [(t / loop) * frames, row_origin + ((row_sign * z) / size[1]) * rows, (x / size[0]) * columns];
+    const { frames, rows, columns, row_origin, row_sign, loop, start, size } = this.s;
+    const place = [((t - start) / loop) * frames, row_origin + ((row_sign * z) / size[1]) * rows, (x / size[0]) * columns];
     let sum = 0;
     for (let corner = 0; corner < 8; corner++) {
       let weight = 1;

@@ -30,7 +30,8 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
-from fftocean.export import formats
+from fftocean.export import engines, formats
+from fftocean.export.profiles import Profile
 from fftocean.host import cores
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
@@ -138,14 +139,28 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
         maps.needed(job.maps, mips=job.mips, eulerian=job.lookup == "eulerian")
     except ParameterError as error:
         raise JobError(f"{job.source}: {error}") from None
+    require_usable(job)
     scene = Scene(job.downsampled(downsample))
     for name in scene.job.maps:
         shape = (frames, *scene.ocean.grid.shape, len(MAPS[name].names))
         try:
-            formats.require(scene.form.name, shape, scene.levels)
+            formats.require(scene.form.name, shape, scene.levels, gutter=scene.profile.gutter)
         except ParameterError as error:
             raise JobError(f"{job.source}: bake.format {scene.form.name!r} cannot hold the map {name!r}: {error}") from None
     return scene
+
+
+def require_usable(job: Job) -> Profile:
+    """
+    Return the conventions of a job's files; nothing is written before.
+
+    Raises:
+        JobError: the engine cannot use the format; the message names the format to choose.
+    """
+    try:
+        return engines.profile_for(job.engine, job.format, job.normals)
+    except ParameterError as error:
+        raise JobError(f"{job.source}: bake.engine and bake.format: {error}") from None
 
 
 def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[Entry]:

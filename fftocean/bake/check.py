@@ -285,7 +285,8 @@ def _half_step(contents: Contents, name: str) -> float:
 def _length_error(contents: Contents) -> float:
     """How far three components rounded to what is stored can take a unit normal from length 1, and as far again for its own rounding."""
     step = {"float16": 2.0**-12, "float32": 2.0**-22, "uint16": 1.0 / 65535.0}[contents.form.stored]
-    return 2.0 * float(np.sqrt(3.0)) * step
+    packed = contents.profile.normals == "packed"  # n = 2 c - 1 doubles what c was rounded by
+    return (4.0 if packed else 2.0) * float(np.sqrt(3.0)) * step
 
 
 def _weigh_crests(values: Real, contents: Contents, water: _Water) -> None:

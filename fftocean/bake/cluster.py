@@ -14,7 +14,7 @@ from typing import Any
 from fftocean.bake.executors import ATTEMPTS, ONE_THREAD
 from fftocean.bake.files import as_json
 from fftocean.bake.order import Entry, Order, Task
-from fftocean.errors import FFTOceanError, JobError, OutputError
+from fftocean.errors import FFTOceanError, JobError, OutputError, how_to_install
 
 PATIENCE = 10.0  # [s] for a scheduler to answer
 
@@ -27,7 +27,7 @@ def require_dask() -> None:
         JobError: it is not installed.
     """
     if util.find_spec("distributed") is None:
-        raise JobError("executor dask must have the extra 'dist' installed (pip install 'fftocean[dist]'), and has not")
+        raise JobError(f"executor 'dask' needs the package distributed: {how_to_install('dist')}")
 
 
 class Cluster:

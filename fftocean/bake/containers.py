@@ -9,12 +9,13 @@ from fftocean.bake import layout
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
+from fftocean.bake.manifest import extremes_over, played
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
 from fftocean.export import formats, profiles, recipes
 
-INSEPARABLE = ("exr-atlas",)
+INSEPARABLE = tuple(form.name for form in formats.FORMATS.values() if form.container and not form.container.separable)
 """Containers whose frames cannot be told apart once they are bent: their rows are compressed across all frames."""
 
 FREE = (".import",)
@@ -29,8 +30,9 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
         OutputError: a file cannot be written.
         IntegrityError: a part is not any more what it was when it was written.
     """
-    loop, whole = scene.job.settings["ocean.loop"], len(rows) == scene.job.frames
-    loop = loop if whole else loop * order.step * len(rows) / scene.job.frames  # what the frames that are there take to play
+    loop = played(order, scene, len(rows))
+    extremes = extremes_over(rows)
+    bounds = {"horizontal": extremes["max_horizontal"], "vertical": extremes["max_height"]}
     written: dict[str, list[dict[str, Any]]] = {}
     for name in scene.job.maps:
         m = MAPS[name]
@@ -41,10 +43,15 @@ def assemble(folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[st
             stem=name,
             shape=(len(rows), *scene.ocean.grid.shape, len(m.names)),
             profile=scene.profile,
+            kind=m.kind,
             names=profiles.meaning(scene.profile, m.kind, m.names),
             unit=profiles.unit_in(scene.profile, m.kind, m.unit),
             size=(scene.ocean.grid.lx, scene.ocean.grid.ly),
             loop=loop,
+            start=rows[0]["t"],
+            closes=rows[0]["frame"] + scene.job.frames - rows[-1]["frame"] == (order.step if len(rows) > 1 else scene.job.frames),
+            lookup=scene.job.lookup,
+            bounds=bounds,
             lo=low,
             hi=high,
             levels=scene.levels,
@@ -82,9 +89,8 @@ def still_says(contents: Contents, path: str, data: bytes) -> bool:
     """Whether a file is a sidecar that an engine may rewrite, and still says all that it was written with."""
     if not path.endswith(FREE):
         return False
-    across, down = formats.atlas(len(contents.frames), *contents.shape)
-    loop = contents.manifest["ocean"]["loop"]
-    written = recipes.beside(contents.profile, path.removesuffix(".import"), columns=across, rows=down, loop=loop).get(path, b"")
+    across, down = formats.atlas(len(contents.frames), *contents.shape, contents.profile.gutter)
+    written = recipes.godot_import(across, down)
     return set(written.split(b"\n")) <= set(data.replace(b"\r\n", b"\n").split(b"\n"))
 
 
@@ -109,4 +115,4 @@ def payloads_in(scene: Scene, name: str, data: bytes, count: int) -> list[bytes]
         IntegrityError: it is cut or bent.
     """
     shape = (count, *scene.ocean.grid.shape, len(MAPS[name].names))
-    return list(formats.payloads(scene.form.name, data, shape=shape, levels=scene.levels))
+    return formats.payloads(scene.form.name, data, shape=shape, levels=scene.levels, gutter=scene.profile.gutter)

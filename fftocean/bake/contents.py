@@ -14,8 +14,8 @@ from fftocean.bake.files import read_whole
 from fftocean.bake.job import Job
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import frames_of
-from fftocean.errors import IntegrityError, JobError
-from fftocean.export import formats, profiles
+from fftocean.errors import IntegrityError, JobError, ParameterError
+from fftocean.export import engines, formats, profiles
 from fftocean.export.formats import Format
 from fftocean.export.profiles import Profile
 
@@ -48,10 +48,12 @@ class Contents:
             form = formats.FORMATS[job.format]
             n = job.settings["ocean.n"]
             columns, rows = n if isinstance(n, tuple) else (n, n)
-            found = cls(folder, manifest, job, frames, form, profiles.profile_for(job.engine, raw=form.raw), (rows, columns))
+            profile = engines.profile_for(job.engine, job.format, job.normals)
+            profile = profiles.recorded(profile, manifest["conventions"])
+            found = cls(folder, manifest, job, frames, form, profile, (rows, columns))
             found._require_consistent()
-        except (JobError, KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-            what = f"{error}" if isinstance(error, JobError) else f"{type(error).__name__} {error}"
+        except (ParameterError, KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+            what = f"{error}" if isinstance(error, ParameterError) else f"{type(error).__name__} {error}"
             raise IntegrityError(f"{folder / layout.MANIFEST_FILE} does not say what a bake's does: {what:.200}") from None
         return found
 
@@ -128,7 +130,7 @@ class Contents:
             IntegrityError: it is missing, or so cut or bent that its frames cannot be told apart.
         """
         shape = (len(self.frames), *self.shape, len(MAPS[name].names))
-        return formats.payloads(self.form.name, data, shape=shape, levels=self.levels(name))
+        return formats.payloads(self.form.name, data, shape=shape, levels=self.levels(name), gutter=self.profile.gutter)
 
     def read(self, path: str) -> bytes | None:
         """A file of the folder; None where there is none of that name, or a link on the way to it."""

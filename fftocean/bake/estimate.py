@@ -11,6 +11,7 @@ from fftocean.bake.job import Job
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import frames_of
 from fftocean.export import formats
+from fftocean.export.profiles import range_of_normals
 from fftocean.ocean import memory_needed
 
 
@@ -70,7 +71,7 @@ def _bytes_of(scene: Scene, j: int) -> int:
     for name, levels in scene.pictures(scene.frame(j), foam):
         low, high = (min(float(p.min()) for p in levels), max(float(p.max()) for p in levels)) if scene.form.scaled else (None, None)
         if MAPS[name].kind == "normal":
-            low, high = -1.0, 1.0
+            low, high = range_of_normals(scene.profile)
         stored = scene.stored(levels)
         total += len(formats.encode(scene.form.name, stored[0], lo=low, hi=high, levels=stored[1:]))
     return total

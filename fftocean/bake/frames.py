@@ -20,7 +20,7 @@ from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, Task
 from fftocean.errors import OutputError
 from fftocean.eulerian import Eulerian
-from fftocean.export import exr, formats, profiles
+from fftocean.export import engines, exr, formats, profiles
 from fftocean.foam import Foam
 from fftocean.frame import EulerianFrame, Frame
 from fftocean.kernels import half
@@ -39,7 +39,7 @@ class Scene:
         self.job = job
         self.ocean: Ocean = job.ocean()
         self.form = formats.FORMATS[job.format]
-        self.profile = profiles.profile_for(job.engine, raw=self.form.raw)
+        self.profile = engines.profile_for(job.engine, job.format, job.normals)
         self.foam = Foam(**job.foam)
         self._eulerian = Eulerian(self.ocean) if job.lookup == "eulerian" else None
         self._unresolved = maps.unresolved(self.ocean) if job.mips or "slope_covariance" in job.maps else None

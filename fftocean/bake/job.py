@@ -204,6 +204,11 @@ class Job:
         return str(self.settings["bake.lookup"])
 
     @property
+    def normals(self) -> str:
+        """Encoding of normal maps: signed, packed, or what the engine's stock materials read."""
+        return str(self.settings["bake.normals"])
+
+    @property
     def mips(self) -> bool:
         """Whether smaller levels are written too."""
         return bool(self.settings["bake.mips"])

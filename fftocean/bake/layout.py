@@ -27,7 +27,7 @@ def frame_file(form: Format, name: str, frame: int, place: int) -> str:
     """
     if form.scope == "sequence":
         return f"{WORK_FOLDER}/{name}/{frame:04d}.part"
-    return form.file.format(stem=name, frame=place if form.name == "zarr" else frame)
+    return form.file.format(stem=name, frame=place if form.numbered == "place" else frame)
 
 
 def container(form: Format, name: str) -> str:

@@ -11,7 +11,7 @@ from fftocean.bake.frames import Scene
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
-from fftocean.export import profiles
+from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics
@@ -57,6 +57,7 @@ def compose(
             "range": [min(low for low, _ in ranges), max(high for _, high in ranges)],
             "channel_ranges": ranges,
             **({} if low is None else {"scaled": {"low": low, "high": high}}),
+            "world": rules.world(scene.profile, m.kind),
             "shape": [*shape, len(m.names)],
             "levels": scene.levels,
         }
@@ -64,7 +65,8 @@ def compose(
         **order.header,
         "ocean": _tile(scene.ocean),
         "statistics": plain(statistics),  # ordered beside delivered
-        "conventions": {**scene.profile.describe(raw=scene.form.raw), "lookup": _LOOKUP[job.lookup]},
+        "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
+        "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
         "blend": dict(blend),
         "extremes": {"unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1"}, **extremes_over(rows)},
         "maps": entries,
@@ -73,6 +75,18 @@ def compose(
         "frames": list(rows),
     }
     return checked(manifest)
+
+
+def _numbers(order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The numbers that the sampling rules name."""
+    grid, count = scene.ocean.grid, len(rows)
+    return rules.numbers(scene.profile, (grid.lx, grid.ly), (grid.nx, grid.ny), count, played(order, scene, count), rows[0]["t"])
+
+
+def played(order: Order, scene: Scene, count: int) -> float:
+    """How long the frames that are there take to play through [s]."""
+    loop: float = scene.job.settings["ocean.loop"]
+    return loop if count == scene.job.frames else loop * order.step * count / scene.job.frames
 
 
 _LOOKUP = {
@@ -94,7 +108,7 @@ def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
     return [[min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)] for c in range(len(ranges[0]))]
 
 
-def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """The extremes of the whole sequence; `largest_choppiness` is that at which nothing folds, None where any is."""
     limits = [c for row in rows if (c := row["extremes"]["largest_choppiness"]) is not None]
     return {

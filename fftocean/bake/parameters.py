@@ -116,8 +116,15 @@ OUTPUT = (
         choices=("lagrangian", "eulerian"),
         flag="lookup",
     ),
+    Parameter(
+        "bake.normals",
+        "engine",
+        "of normal maps: signed, -1 to 1, or packed, 0 to 1; engine: as its stock materials read",
+        choices=("engine", "signed", "packed"),
+        flag="normals",
+    ),
     Parameter("bake.mips", False, "smaller levels of each map too; with the format ktx2", switch=True, flag="mips"),
-    Parameter("bake.pictures", ("sheet",), "what to look at beside the maps", choices=PICTURES, many=True, none=True),
+    Parameter("bake.pictures", ("sheet", "animation"), "pictures to look at, beside the maps", choices=PICTURES, many=True, none=True),
 )
 FOAM = (
     Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", limits.FOAM_TAU),

@@ -15,6 +15,7 @@ from fftocean.bake.frames import Scene
 from fftocean.bake.ledger import Ledger
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, Task, tasks_of
+from fftocean.export.profiles import range_of_normals
 
 
 def recalled(order: Order, ledger: Ledger) -> Order:
@@ -53,7 +54,7 @@ def _foam(crew: Crew, order: Order, scene: Scene, ledger: Ledger) -> None:
 
 
 def _ranges(crew: Crew, order: Order, scene: Scene, ledger: Ledger) -> dict[str, list[float]]:
-    """The least and greatest value of each map over the whole loop, whichever of its frames are baked; a normal's are -1 and 1."""
+    """The least and greatest value of each map over the whole loop, whichever of its frames are baked; a normal's are fixed."""
     seen = {part["frame"]: part["maps"] for part in ledger.claimed("range")}
     count, names = scene.job.frames, scene.job.maps
     measured = [name for name in names if MAPS[name].kind != "normal"]
@@ -62,7 +63,7 @@ def _ranges(crew: Crew, order: Order, scene: Scene, ledger: Ledger) -> dict[str,
         for entry in _surveyed(crew, order, tasks, ledger, "range", count, len(seen)):
             seen[entry["range"]["frame"]] = entry["range"]["maps"]
     ranges = {name: [min(maps[name][0] for maps in seen.values()), max(maps[name][1] for maps in seen.values())] for name in measured}
-    ranges |= {name: [-1.0, 1.0] for name in names if name not in measured}
+    ranges |= {name: list(range_of_normals(scene.profile)) for name in names if name not in measured}
     ledger.add({"ranges": ranges})
     return ranges
 

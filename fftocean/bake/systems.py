@@ -23,7 +23,7 @@ from fftocean.physics import presets
 from fftocean.physics.double_peaked import Bretschneider, OchiHubble, Torsethaugen
 from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, PiersonMoskowitz, TabulatedSpectrum
-from fftocean.physics.spreading import Blend, CosinePower, CosineSquared, DonelanBanner, Spreading
+from fftocean.physics.spreading import Blend, CosinePower, CosineSquared, DonelanBanner, LongCrested, Spreading
 from fftocean.physics.spreading_laws import CosineN, Hasselmann, Mitsuyasu, SwellElongation, WrappedNormal
 from fftocean.physics.wind_wavenumber import Elfouhaily, Phillips
 
@@ -45,6 +45,7 @@ SPREADINGS: dict[str, tuple[Rules, Callable[..., Spreading]]] = {
     "donelan-banner": ({}, DonelanBanner),
     "mitsuyasu": ({"speed": WIND_SPEED}, Mitsuyasu),
     "hasselmann": ({"speed": WIND_SPEED}, Hasselmann),
+    "long-crested": ({}, LongCrested),
     "wrapped-normal": ({"spread": None}, WrappedNormal),
     "swell": ({"xi": FRACTION}, lambda xi=0.5: SwellElongation(DonelanBanner(), xi=xi)),
     "blend": ({"weight": FRACTION}, lambda weight=0.5: Blend(DonelanBanner(), CosineSquared(), weight=weight)),

@@ -6,16 +6,17 @@ from pathlib import Path
 from typing import Any
 
 import fftocean
-from fftocean.bake.baker import bake
+from fftocean.bake.baker import bake, require_usable
 from fftocean.bake.files import as_json, make_folder, path_of, remove, write_whole
 from fftocean.bake.job import Job, finite_or_word
 from fftocean.bake.layout import MANIFEST_FILE
 from fftocean.cascade import Tile, tile_jobs
 from fftocean.errors import JobError, ParameterError
+from fftocean.export import rules
 
 CASCADE_FILE = "cascade.json"
 HOW_TO_ADD = (
-    "Sample every tile at u = x/lx, v = y/ly of its own size. Heights, displacements, slopes, stretches and velocities of the tiles add. "
+    "Heights, displacements, slopes, stretches and velocities of the tiles add. "
     "Normals and Jacobians do not: they follow from the sums of slopes and stretches. Foam: 1 - product of (1 - foam)."
 )
 
@@ -41,6 +42,7 @@ def bake_tiles(job: Job, tiles: Iterable[Tile], folder: str | Path = "out", **op
         OutputError, FolderInUseError: as `bake`.
     """
     folder = path_of("folder", folder)
+    profile = require_usable(job)
     try:
         shares = tile_jobs(tiles, job.settings["ocean.seed"])
     except ParameterError as error:
@@ -73,7 +75,8 @@ def bake_tiles(job: Job, tiles: Iterable[Tile], folder: str | Path = "out", **op
     listed = {
         "tool": "fftocean",
         "version": fftocean.__version__,
-        "how_to_add": HOW_TO_ADD,
+        "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
+        "sampling": rules.cascade(profile),
         "units": {"size": "m", "band": "rad/m", "m0": "m^2"},
         "tiles": rows,
     }

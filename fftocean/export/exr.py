@@ -5,15 +5,27 @@ OpenEXR compresses without the GIL, so that threads can encode side by side; ZIP
 """
 
 import io
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.errors import IntegrityError, OutputError
-
-HALF_MAX = 65504.0
+from fftocean.export.form import (
+    HALF_MAX as HALF_MAX,
+)
+from fftocean.export.form import (
+    Format,
+    Layout,
+    Scale,
+    counted,
+    finite,
+    finite_again,
+    halves,
+    one_level,
+)
 
 
 def encode(pixels: Real, *, periodic: bool = True) -> bytes:
@@ -96,3 +108,51 @@ def decode(data: bytes) -> tuple[Real, Real, Real]:
     pixels = read(data)[::-1]
     red, green, blue = (np.ascontiguousarray(pixels[..., c]) for c in range(3))
     return red, green, blue
+
+
+def no_sidecar(_facts: Mapping[str, Any], _layout: Layout) -> bytes:
+    """Return nothing: the manifest says all that is said of such files."""
+    return b""
+
+
+def _format(
+    name: str,
+    stored: Literal["float16", "float32"],
+    caption: str,
+    rounded: Callable[[Real], npt.NDArray[Any]],
+) -> Format:
+    """Return a format of one file a frame, with numbers of one type."""
+
+    def encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
+        return encode(rounded(pixels))
+
+    def decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+        pixels = read(data, None if shape is None else shape[:2])
+        if pixels.dtype != stored:
+            raise IntegrityError(f"format {name} must hold {stored}, got {pixels.dtype}")
+        return [finite_again(counted(pixels, shape))]
+
+    return Format(
+        name=name,
+        caption=caption,
+        file="{stem}/{frame:04d}.exr",
+        numbered="frame",
+        stored=stored,
+        channels=(1, 3, 4),
+        least=3,
+        sidecar="",
+        sidecar_bytes=no_sidecar,
+        most_levels=one_level,
+        encode=encode_frame,
+        decode=decode_frame,
+        container=None,
+    )
+
+
+EXR = _format("exr", "float16", "OpenEXR, half, ZIP", halves)
+EXR_FLOAT = _format(
+    "exr-float",
+    "float32",
+    "OpenEXR, single precision, ZIP",
+    lambda pixels: finite(pixels, np.float32),
+)

@@ -5,21 +5,19 @@ Levels stand in the file from the smallest to the largest, and in each all frame
 """
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from typing import Any
 
 import fftocean
 from fftocean.errors import IntegrityError
+from fftocean.export import bare
+from fftocean.export.bare import TEXEL, level_sizes
+from fftocean.export.form import Container, Format, Layout, numbered
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 RGBA16F = 97  # VK_FORMAT_R16G16B16A16_SFLOAT
-TEXEL = 8  # bytes; and levels begin at multiples of it
 HEADER = "<9I4I2Q"  # format, type size, width, height, depth, layers, faces, levels, scheme; where DFD, key/values, global data are
-
-
-def level_sizes(rows: int, columns: int, levels: int) -> list[tuple[int, int]]:
-    """(rows, columns) of each mip level, largest first: halved and rounded down, as Vulkan has it, and never below 1."""
-    return [(max(1, rows >> level), max(1, columns >> level)) for level in range(levels)]
 
 
 def pack(
@@ -114,3 +112,41 @@ def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
         entry = key + b"\0" + value
         out += struct.pack("<I", len(entry)) + entry + bytes(-len(entry) % 4)
     return out
+
+
+def _join(payloads: Iterable[bytes], layout: Layout) -> memoryview:
+    rows, columns, levels = layout.rows, layout.columns, layout.levels
+    return pack(
+        numbered(payloads, layout.frames, bare.frame_bytes(layout)),
+        layout.frames,
+        rows,
+        columns,
+        levels,
+        loop=layout.loop,
+        row0_on_top=layout.row0_on_top,
+    )
+
+
+def _split(data: bytes | memoryview, layout: Layout) -> list[bytes]:
+    return unpack(data, layout.frames, layout.rows, layout.columns, layout.levels)
+
+
+def _facts(layout: Layout) -> Mapping[str, Any]:
+    return bare.facts(layout)
+
+
+KTX2 = Format(
+    name="ktx2",
+    caption="KTX 2.0 array of half RGBA",
+    file="{stem}.ktx2",
+    numbered="frame",
+    stored="float16",
+    channels=(1, 3, 4),
+    least=4,
+    sidecar="{stem}.json",
+    sidecar_bytes=bare.sidecar,
+    most_levels=int.bit_length,
+    encode=bare.encode_rgba,
+    decode=bare.decoder("ktx2"),
+    container=Container(join=_join, split=_split, facts=_facts, separable=True, require=bare.any_layout),
+)

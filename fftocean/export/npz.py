@@ -2,11 +2,16 @@
 
 import io
 import zipfile
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
+from fftocean.export.exr import no_sidecar
+from fftocean.export.form import Format, Scale, finite, finite_again, one_level
 
 MEMBER = "pixels.npy"
 
@@ -46,3 +51,28 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
         wanted = tuple(shape) if shape else "(rows, columns, channels)"
         raise IntegrityError(f"an NPZ file must hold float32 of shape {wanted}, got {pixels.dtype} of {pixels.shape}")
     return np.asarray(pixels, dtype=np.float32)
+
+
+def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
+    return encode(finite(pixels, np.float32))
+
+
+def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+    return [finite_again(read(data, shape))]
+
+
+NPZ = Format(
+    name="npz",
+    caption="NumPy, single precision",
+    file="{stem}/{frame:04d}.npz",
+    numbered="frame",
+    stored="float32",
+    channels=(1, 3, 4),
+    least=1,
+    sidecar="",
+    sidecar_bytes=no_sidecar,
+    most_levels=one_level,
+    encode=_encode_frame,
+    decode=_decode_frame,
+    container=None,
+)

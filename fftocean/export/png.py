@@ -6,12 +6,16 @@ Each row holds its differences from the row above (filter 2), which the sea's sm
 
 import struct
 import zlib
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
+from fftocean.export import quantised
+from fftocean.export.form import Format, Scale, one_level
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 COLOUR = {1: 0, 3: 2}  # channels -> PNG's colour type: gray, RGB
@@ -87,3 +91,28 @@ def _chunks(data: bytes) -> list[tuple[bytes, bytes]]:
         found.append((name, content))
         at += 12 + size
     return found
+
+
+def _encode_frame(pixels: Real, scale: Scale, _levels: Sequence[Real]) -> bytes:
+    return encode(quantised.to_steps(pixels, scale.lo, scale.hi))
+
+
+def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+    return [quantised.from_steps(read(data, shape), scale.lo, scale.hi)]
+
+
+PNG16 = Format(
+    name="png16",
+    caption="PNG, 16 bit, scaled",
+    file="{stem}/{frame:04d}.png",
+    numbered="frame",
+    stored="uint16",
+    channels=(1, 3),
+    least=1,
+    sidecar="{stem}.json",
+    sidecar_bytes=quantised.sidecar,
+    most_levels=one_level,
+    encode=_encode_frame,
+    decode=_decode_frame,
+    container=None,
+)

@@ -1,16 +1,15 @@
 """
-What each engine takes a picture of water for: axes, row order, unit and green sign, which are set together or the sea is wrong.
+Conventions of each engine for picture files: axes, row order, unit, green sign, normal encoding.
 
-Ours is x east, y north, z up, right-handed, in metres, and our arrays begin in the south-west. An engine names its own axes, and
-its loader puts row 0 of a file at v = 0 or at v = 1. Every profile below is so made that in its engine, by its own loader,
-
-    u = X / size + 0.5 / columns,    v = Z / size +- 0.5 / rows,
-
-where X and Z are the engine's own two horizontal axes: u grows toward the east, v grows along the second axis, wherever that points.
-Rows mirrored without negating the displacement along them round the crests and sharpen the troughs; this is the one room for both.
+Ours is x east, y north, z up, right-handed, in metres, and our arrays begin in the south-west. An
+engine names its own axes, and a file's row 0 comes to lie at v = 0 or at v = 1 of a texture. These
+go together: rows mirrored without negating the displacement along them round the crests and
+sharpen the troughs. Here is the one place for all of them; `rules` writes them as formulas, and
+`engines` says which profile belongs to an engine and a format.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -22,102 +21,196 @@ from fftocean.errors import ParameterError
 Pixels = npt.NDArray[np.float32]
 """(rows, columns, channels) float32, C-contiguous, as a file holds it."""
 
-Kind = Literal["scalar", "height", "vector", "normal", "derivative", "covariance"]
-"""
-How the channels of a map change with the frame:
+Kind = Literal["scalar", "height", "vector", "normal", "derivative", "covariance", "stretch"]
+"""How the channels of a map change with the axes; `KINDS` has one row for each."""
 
-scalar: not at all (Jacobian, foam).  height: a length along up.  vector: a length along each axis (displacement, velocity).
-normal: tangent space, whatever the world's axes: R along +u, G toward row 0 or away from it, B up; signed, not packed into 0..1.
-derivative: the slopes along the engine's two horizontal axes, then the two stretches.  covariance: of those slopes: xx, xy, yy.
+Normals = Literal["signed", "packed"]
 """
+Encoding of a unit normal n in a normal map.
 
-CHANNELS: dict[str, int] = {"vector": 3, "normal": 3, "derivative": 4, "covariance": 3}
-"""How many channels a kind has; scalars and heights come in any number."""
+signed: c = n, -1 to 1.  packed: c = (n + 1) / 2, 0 to 1: the stock materials of engines compute
+n = 2 c - 1. Zero is stored as 1/2, which halves and floats hold exactly.
+"""
 
 AXES = {"x": 0, "y": 1, "z": 2}
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """One engine's conventions, as a whole."""
+    """Conventions of the files that one engine reads in one way."""
 
     name: str
-    axes: tuple[str, str, str]  # what R, G and B of a vector map hold: a sign and one of our axes
-    first_row: Literal["north", "south"]  # of the sea, in the file
-    first_v: Literal[0, 1]  # where the engine's own loader of pictures puts that row; bytes uploaded raw begin at v = 0 everywhere
+    axes: tuple[str, str, str]  # R, G and B of a vector map: a sign and one of our axes
+    first_row: Literal["north", "south"]  # edge of the sea that is row 0 of the file
+    first_v: Literal[0, 1]  # texture coordinate at which row 0 of the file comes to lie
     unit: Literal["m", "cm"]
     green: Literal[1, -1]  # of a normal map: toward row 0, or away from it
+    normals: Normals
     caption: str
+    loaded: bool = True  # by the engine's own loader; otherwise the user's code uploads bytes
+    gutter: int = 1  # texels repeated around each frame of an atlas; 0: the engine cuts it up
+    note: str = ""  # how such files get into the engine
 
     @property
     def scale(self) -> int:
-        """The engine's units in a metre."""
+        """Units of the engine in a metre."""
         return 100 if self.unit == "cm" else 1
 
     @property
     def north(self) -> int:
-        """The sign with which north enters the engine's second horizontal axis, and v: -1 where they point south."""
+        """Sign with which north enters the engine's second horizontal axis."""
         return -1 if "-y" in self.axes else 1
 
     @property
+    def v_north(self) -> int:
+        """Sign with which north enters v."""
+        return 1 if (self.first_row == "north") == (self.first_v == 1) else -1
+
+    @property
     def green_north(self) -> int:
-        """The sign with which north enters green of a normal map."""
+        """Sign with which north enters green of a normal map."""
         return self.green * (1 if self.first_row == "north" else -1)
 
-    def describe(self, *, raw: bool = False) -> dict[str, Any]:
-        """For the manifest and the sidecars: the frame of the files in words; `raw` where no loader of pictures will turn their rows."""
+    @property
+    def horizontal(self) -> tuple[str, str]:
+        """Names of the engine's two horizontal axes, eastward first."""
         one, two = (c for c, axis in zip("XYZ", self.axes, strict=True) if axis[1] != "z")
-        first_v = 0 if raw else self.first_v
-        two_sign, half_sign = ("", self.north) if first_v == self.first_v else ("-", -self.north)
-        compass = {"+x": "east", "+y": "north", "-y": "south", "+z": "up"}
-        axes = {c: compass[axis] for c, axis in zip("XYZ", self.axes, strict=True)}
-        handed = "left" if round(np.linalg.det(self._matrix())) < 0 else "right"
-        green = "up (toward row 0)" if self.green > 0 else "down (away from row 0)"
-        placed = "uploaded raw, it is" if raw else "the loader puts it"
-        return {
-            "profile": self.name,
-            "axes": f"{', '.join(f'{c} {points}' for c, points in axes.items())}, {handed}-handed",
-            "unit": self.unit,
-            "rows": f"row 0 of a file is the {self.first_row} edge; {placed} at v = {first_v}",
-            "columns": "column 0 is the west edge, at u = 0",
-            "normal_green": f"{green}, which is {'north' if self.green_north > 0 else 'south'}",
-            "samples": f"u = {one} / size + 0.5 / columns, v = {two_sign}{two} / size {'+-'[half_sign < 0]} 0.5 / rows, repeated",
-        }
+        return one, two
+
+    @property
+    def up(self) -> str:
+        """Name of the engine's vertical axis."""
+        return "XYZ"[self.axes.index("+z")]
+
+    @property
+    def compass(self) -> dict[str, str]:
+        """Direction of each of the engine's axes."""
+        words = {"+x": "east", "+y": "north", "-y": "south", "+z": "up"}
+        return {c: words[axis] for c, axis in zip("XYZ", self.axes, strict=True)}
+
+    @property
+    def handed(self) -> Literal["left", "right"]:
+        """Handedness of the engine's axes."""
+        return "left" if round(np.linalg.det(self._matrix())) < 0 else "right"
 
     def _matrix(self) -> npt.NDArray[np.float64]:
-        """Rows: the engine's axes in ours."""
-        return np.array([[float(f"{axis[0]}1") * (AXES[axis[1]] == i) for i in range(3)] for axis in self.axes])
+        """Return the engine's axes in ours, one a row."""
+        return np.array([[float(f"{a[0]}1") * (AXES[a[1]] == i) for i in range(3)] for a in self.axes])
 
 
 PROFILES: dict[str, Profile] = {
     profile.name: profile
     for profile in (
-        #        name         R, G, B              row 0   at v  unit green
-        Profile("canonical", ("+x", "+y", "+z"), "north", 1, "m", +1, "our own axes, as an image viewer shows them"),
-        Profile("blender",   ("+x", "+y", "+z"), "north", 1, "m", +1, "Blender: z up; RGB to XYZ"),
-        Profile("unity",     ("+x", "+z", "+y"), "north", 1, "m", +1, "Unity: y up, left-handed, z north"),
-        Profile("unreal",    ("+x", "-y", "+z"), "north", 0, "cm", -1, "Unreal: z up, left-handed, y south, centimetres"),
-        Profile("godot",     ("+x", "+z", "-y"), "north", 0, "m", +1, "Godot: y up, z south"),
-        Profile("bevy",      ("+x", "+z", "-y"), "north", 0, "m", +1, "Bevy: y up, z south"),
-        Profile("gltf",      ("+x", "+z", "-y"), "north", 0, "m", +1, "glTF: y up, z south"),
-        Profile("three",     ("+x", "+z", "-y"), "north", 0, "m", +1, "three.js, raw half or KTX2: y up, z south"),
-        Profile("three-exr", ("+x", "+z", "-y"), "south", 1, "m", +1, "three.js by its EXRLoader, which turns the rows over"),
-        Profile("babylon",   ("+x", "+z", "+y"), "south", 0, "m", +1, "Babylon.js, raw: y up, left-handed, z north; green per material"),
-        Profile("houdini",   ("+x", "+z", "-y"), "south", 1, "m", +1, "Houdini, USD: y up, z south"),
+        #        name         R, G, B              row 0   at v  unit green normals
+        Profile("canonical", ("+x", "+y", "+z"), "north", 1, "m", +1, "signed", "our own axes, as an image viewer shows them"),
+        Profile("blender",   ("+x", "+y", "+z"), "north", 1, "m", +1, "packed", "Blender: z up; RGB to XYZ"),
+        Profile("unity",     ("+x", "+z", "+y"), "north", 1, "m", +1, "packed", "Unity: y up, left-handed, z north", gutter=0),
+        Profile("unreal",    ("+x", "-y", "+z"), "north", 0, "cm", -1, "packed", "Unreal: z up, left-handed, y south, centimetres"),
+        Profile("godot",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed", "Godot: y up, z south", gutter=0),
+        Profile("bevy",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed", "Bevy: y up, z south"),
+        Profile("gltf",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed", "glTF: y up, z south"),
+        Profile("three",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed", "three.js, raw half or KTX2: y up, z south"),
+        Profile("three-exr", ("+x", "+z", "-y"), "south", 1, "m", +1, "packed", "three.js by its EXRLoader, which turns the rows over"),
+        Profile("babylon",   ("+x", "+z", "+y"), "south", 0, "m", +1, "packed", "Babylon.js, raw: y up, left-handed, z north"),
+        Profile("houdini",   ("+x", "+z", "-y"), "south", 1, "m", +1, "packed", "Houdini, USD: y up, z south"),
     )
 }  # fmt: skip
 
 
-def profile_for(engine: str, *, raw: bool = False) -> Profile:
+@dataclass(frozen=True, slots=True)
+class KindRow:
     """
-    Return an engine's profile by its name, for files read by its loader of pictures, or for raw bytes.
+    Behaviour of one kind of map.
 
-    Raises:
-        ParameterError: there is no such engine.
+    Attributes:
+        channels: how many it has; None is any number.
+        scaled: whether values are lengths, in the profile's unit.
+        signs: factor on each channel in a profile, given the number of channels.
+        world: what the channels R, G, B, A of the file give in the engine's axes, as formulas.
     """
-    if engine not in PROFILES:
-        raise ParameterError(f"engine must be one of {', '.join(PROFILES)}, got {engine!r:.40}")
-    return PROFILES["three-exr" if engine == "three" and not raw else engine]  # the only one that wants another order of rows
+
+    channels: int | None
+    scaled: bool
+    signs: Callable[[Profile, int], tuple[int, ...]]
+    world: Callable[[Profile], dict[str, str]]
+
+
+def _normal_world(profile: Profile) -> dict[str, str]:
+    """Return the components of a unit normal along the engine's axes."""
+    value = "(2 * {} - 1)" if profile.normals == "packed" else "{}"
+    one, two = profile.horizontal
+    minus = "-" if profile.north * profile.green_north < 0 else ""
+    red, green, blue = (value.format(letter) for letter in "RGB")
+    return {f"normal_{one}": red, f"normal_{two}": minus + green, f"normal_{profile.up}": blue}
+
+
+def _derivative_world(profile: Profile) -> dict[str, str]:
+    """Return slopes, stretches, and the normal that follows (without shear, not of length 1)."""
+    one, two = profile.horizontal
+    return {
+        f"slope_{one}": "R",
+        f"slope_{two}": "G",
+        f"stretch_{one}": "B",
+        f"stretch_{two}": "A",
+        f"normal_{one}": "-R / (1 + B)",
+        f"normal_{two}": "-G / (1 + A)",
+        f"normal_{profile.up}": "1",
+    }
+
+
+def _pairs(name: str) -> Callable[[Profile], dict[str, str]]:
+    """Return the three entries of a symmetric matrix over the horizontal axes."""
+
+    def world(profile: Profile) -> dict[str, str]:
+        one, two = profile.horizontal
+        pairs = (one + one, one + two, two + two)
+        return {f"{name}_{pair}": c for pair, c in zip(pairs, "RGB", strict=True)}
+
+    return world
+
+
+# Slopes have no unit: centimetres per centimetre. A mirrored axis turns what is odd in it: the
+# slope along it and the mixed entries, not a stretch along it, which is mirrored twice.
+KINDS: dict[str, KindRow] = {
+    "scalar": KindRow(None, False, lambda _, n: (1,) * n, lambda _: {"value": "R"}),
+    "height": KindRow(None, True, lambda _, n: (1,) * n, lambda p: {p.up: "R"}),
+    "vector": KindRow(
+        3, True,
+        lambda p, _: tuple(1 if axis[0] == "+" else -1 for axis in p.axes),
+        lambda _: dict(zip("XYZ", "RGB", strict=True)),
+    ),
+    "normal": KindRow(3, False, lambda p, _: (1, p.green_north, 1), _normal_world),
+    "derivative": KindRow(4, False, lambda p, _: (1, p.north, 1, 1), _derivative_world),
+    "covariance": KindRow(3, False, lambda p, _: (1, p.north, 1), _pairs("slope_covariance")),
+    "stretch": KindRow(3, False, lambda p, _: (1, p.north, 1), _pairs("stretch")),
+}  # fmt: skip
+
+if set(KINDS) != set(get_args(Kind)):
+    raise ImportError(f"KINDS must have a row for each Kind, got {', '.join(KINDS)}")
+
+CHANNELS: dict[str, int] = {name: row.channels for name, row in KINDS.items() if row.channels}
+"""How many channels a kind has; scalars and heights come in any number."""
+
+
+def recorded(profile: Profile, conventions: Any) -> Profile:
+    """
+    Return a profile as a manifest says that the files were written: row order, normal encoding.
+
+    Bakes of version 0.1 do not name the encoding of normals, which were signed then.
+    """
+    first_row: Literal["north", "south"] = "south" if "the south edge" in conventions["rows"] else "north"
+    packed = str(conventions.get("normals", "signed")).startswith("packed")
+    return replace(profile, first_row=first_row, normals="packed" if packed else "signed")
+
+
+def range_of_normals(profile: Profile) -> tuple[float, float]:
+    """
+    Return the range over which 16-bit steps stand for components of a normal.
+
+    Signed: steps of 1/32767, so that 0 and -1 and 1 are steps. Packed: a material computes
+    2 k / 65535 - 1 of step k, which is 0 for no whole k: the nearest is 1/65535 = 1.5e-5 off.
+    """
+    return (0.0, 1.0) if profile.normals == "packed" else (-1.0, 1.0 + 1.0 / 32767.0)
 
 
 def arrange(profile: Profile, kind: Kind, channels: Real) -> Pixels:
@@ -125,12 +218,12 @@ def arrange(profile: Profile, kind: Kind, channels: Real) -> Pixels:
     Turn a map of ours into what the engine's file holds.
 
     Args:
-        profile: whose file.
+        profile: conventions of the file.
         kind: how the channels change.
-        channels: (ny, nx, c), row 0 south, our axes, metres; float32, or float64 that is rounded once.
+        channels: (ny, nx, c), row 0 south, our axes, metres; float32, or float64 rounded once.
 
     Returns:
-        (rows, columns, c) float32, C-contiguous, in the file's own frame and unit.
+        (rows, columns, c) float32, C-contiguous, in the file's own axes and unit.
 
     Raises:
         ParameterError: another number of channels than the kind has, or no such kind.
@@ -140,16 +233,23 @@ def arrange(profile: Profile, kind: Kind, channels: Real) -> Pixels:
     sources, scale = _recipe(profile, kind, _counted(kind, channels))
     out = np.empty(channels.shape, dtype=np.float32)
     rows = channels[::-1] if profile.first_row == "north" else channels
-    np.multiply(rows, channels.dtype.type(scale), out=out, casting="same_kind")
+    real = channels.dtype.type
+    np.multiply(rows, real(scale), out=out, casting="same_kind")
     for c, (source, sign) in enumerate(sources):
         if (source, sign) != (c, 1):
-            np.multiply(rows[..., source], channels.dtype.type(sign * scale), out=out[..., c], casting="same_kind")
+            np.multiply(rows[..., source], real(sign * scale), out=out[..., c], casting="same_kind")
+    if kind == "normal" and profile.normals == "packed":
+        out *= np.float32(0.5)
+        out += np.float32(0.5)
     return out
 
 
 def restore(profile: Profile, kind: Kind, pixels: Real) -> Pixels:
     """
-    Turn what an engine's file holds back into a map of ours: the inverse of `arrange`, to the bit, or to a rounding where it is in cm.
+    Turn what an engine's file holds back into a map of ours.
+
+    The inverse of `arrange`: to the bit in metres, to a rounding in centimetres, to 2^-24 for
+    packed normals.
 
     Raises:
         ParameterError: another number of channels than the kind has, or no such kind.
@@ -157,10 +257,13 @@ def restore(profile: Profile, kind: Kind, pixels: Real) -> Pixels:
     sources, scale = _recipe(profile, kind, _counted(kind, pixels))
     out = np.empty(pixels.shape, dtype=np.float32)
     rows = pixels[::-1] if profile.first_row == "north" else pixels
+    if kind == "normal" and profile.normals == "packed":
+        rows = rows.astype(np.float32) * np.float32(2.0) - np.float32(1.0)
     np.divide(rows, np.float32(scale), out=out, casting="same_kind")
     for c, (source, sign) in enumerate(sources):
         if (source, sign) != (c, 1):
-            np.divide(rows[..., c], np.float32(sign * scale), out=out[..., source], casting="same_kind")
+            factor = np.float32(sign * scale)
+            np.divide(rows[..., c], factor, out=out[..., source], casting="same_kind")
     return out
 
 
@@ -169,7 +272,7 @@ def meaning(profile: Profile, kind: Kind, names: tuple[str, ...]) -> tuple[str, 
     Return in words what each channel of the file holds, for the manifest.
 
     Args:
-        profile: whose file.
+        profile: conventions of the file.
         kind: how the channels change.
         names: what our own channels hold, such as ("x", "y", "height").
 
@@ -177,41 +280,35 @@ def meaning(profile: Profile, kind: Kind, names: tuple[str, ...]) -> tuple[str, 
         ParameterError: another number of names than the kind has channels, or no such kind.
     """
     sources, _ = _recipe(profile, kind, _count(kind, len(names)))
-    return tuple(names[source] if sign > 0 else f"minus ({names[source]})" for source, sign in sources)
+    if kind == "normal" and profile.normals == "packed":
+        return tuple(f"(1 {'+' if sign > 0 else '-'} {names[i]}) / 2" for i, sign in sources)
+    return tuple(names[i] if sign > 0 else f"minus ({names[i]})" for i, sign in sources)
 
 
 def unit_in(profile: Profile, kind: Kind, unit: str) -> str:
-    """The unit that a map's values have in the file: metres, and metres per second, are centimetres where the profile has those."""
+    """Return a map's unit in the file: m is cm, and m/s is cm/s, where the profile has those."""
     return f"c{unit}" if _recipe(profile, kind, CHANNELS.get(kind, 1))[1] != 1 else unit
 
 
 def _recipe(profile: Profile, kind: Kind, count: int) -> tuple[list[tuple[int, int]], int]:
-    """For each channel of the file: which of ours it is, and its sign; and the factor on all of them."""
-    if kind == "vector":
-        return [(AXES[axis[1]], 1 if axis[0] == "+" else -1) for axis in profile.axes], profile.scale
-    if kind == "height":
-        return [(c, 1) for c in range(count)], profile.scale
-    # centimetres per centimetre: slopes have no unit. A mirrored axis turns the slope along it, not a stretch, which is mirrored twice
-    signs = {
-        "scalar": (1,) * count,
-        "normal": (1, profile.green_north, 1),
-        "derivative": (1, profile.north, 1, 1),
-        "covariance": (1, profile.north, 1),
-    }
-    return list(enumerate(signs[kind])), 1
+    """Return for each channel of the file (which of ours, its sign), and a factor on all."""
+    row = KINDS[kind]
+    signs = row.signs(profile, count)
+    sources = [AXES[a[1]] for a in profile.axes] if kind == "vector" else list(range(count))
+    return list(zip(sources, signs, strict=True)), profile.scale if row.scaled else 1
 
 
 def _counted(kind: Kind, channels: Real) -> int:
-    """The number of channels of an array, found to be right for the kind."""
+    """Return the number of channels of an array, after checking it against the kind."""
     if channels.ndim != 3:
         raise ParameterError(f"a map must be (rows, columns, channels), got shape {channels.shape}")
     return _count(kind, channels.shape[2])
 
 
 def _count(kind: Kind, count: int) -> int:
-    """The number of channels, found to be right for the kind."""
-    if kind not in get_args(Kind):
-        raise ParameterError(f"kind must be one of {', '.join(get_args(Kind))}, got {kind!r:.40}")
+    """Return a number of channels, after checking it against the kind."""
+    if kind not in KINDS:
+        raise ParameterError(f"kind must be one of {', '.join(KINDS)}, got {kind!r:.40}")
     if count != CHANNELS.get(kind, count):
         raise ParameterError(f"a {kind} map must have {CHANNELS[kind]} channels, got {count}")
     return count

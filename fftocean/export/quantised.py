@@ -1,12 +1,14 @@
 """Sixteen-bit steps: values scaled to a range that holds for the whole sequence, and back. Nothing is clipped."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.errors import OutputError, ParameterError
+from fftocean.export.text import as_json
 
 Limit = float | Sequence[float] | None
 """One end of the range: of the whole map, or of each of its channels."""
@@ -54,3 +56,12 @@ def from_steps(steps: npt.NDArray[np.uint16], lo: Limit, hi: Limit) -> npt.NDArr
     """
     low, high = limits(lo, hi, steps.shape[2])
     return (low + steps * ((high - low) / LARGEST)).astype(np.float32)
+
+
+VALUE = "lo + stored / 65535 * (hi - lo)"
+"""Value of a step, as the sidecars say it."""
+
+
+def sidecar(facts: Mapping[str, Any], _layout: object) -> bytes:
+    """Return the text beside a map that is stored in steps."""
+    return as_json({**facts, "dtype": "uint16"})

@@ -1,31 +1,80 @@
-"""What to set in an engine for an atlas of frames: Godot's `.import` beside it, and a page of steps for Unity and Unreal."""
+"""
+Settings of an engine for an atlas of frames: Godot's `.import`, and pages for Unity and Unreal.
+
+Every figure, unit and rule of a page is the sidecar's: nothing is said twice.
+"""
+
+from collections.abc import Mapping
+from typing import Any
 
 from fftocean.export.profiles import Profile
 
 
-def beside(profile: Profile, file: str, *, columns: int, rows: int, loop: float) -> dict[str, bytes]:
+def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
     """
-    Return the files that belong beside an atlas in one engine's project, by name; none for an engine that needs none.
+    Return the files that belong beside an atlas in one engine's project, by name.
 
     Args:
-        profile: whose.
+        profile: conventions of the atlas.
         file: the atlas' own name, without a folder.
-        columns, rows: of frames in it.
-        loop: what they take to play through [s].
+        facts: what its sidecar says.
     """
-    frames = columns * rows
-    play = f"frame = floor(time / {loop:g} * {frames}) mod {frames}; between two frames blend frame and (frame + 1) mod {frames}"
-    sample = "\n".join(f"    {line}" for line in profile.describe()["samples"].removesuffix(", repeated").split(", "))
+    across, down = facts["tiles"]
     if profile.name == "godot":
-        return {f"{file}.import": _GODOT.format(columns=columns, rows=rows).encode()}
-    if profile.name == "unity":
-        return {f"{file}.unity.txt": _UNITY.format(file=file, columns=columns, rows=rows, play=play, sample=sample).encode()}
-    if profile.name == "unreal":
-        return {f"{file}.unreal.txt": _UNREAL.format(file=file, columns=columns, rows=rows, play=play, sample=sample).encode()}
-    return {}
+        return {f"{file}.import": godot_import(across, down)}
+    page = {"unity": _UNITY, "unreal": _UNREAL}.get(profile.name)
+    if page is None:
+        return {}
+    alpha = "Input Texture Alpha" if "A" in facts["channels"] else "None"
+    text = page.format(
+        file=file,
+        across=across,
+        down=down,
+        alpha=alpha,
+        source="FromInput" if "A" in facts["channels"] else "None",
+        facts=_facts(facts),
+    )
+    return {f"{file}.{profile.name}.txt": text.encode()}
 
 
-# compress/mode 3 is VRAM Uncompressed: the halves as they are. Mode 2 would be BC6H, which is coarse and unsigned on some cards.
+def godot_import(across: int, down: int) -> bytes:
+    """Return Godot's settings of an atlas that is cut into a texture array."""
+    return _GODOT.format(across=across, down=down).encode()
+
+
+def _facts(facts: Mapping[str, Any]) -> str:
+    """Return what must be known of a map to play and sample it, one fact a line."""
+    rule, conventions = facts["sampling"], facts["conventions"]
+    values, time = rule["values"], facts["time_unit"]
+    letters = ", ".join(f"{letter}: {word}" for letter, word in facts["channels"].items())
+    lines = [
+        f"Channels    {letters}",
+        f"Unit        {'none (a pure number)' if facts['unit'] == '1' else facts['unit']}; linear",
+        f"Axes        {conventions['axes']}",
+        f"Lookup      {facts['lookup']}",
+        f"Time        starts at {facts['start']:g} {time}, plays for {facts['loop']:g} {time}, "
+        f"{facts['frames_per_second']:.6g} frames a second"
+        + ("" if facts["closes"] else "; a part of the loop: the last frame does not lead on"),
+    ]
+    if any(name.startswith("normal_") for name in facts["world"]):
+        lines.append(f"Normals     {conventions['normals']}; green {conventions['normal_green']}")
+    if "bounds" in facts:
+        bounds = facts["bounds"]
+        lines.append(
+            f"Culling     widen the mesh's bounds by {bounds['horizontal']:.6g} {bounds['unit']} "
+            f"along the horizontal axes, by {bounds['vertical']:.6g} {bounds['unit']} up and down"
+        )
+    lines.append("Sample with (repeat wrap; place at rest and sizes in " + facts["size_unit"] + ")")
+    lines += [f"    {name} = {text}" for name, text in rule.items() if name != "values"]
+    lines.append("where " + ", ".join(f"{name} = {value:.12g}" for name, value in values.items()))
+    lines.append("The whole part of frame is index; blend it with mod(index + 1, frames).")
+    lines.append("The channels give")
+    lines += [f"    {name} = {text}" for name, text in facts["world"].items()]
+    return "\n".join(lines)
+
+
+# compress/mode 3 is VRAM Uncompressed: the halves as they are. Mode 2 would be BC6H, which is
+# coarse, and unsigned on some cards.
 _GODOT = """[remap]
 
 importer="2d_array_texture"
@@ -40,17 +89,18 @@ compress/hdr_compression=0
 compress/channel_pack=0
 mipmaps/generate=false
 mipmaps/limit=-1
-slices/horizontal={columns}
-slices/vertical={rows}
+slices/horizontal={across}
+slices/vertical={down}
 """
 
-_UNITY = """Unity: {file} as a Texture2DArray (not run in Unity: compare slice 0 with the first tile)
+_UNITY = """Unity: {file} as a Texture2DArray (not run in Unity: compare slice 0 with the first cell)
 
 Inspector of the texture:
     Texture Type      Default
-    Texture Shape     2D Array, Columns {columns}, Rows {rows}
+    Texture Shape     2D Array, Columns {across}, Rows {down} (cells of frames)
     sRGB              off
-    Alpha Source      None
+    Alpha Source      {alpha}
+    Alpha Is Transparency  off
     Non-Power of 2    None
     Read/Write        as you need
     Generate Mipmaps  off
@@ -64,9 +114,11 @@ Or by script, in an Editor folder:
     var settings = new TextureImporterSettings();
     importer.ReadTextureSettings(settings);
     settings.textureShape = TextureImporterShape.Texture2DArray;
-    settings.flipbookColumns = {columns};
-    settings.flipbookRows = {rows};
+    settings.flipbookColumns = {across};
+    settings.flipbookRows = {down};
     settings.sRGBTexture = false;
+    settings.alphaSource = TextureImporterAlphaSource.{source};
+    settings.alphaIsTransparency = false;
     settings.mipmapEnabled = false;
     settings.npotScale = TextureImporterNPOTScale.None;
     settings.wrapMode = TextureWrapMode.Repeat;
@@ -77,13 +129,11 @@ Or by script, in an Editor folder:
     importer.SetPlatformTextureSettings(platform);
     importer.SaveAndReimport();
 
-Frames run from left to right, then down. Values are metres, signed, linear.
-    {play}
-Sample, in metres of the world, X and Z:
-{sample}
+Cells run from left to right, then down.
+{facts}
 """
 
-_UNREAL = """Unreal: {file} as a flipbook in one texture (not run in Unreal: compare frame 0 with the first tile)
+_UNREAL = """Unreal: {file} as a flipbook in one texture (not run in Unreal: compare frame 0 with the first cell)
 
 Details of the texture:
     Compression Settings   HDR (RGBA16F, no BC6H)
@@ -94,12 +144,7 @@ Details of the texture:
     Never Stream           on
     X- and Y-axis Tiling   Wrap
 
-{columns} columns and {rows} rows of frames, from left to right, then down. Values are centimetres, signed, linear.
-    {play}
-Sample, in centimetres of the world, X and Y:
-{sample}
-then in the atlas, with frac() of u and v held half a texel inside the tile:
-    U = (frac(u) + frame mod {columns}) / {columns}
-    V = (frac(v) + floor(frame / {columns})) / {rows}
-A Texture 2D Array made of the single frames needs none of this, and filters across the tile's edge: prefer it where you can.
+{across} cells across and {down} down, from left to right, then down; around each frame stand
+texels of its opposite edges, so that a bilinear sampler wraps.
+{facts}
 """

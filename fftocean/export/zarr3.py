@@ -4,15 +4,26 @@ Zarr version 3: a map as one array (frame, row, column, channel) of float32, one
 An absent chunk reads as the fill value, which for a sea would be a flat one: it is NaN here, so that no reader takes it for water.
 """
 
-import json
 import struct
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
 from fftocean.export.crc32c import checksum
+from fftocean.export.form import (
+    Format,
+    Layout,
+    Scale,
+    finite,
+    finite_again,
+    one_level,
+    require_shape,
+)
+from fftocean.export.text import as_json
 
 CHUNK = "c/{frame}/0/0/0"
 
@@ -43,7 +54,7 @@ def decode_chunk(data: bytes, shape: tuple[int, int, int]) -> npt.NDArray[np.flo
     return np.frombuffer(data, dtype="<f4", count=size // 4).reshape(shape).astype(np.float32)
 
 
-def metadata(shape: tuple[int, int, int, int], attributes: dict[str, Any]) -> bytes:
+def metadata(shape: tuple[int, int, int, int], attributes: Mapping[str, Any]) -> bytes:
     """The array's zarr.json."""
     tree = {
         "zarr_format": 3,
@@ -55,6 +66,36 @@ def metadata(shape: tuple[int, int, int, int], attributes: dict[str, Any]) -> by
         "fill_value": "NaN",
         "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}, {"name": "crc32c"}],
         "dimension_names": ["frame", "row", "column", "channel"],
-        "attributes": attributes,
+        "attributes": dict(attributes),
     }
-    return (json.dumps(tree, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    return as_json(tree)
+
+
+def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
+    return encode_chunk(finite(pixels, np.float32))
+
+
+def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+    return [finite_again(decode_chunk(data, require_shape(shape, "zarr")))]
+
+
+def _sidecar(facts: Mapping[str, Any], layout: Layout) -> bytes:
+    named = {**facts, "file": facts["file"].removesuffix("/" + CHUNK)}
+    return metadata((layout.frames, *layout.frame), named)
+
+
+ZARR = Format(
+    name="zarr",
+    caption="Zarr 3, a chunk a frame",
+    file="{stem}.zarr/" + CHUNK,
+    numbered="place",
+    stored="float32",
+    channels=(1, 3, 4),
+    least=1,
+    sidecar="{stem}.zarr/zarr.json",
+    sidecar_bytes=_sidecar,
+    most_levels=one_level,
+    encode=_encode_frame,
+    decode=_decode_frame,
+    container=None,
+)

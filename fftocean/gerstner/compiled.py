@@ -1,4 +1,8 @@
-"""The direct sum, compiled: the fair opponent of the FFT in benchmarks. `direct.surface` is its oracle."""
+"""
+Compiled direct sum of the eight linear fields, for benchmarks against the FFT.
+
+`direct.surface` is its reference in the tests.
+"""
 
 import math
 
@@ -8,8 +12,17 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.gerstner.direct import HasWaves
 
-NAMES = ("height", "displace_x", "displace_y", "slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
-"""The fields of `eight_fields`, in its order."""
+NAMES = (
+    "height",
+    "displace_x",
+    "displace_y",
+    "slope_x",
+    "slope_y",
+    "stretch_xx",
+    "stretch_xy",
+    "stretch_yy",
+)
+"""Fields returned by `eight_fields`, in its order."""
 
 
 def eight_fields(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> dict[str, Real]:
@@ -22,21 +35,38 @@ def eight_fields(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> dict[
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     waves = ocean.modes()
     k = np.hypot(waves.kx, waves.ky)
-    push = waves.amplitude / k if math.isinf(ocean.depth) else waves.amplitude / (k * np.tanh(k * ocean.depth))
+    potential = (
+        waves.amplitude / k
+        if math.isinf(ocean.depth)
+        else waves.amplitude / (k * np.tanh(k * ocean.depth))
+    )
     out = np.zeros((8, px.size))
-    _sum(px.ravel().copy(), py.ravel().copy(), waves.kx, waves.ky, waves.amplitude, push, waves.omega * t + waves.phase, out)
+    _sum(
+        px.ravel().copy(),
+        py.ravel().copy(),
+        waves.kx,
+        waves.ky,
+        waves.amplitude,
+        potential,
+        waves.omega * t + waves.phase,
+        out,
+    )
     return {name: field.reshape(px.shape) for name, field in zip(NAMES, out, strict=True)}
 
 
 @nb.njit(nogil=True, error_model="numpy")
-def _sum(x: Real, y: Real, kx: Real, ky: Real, a: Real, push: Real, start: Real, out: Real) -> None:
-    """out is (8, points); `push` is a / (k tanh kh)."""
+def _sum(
+    x: Real, y: Real, kx: Real, ky: Real, a: Real, potential: Real, start: Real, out: Real
+) -> None:
+    """
+    out is (8, points); `potential` is a / (k tanh kh), the amplitude of the displacement potential.
+    """
     for p in range(x.size):
         h = dx = dy = sx = sy = xx = xy = yy = 0.0
         for m in range(kx.size):
             angle = kx[m] * x[p] + ky[m] * y[p] - start[m]
             c, s = np.cos(angle), np.sin(angle)
-            ac, asn, pc, ps = a[m] * c, a[m] * s, push[m] * c, push[m] * s
+            ac, asn, pc, ps = a[m] * c, a[m] * s, potential[m] * c, potential[m] * s
             h += ac
             dx -= kx[m] * ps
             dy -= ky[m] * ps

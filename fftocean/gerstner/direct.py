@@ -1,7 +1,8 @@
 """
-The slow truth: the sea summed wave by wave, in float64, at any points of the surface.
+Direct sum of all waves of a sea, in float64, at any points of the surface.
 
-It takes the list of waves and nothing else from the fast path: no transform, no table of signs, no shared formula.
+This is the reference that the FFT is checked against. It takes the list of waves and nothing else
+from the fast path: no transform, no table of signs, no shared formula.
 """
 
 import math
@@ -14,8 +15,10 @@ from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.errors import ParameterError, described
 
 
-class Waves(Protocol):
-    """A list of waves, each array (m,): height = sum of amplitude cos(kx x + ky y - omega t - phase)."""
+class WaveList(Protocol):
+    """
+    A list of waves, each array (m,): height = sum of amplitude cos(kx x + ky y - omega t - phase).
+    """
 
     @property
     def kx(self) -> Real: ...
@@ -30,20 +33,23 @@ class Waves(Protocol):
 
 
 class HasWaves(Protocol):
-    """What can be summed: an `Ocean`, or anything with its waves, depth and choppiness."""
+    """An `Ocean`, or any object with its waves, depth and choppiness."""
 
     choppiness: float
 
     @property
     def depth(self) -> float: ...
-    def modes(self) -> Waves: ...
+    def modes(self) -> WaveList: ...
 
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The water surface at parameters (x0, y0), each field of their shape; float64, SI; names as in `Frame`."""
+    """
+    The water surface at parameters (x0, y0), each field of their shape; float64, SI; names as in
+    `Frame`.
+    """
 
-    x: Real  # where the particle is: x0 + choppiness displace_x [m]
+    x: Real  # position of the particle: x0 + choppiness displace_x [m]
     y: Real
     z: Real  # height [m]
     height: Real
@@ -65,13 +71,14 @@ class Surface:
 
 def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     """
-    Sum the sea wave by wave.
+    Return the surface of the sea, summed wave by wave.
 
-    With phase angle f = kx x0 + ky y0 - omega t - phase, each wave of amplitude a gives height a cos f, and displaces the
-    water by -a (k/|k|) coth(|k| depth) sin f: the linear Lagrangian solution (Gerstner 1802 in deep water; Lamb 1932, art. 229).
+    With phase angle f = kx x0 + ky y0 - omega t - phase, each wave of amplitude a gives height a
+    cos f, and displaces the water by -a (k/|k|) coth(|k| depth) sin f: the linear Lagrangian
+    solution (Gerstner 1802 in deep water; Lamb 1932, art. 229).
 
     Args:
-        ocean: whose waves to sum.
+        ocean: an `Ocean`, or any object with waves, depth and choppiness.
         x0, y0: undisplaced positions, which broadcast [m].
         t: time [s].
 
@@ -81,19 +88,36 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     Raises:
         ParameterError: a position or time that is not finite.
     """
-    if isinstance(ocean, type) or not all(hasattr(ocean, name) for name in ("modes", "depth", "choppiness")):
-        raise ParameterError(f"waves to be summed must be those of an Ocean or a Cascade, got {described(ocean)}")
+    if isinstance(ocean, type) or not all(
+        hasattr(ocean, name) for name in ("modes", "depth", "choppiness")
+    ):
+        raise ParameterError(
+            f"waves to be summed must be those of an Ocean or a Cascade, got {described(ocean)}"
+        )
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     if not (np.all(np.isfinite(px)) and np.all(np.isfinite(py)) and math.isfinite(t)):
         raise ParameterError("x0, y0 and t must be finite")
     waves = ocean.modes()
     k = np.sqrt(waves.kx * waves.kx + waves.ky * waves.ky)
     a, ux, uy = waves.amplitude, waves.kx / k, waves.ky / k
-    push = a if math.isinf(ocean.depth) else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
-    on_cosine = np.stack(
-        [a, push * ux * waves.omega, push * uy * waves.omega, -push * ux * waves.kx, -push * ux * waves.ky, -push * uy * waves.ky]
+    horizontal = (
+        a
+        if math.isinf(ocean.depth)
+        else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
     )
-    on_sine = np.stack([-push * ux, -push * uy, -a * waves.kx, -a * waves.ky, a * waves.omega])
+    on_cosine = np.stack(
+        [
+            a,
+            horizontal * ux * waves.omega,
+            horizontal * uy * waves.omega,
+            -horizontal * ux * waves.kx,
+            -horizontal * ux * waves.ky,
+            -horizontal * uy * waves.ky,
+        ]
+    )
+    on_sine = np.stack(
+        [-horizontal * ux, -horizontal * uy, -a * waves.kx, -a * waves.ky, a * waves.omega]
+    )
     start = waves.omega * t + waves.phase
     flat_x, flat_y = px.ravel(), py.ravel()
     cosines, sines = np.zeros((6, flat_x.size)), np.zeros((5, flat_x.size))
@@ -101,7 +125,8 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     for i in range(0, flat_x.size, points):
         part = slice(i, i + points)
         angle = np.outer(flat_x[part], waves.kx) + np.outer(flat_y[part], waves.ky) - start
-        # einsum, not matmul: thin products gain nothing from BLAS, whose threads fight with whatever else runs
+        # einsum, not matmul: thin products gain nothing from BLAS, whose threads fight with
+        # whatever else runs
         cosines[:, part] = np.einsum("fm,pm->fp", on_cosine, np.cos(angle))
         sines[:, part] = np.einsum("fm,pm->fp", on_sine, np.sin(angle))
     height, velocity_x, velocity_y, xx, xy, yy = (f.reshape(px.shape) for f in cosines)

@@ -17,7 +17,7 @@ from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_
 from fftocean.physics.water import SAME, Statement, agreed, statements
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from xarray import DataArray, Dataset
 
 
 def from_compass(bearing: float) -> float:
@@ -183,13 +183,14 @@ class Sea:
     @classmethod
     def from_spectrum(
         cls,
-        dataset: "Dataset",
+        dataset: "Dataset | DataArray",
         *,
         time: int = 0,
         site: int = 0,
         depth: float | None = None,
         direction: float | None = None,
         spreading: Spreading | None = None,
+        negative: str = "refuse",
     ) -> "Sea":
         """
         The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the wavespectra package.
@@ -203,7 +204,15 @@ class Sea:
         """
         from fftocean.readers.realise import sea_from_spectrum
 
-        return sea_from_spectrum(dataset, time=time, site=site, depth=depth, direction=direction, spreading=spreading)
+        return sea_from_spectrum(
+            dataset,
+            time=time,
+            site=site,
+            depth=depth,
+            direction=direction,
+            spreading=spreading,
+            negative=negative,
+        )
 
     @classmethod
     def _preset(cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None) -> "Sea":

@@ -246,11 +246,19 @@ class TMA:
         """S at `omega`, [m^2 s/rad]."""
         return self.spectrum(omega) * kitaigorodskii(omega, self.depth)
 
+    def at_waves(self, omega: RealLike, k: Real) -> Real:
+        """Return S at `omega` where the wavenumbers `k` [rad/m] of gravity waves in this depth are known, [m^2 s/rad]."""
+        return self.spectrum(omega) * _kitaigorodskii_at(k, self.depth)
+
 
 def kitaigorodskii(omega: RealLike, depth: float) -> Real:
     """Return Phi(omega, h) [-], from omega^2 h / (2g) in shallow water to 1 in deep  (Kitaigorodskii et al. 1975)."""
     omega = np.clip(np.asarray(omega, dtype=np.float64), 0.0, 1e20)  # deep in a micrometre; and inf is not a frequency
-    k = wavenumber(omega, depth)
+    return _kitaigorodskii_at(wavenumber(omega, depth), depth)
+
+
+def _kitaigorodskii_at(k: Real, depth: float) -> Real:
+    """Return Phi [-] at wavenumbers [rad/m]."""
     if math.isinf(depth):
         return np.ones_like(k)
     phi: Real = np.tanh(np.minimum(k, 20.0 / depth) * depth) ** 2 / (2.0 * group_to_phase_speed(k, depth))

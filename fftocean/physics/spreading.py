@@ -1,5 +1,6 @@
 """D(omega, theta): how a frequency's energy is shared out among the directions; every D integrates to 1 over the circle."""
 
+import math
 from dataclasses import dataclass, field
 from functools import partial
 from types import BuiltinFunctionType, FunctionType, MethodType
@@ -109,6 +110,31 @@ def donelan_banner_beta(x: Real) -> Real:
     return np.where(x < 0.95, below, np.where(x < 1.6, near, above))
 
 
+LONG_CRESTED_WIDTH = math.radians(0.1)
+"""Standard deviation of the bell that stands for a single direction where a density is asked for [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class LongCrested:
+    """
+    All energy in the system's own direction: crests without end, as in a wave flume.
+
+    Tiles take the direction exactly. A tile holds discrete wavenumbers (2 pi mx/lx, 2 pi my/ly), and each stands for the rectangular
+    cell around it; the ray from k = 0 along the direction runs through a chain of cells, and each gets the energy of the
+    wavenumbers |k| between which the ray lies within it. Nothing is lost. Along an axis of the tile, or any direction whose ray
+    meets the wavenumbers themselves, the waves are exactly parallel; else they lie up to half a cell beside the ray, and
+    `fo.measure` says their realised spread (a few degrees where the longest waves are a tenth of the tile).
+
+    As a density, for pictures and sums over directions, it is a normal bell 0.1 degrees wide.
+    """
+
+    def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
+        """Return D at `theta`, [1/rad]: the bell."""
+        _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
+        bell: Real = np.exp(-0.5 * (theta / LONG_CRESTED_WIDTH) ** 2)
+        return bell / (LONG_CRESTED_WIDTH * math.sqrt(2.0 * np.pi))
+
+
 @dataclass(frozen=True, slots=True)
 class Blend:
     """(1 - weight) first + weight second: from the first model at weight 0 to the second at weight 1."""
@@ -121,6 +147,16 @@ class Blend:
         require_spreading("first", self.first)
         require_spreading("second", self.second)
         keep_checked(self, weight=FRACTION)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The directions at which one of the two has a kink or a jump [rad]."""
+        return tuple(b for model in (self.first, self.second) for b in getattr(model, "breaks", ()))
+
+    @property
+    def frequency_breaks(self) -> tuple[float, ...]:
+        """The frequencies at which one of the two has a kink [rad/s]."""
+        return tuple(b for model in (self.first, self.second) for b in getattr(model, "frequency_breaks", ()))
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""

@@ -167,13 +167,13 @@ class CustomSpreading:
     """
     Any function of (omega, theta, peak), brought to integral 1 at every frequency.
 
-    The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and end at `breaks`, so a bell round the wind of
+    The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and toward `breaks`, so a bell round any of them of
     any width down to 0.1 degree is good to 1e-12, and so is anything smooth; a function with a kink or a jump that `breaks` does not
     name is refused when the quadrature sees it. Between many frequencies the norm is interpolated, to 1e-12 as well.
     """
 
     function: Function  # f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi]
-    breaks: Sequence[float] = ()  # where it has a kink or a jump in theta [rad], besides 0, +-pi/2 and +-pi
+    breaks: Sequence[float] = ()  # where it has a kink, a jump or a narrow bell in theta [rad], besides 0, +-pi/2 and +-pi
 
     def __post_init__(self) -> None:
         if not callable(self.function) or isinstance(self.function, type):
@@ -221,6 +221,16 @@ class SwellElongation:
         require_spreading("base", self.base)
         keep_checked(self, xi=FRACTION)
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The directions at which the base has a kink or a jump [rad]."""
+        return tuple(getattr(self.base, "breaks", ()))
+
+    @property
+    def frequency_breaks(self) -> tuple[float, ...]:
+        """The frequencies at which the base has a kink [rad/s]."""
+        return tuple(getattr(self.base, "frequency_breaks", ()))
+
     def exponent_added(self, omega: RealLike, peak: float) -> Real:
         """16 tanh(omega_p/omega) xi^2 [-] at `omega`."""
         s: Real = 16.0 * np.tanh(1.0 / _relative(omega, peak)) * self.xi**2
@@ -234,8 +244,7 @@ class SwellElongation:
         if own is not None:
             return cosine_2s(own + self.exponent_added(omega, peak), wrapped(theta))
         omega = _held(omega, peak)
-        breaks = tuple(getattr(self.base, "breaks", ()))
-        density: Real = self._product(omega, theta, peak) / _circle_integral(self._product, omega, peak, breaks)
+        density: Real = self._product(omega, theta, peak) / _circle_integral(self._product, omega, peak, self.breaks)
         return density
 
     def _own_exponent(self, omega: RealLike, peak: float) -> Real | None:
@@ -273,13 +282,18 @@ _DEGREE = 16  # of the table's polynomials
 @lru_cache(maxsize=64)
 def _panels(breaks: tuple[float, ...], order: int) -> Panels:
     """
-    Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0 and end at every break.
+    Return Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0 and every break, and end there.
 
     At +-pi the root of a cosine ends in (pi - |theta|)^2s, which no polynomial follows where s is small: there theta runs as the
     sixth power of the node, and the root becomes smooth.
     """
-    edges = np.pi * np.concatenate([[0.0, 0.75, 0.875, 1.0], 0.5 ** np.arange(1, 11)])
-    edges = np.unique(np.concatenate([edges, -edges, wrapped(np.array(breaks, dtype=np.float64))]))
+    halves = np.pi * 0.5 ** np.arange(1, 11)
+    edges = np.concatenate([np.pi * np.array([0.0, 0.75, 0.875, 1.0]), halves])
+    named = wrapped(np.array(breaks, dtype=np.float64))
+    toward = wrapped(np.concatenate([named + side * halves[:, None] for side in (-1.0, 0.0, 1.0)], axis=None))
+    edges = np.unique(np.concatenate([edges, -edges, toward]))
+    edges = edges[np.concatenate([[True], np.diff(edges) > 1e-12])]
+    edges[-1] = np.pi
     x, w = np.polynomial.legendre.leggauss(order)
     middle, half = 0.5 * (edges[1:-2] + edges[2:-1]), 0.5 * np.diff(edges[1:-1])
     theta, weights = [(middle[:, None] + half[:, None] * x).ravel()], [(half[:, None] * w).ravel()]

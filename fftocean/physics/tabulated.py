@@ -53,6 +53,16 @@ class TabulatedSpreading:
         object.__setattr__(self, "_theta", np.radians(np.append(turned, turned[0] + 360.0)))
         object.__setattr__(self, "_d", np.concatenate([d, d[:, :1]], axis=1))
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The directions of the table, where the straight lines meet [rad]."""
+        return tuple(self._theta[:-1].tolist())
+
+    @property
+    def frequency_breaks(self) -> tuple[float, ...]:
+        """The frequencies of the table [rad/s]."""
+        return tuple((2.0 * np.pi * self._f).tolist())
+
     def __repr__(self) -> str:
         f = self.frequency
         return f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, {len(self.direction)} directions)"

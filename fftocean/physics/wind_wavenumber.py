@@ -119,6 +119,10 @@ class Phillips:
         """S at `omega`, [m^2 s/rad]."""
         return _per_frequency(self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension)
 
+    def at_waves(self, _omega: RealLike, k: Real) -> Real:
+        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
+        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
+
 
 SHORT_PEAK: Final = 370.0
 """k_m [rad/m]: the wavenumber of the slowest wave, 1.7 cm long, where gravity and surface tension pull alike  (Elfouhaily et al. 1997)."""
@@ -230,6 +234,10 @@ class Elfouhaily:
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]."""
         return _per_frequency(self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension)
+
+    def at_waves(self, _omega: RealLike, k: Real) -> Real:
+        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
+        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
 
 
 def _phase_speed(k: Real) -> Real:

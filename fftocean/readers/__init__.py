@@ -2,27 +2,59 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout, ndbc, netcdf, swan
+from fftocean.readers import (
+    datawell,
+    files,
+    layout,
+    ndbc,
+    ndbc_archive,
+    near_misses,
+    netcdf,
+    octopus,
+    spotter,
+    swan,
+    swan_1d,
+    triaxys,
+    ww3_text,
+)
+from fftocean.readers.reader import Head, Reader
 from fftocean.readers.realise import Realised, sea_from_spectrum
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-__all__ = ["Realised", "open", "sea_from_spectrum"]
+__all__ = ["FORMATS", "Reader", "Realised", "open", "sea_from_spectrum"]
 
 BINS = Count("", 8, 720)
+
+FORMATS: Final[tuple[Reader, ...]] = (
+    netcdf.READER,
+    swan_1d.READER,
+    swan.READER,
+    ndbc_archive.READER,
+    ndbc.READER,
+    ww3_text.READER,
+    spotter.READER,
+    triaxys.READER,
+    datawell.READER,
+    octopus.READER,
+)
+"""The formats that are read. The first whose `sniff` accepts a file reads it, so the special stand before the general."""
+
+MOST_IN_FOLDER: Final = 10_000
+"""The most entries of a folder among which a set of files is looked for."""
 
 
 def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dataset":
     """
     Read the wave spectra of one place from a file of any known format, recognised by what is in it, plain or gzip.
 
-    Known are: NDBC realtime sets (`41010.data_spec` with its four files of directions beside it) and historical S(f) text, SWAN 2-D
-    ASCII, and netCDF as WAVEWATCH III, ERA5 (2-D wave spectra) and the wavespectra package write it.
+    `FORMATS` lists what is known; docs/readers.md has an example of each. Files that belong together (the
+    five of an NDBC buoy) are given by any one of them, or by the folder that holds them and nothing else to read.
 
     Args:
         path: the file.
@@ -42,16 +74,54 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     if not isinstance(path, (str, os.PathLike)):
         raise ReaderError(f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})")
     path = Path(os.fsdecode(path))
+    with files.refusing(path.name or str(path)):
+        folder = "\0" not in str(path) and path.is_dir()
+    if folder:
+        path = _only_set(path)
     files.require_file(path)
-    magic = files.head(path, 4096)
-    if netcdf.recognises(magic):
-        return layout.announce(netcdf.read(path, site=site))
-    first_line = magic.split(b"\n", 1)[0].decode("utf-8", "replace").strip()
-    if swan.recognises(first_line):
-        return swan.read(path, site=site)
-    if ndbc.recognises(first_line):
-        Count("", 0, 0).check_whole("site", site)
-        return ndbc.read(path, bins=bins)
+    head = Head.of(path)
+    for reader in FORMATS:
+        if reader.sniff(head):
+            return layout.announce(_ended(reader.files(path), reader.read(path, site, bins)))
+    if (what := near_misses.name(head)) is not None:
+        raise ReaderError(f"{path.name} {what}")
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
         break
-    raise ReaderError(f"{path.name} must be NDBC, SWAN or netCDF wave spectra, got {first_line!r:.40} first")
+    known = ", ".join(reader.name for reader in FORMATS)
+    raise ReaderError(f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40} first")
+
+
+def _only_set(folder: Path) -> Path:
+    """
+    Return the file that stands for the one set of NDBC's files in a folder.
+
+    Raises:
+        ReaderError: no set, or several; the message names them.
+    """
+    with files.refusing(folder.name):
+        names = []
+        for entry in folder.iterdir():
+            names.append(entry.name)
+            if len(names) > MOST_IN_FOLDER:
+                raise ReaderError(f"{folder.name} must hold at most {MOST_IN_FOLDER} files to look for spectra in, got more")
+    sets: dict[str, str] = {}
+    for name in sorted(names):
+        key = ndbc_archive.set_of(name) or ndbc.set_of(name)
+        if key:
+            sets.setdefault(key, name)
+    if len(sets) != 1:
+        held = f"those of {', '.join(sorted(sets))}"[:200] if sets else "none"
+        raise ReaderError(
+            f"the spectrum must be a regular file, got {str(folder)!r} (a directory); a folder must hold the files of "
+            f"one NDBC buoy (41010.data_spec and its four, or 41010w2019.txt and its four), got {held}"
+        )
+    return folder / next(iter(sets.values()))
+
+
+def _ended(read: list[Path], made: "Dataset") -> "Dataset":
+    """Say in the attributes which of the text files that were read lack their final newline."""
+    if "netCDF" in made.attrs["source_format"]:
+        return made
+    if cut := [other.name for other in read if not files.has_final_newline(other)]:
+        made.attrs["unterminated"] = f"{', '.join(cut)}: the last line has no end, and was taken as whole"
+    return made

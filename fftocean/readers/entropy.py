@@ -84,22 +84,36 @@ def _most_entropy(moments: Real, free: npt.NDArray[np.bool_], waves: Real) -> Re
     """
     multipliers = np.zeros_like(moments)
     share = np.full((len(moments), waves.shape[1]), 1.0 / waves.shape[1])
-    products = np.einsum("ij,kj->jik", waves, waves).reshape(waves.shape[1], 16)
+    products = (waves[:, None] * waves).reshape(16, -1)
     busy = np.flatnonzero(np.any(free, axis=1))
     for _ in range(_STEPS):
-        mean = share[busy] @ waves.T
+        mean = _weighted(share[busy], waves)
         slope = np.where(free[busy], mean - moments[busy] + _SLACK * multipliers[busy], 0.0)
         undone = np.max(np.abs(slope), axis=1, initial=0.0) > _ENOUGH
         busy, mean, slope = busy[undone], mean[undone], slope[undone]
         if not busy.size:
             break
-        curvature = (share[busy] @ products).reshape(-1, 4, 4) - mean[:, :, None] * mean[:, None, :]
+        curvature = _weighted(share[busy], products).reshape(-1, 4, 4)
+        curvature -= mean[:, :, None] * mean[:, None, :]
         both = free[busy][:, :, None] & free[busy][:, None, :]
         curvature = np.where(both, curvature, 0.0) + np.eye(4) * np.where(free[busy], _SLACK, 1.0)[:, :, None]
         step = -np.linalg.solve(curvature, slope[:, :, None])[:, :, 0]
         multipliers[busy], share[busy], moving = _downhill(multipliers[busy], step, slope, moments[busy], waves)
         busy = busy[moving]
     return share
+
+
+def _weighted(share: Real, functions: Real) -> Real:
+    """
+    Return sum_j share_j functions_j of each problem, (problems, functions).
+
+    Bin by bin and not by BLAS, whose last bits depend on how many problems there are, and on the
+    processor: a record must unfold to the same bytes alone and among others.
+    """
+    total = np.zeros((len(functions), len(share)))
+    for bin_share, values in zip(share.T, functions.T, strict=True):
+        total += values[:, None] * bin_share
+    return total.T
 
 
 def _downhill(start: Real, step: Real, slope: Real, moments: Real, waves: Real) -> tuple[Real, Real, npt.NDArray[np.bool_]]:
@@ -124,7 +138,9 @@ def _downhill(start: Real, step: Real, slope: Real, moments: Real, waves: Real) 
 
 def _height(multipliers: Real, moments: Real, waves: Real) -> tuple[Real, Real]:
     """ln sum_j exp(l.g_j) - l.m + slack/2 l.l, and the shares exp(l.g_j) / sum."""
-    exponent = multipliers @ waves
+    exponent = multipliers[:, :1] * waves[0]
+    for i in range(1, len(waves)):
+        exponent += multipliers[:, i : i + 1] * waves[i]
     top = np.max(exponent, axis=1)
     share = np.exp(exponent - top[:, None])
     total = np.sum(share, axis=1)

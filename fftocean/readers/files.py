@@ -85,13 +85,16 @@ def contents(path: Path) -> io.BytesIO:
     return io.BytesIO(data)
 
 
-def lines(path: Path) -> Iterator[tuple[str, str]]:
+def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
     """
     The lines of a text file, each with its place in words (`buoy.txt: line 3`) for the error that may name it.
 
+    A last line need not end with a newline. Where it does not, the file may have been cut within its
+    last number: that is refused where the number shows it, by fewer decimals than the one before it.
+
     Raises:
         ReaderError: a line longer than `MAX_LINE`, more than `MAX_BYTES` in all, text that is not UTF-8, an empty line
-            before the last, or a last line without its end: the mark of a file that was cut.
+            before the last, or a last number that was cut.
     """
     read, number, empty = 0, 0, ""
     with unpacked(path) as stream:
@@ -103,18 +106,39 @@ def lines(path: Path) -> Iterator[tuple[str, str]]:
                 raise ReaderError(f"{where} must be at most {MAX_LINE} bytes long, got more")
             if read > MAX_BYTES:
                 raise ReaderError(f"{where}: a text file must be at most {MAX_BYTES >> 20} MiB, got more")
-            if not raw.endswith(b"\n"):
-                raise ReaderError(f"{where} has no end: the file is cut short (if it is whole, end it with a newline)")
             try:
                 text = raw.decode("utf-8").strip()
             except UnicodeDecodeError as error:
                 raise ReaderError(f"{where} must be UTF-8 text, got the byte {raw[error.start]:#04x} at {error.start}") from error
-            if empty:
+            if empty and not blank:
                 raise ReaderError(f"{empty} is empty")
+            if not raw.endswith(b"\n"):
+                _require_whole_number(where, text)
             if text:
                 yield where, text
             else:
                 empty = where
+
+
+def _require_whole_number(where: str, line: str) -> None:
+    """Refuse a line whose last number has fewer decimals than the one before it."""
+    decimals = [re.fullmatch(r"[+-]?[0-9]*(?:\.([0-9]*))?", token) for token in line.split()[-2:]]
+    if len(decimals) == 2 and all(decimals):
+        before, last = (len(match[1] or "") for match in decimals if match)
+        if last < before:
+            raise ReaderError(
+                f"{where} has no end, and its last number {line.split()[-1]!r:.40} has fewer decimals than the "
+                "one before it: the file is cut short (if it is whole, end it with a newline)"
+            )
+
+
+def has_final_newline(path: Path) -> bool:
+    """Tell a text file that ends with a newline; one that is packed is whole, as its own check sums say."""
+    if is_packed(path):
+        return True
+    with refusing(path.name), path.open("rb") as file:
+        file.seek(-1, io.SEEK_END)
+        return file.read(1) == b"\n"
 
 
 def number(where: str, token: str) -> float:

@@ -20,8 +20,10 @@ import numpy as np
 
 from fftocean.arrays import Complex, Integer, Real
 from fftocean.errors import ReaderError
-from fftocean.readers import files, layout
-from fftocean.readers.entropy import maximum_entropy
+from fftocean.limits import Count
+from fftocean.readers import files, layout, near_misses
+from fftocean.readers.moments import compass, unfold
+from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -46,7 +48,6 @@ _KINDS: Final = {
     ".swr2": _Column("r2_1", "", 1.1, (99.0, 999.0, 9999.0)),
 }
 _DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re.DOTALL)
-_CHUNK: Final = 64  # records unfolded at a time: what they take stays in the cache
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ def recognises(first_line: str) -> bool:
 
 def read(path: Path, *, bins: int) -> "Dataset":
     """
-    Read a realtime set, given by its `.data_spec`, or a historical S(f) file.
+    Read a realtime set, given by any one of its files, or a historical S(f) file.
 
     Args:
         path: the file; a set's other four are looked for beside it, plain or as .gz.
@@ -76,6 +77,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
     Raises:
         ReaderError: a file of another kind, a set with a file missing, or broken lines.
     """
+    path = _set_of(path)
     _, header = next(files.lines(path))
     realtime = any(column.word in header for column in _KINDS.values())
     if not realtime:
@@ -91,6 +93,34 @@ def read(path: Path, *, bins: int) -> "Dataset":
         raise ReaderError(f"{path.name} must have all four files of directions beside it, or none; missing: {absent}")
     moments = [_table(other, _KINDS[suffix]) for suffix, other in beside.items() if other]
     return _directed(spectrum, moments, bins)
+
+
+def set_of(name: str) -> str | None:
+    """Return the name of the `.data_spec` of a set, given the name of any of its files; None for other names."""
+    stem, dot, suffix = name.removesuffix(".gz").rpartition(".")
+    return f"{stem}.data_spec" if stem and dot + suffix in _KINDS else None
+
+
+def _set_of(path: Path) -> Path:
+    """Return the `.data_spec` of the set to which a file of directions or coherences belongs; else the file."""
+    name = path.name.removesuffix(".gz")
+    stem, _, suffix = name.rpartition(".")
+    if f".{suffix}" not in list(_KINDS)[1:] or not stem:
+        return path
+    found = _sibling(path, stem + ".data_spec")
+    if found is None:
+        raise ReaderError(f"{path.name} must have {stem}.data_spec beside it, which holds the densities; it is missing")
+    return found
+
+
+def files_of(path: Path) -> list[Path]:
+    """Return a file and those of its set that are beside it."""
+    if set_of(path.name) is None:
+        return [path]
+    first = _set_of(path)
+    stem = first.name.removesuffix(".gz").rpartition(".")[0]
+    others = [_sibling(first, stem + suffix) for suffix in _KINDS]
+    return [other for other in others if other]
 
 
 def _sibling(path: Path, name: str) -> Path | None:
@@ -117,7 +147,9 @@ def _undirected(table: _Table, source_format: str) -> "Dataset":
     )
 
 
-def _directed(spectrum: _Table, moments: list[_Table], bins: int) -> "Dataset":
+def _directed(
+    spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text"
+) -> "Dataset":
     frequency, order = layout.frequencies(f"{spectrum.name}: the frequencies", spectrum.frequency)
     for table in moments:
         if not np.array_equal(table.frequency, spectrum.frequency):
@@ -130,28 +162,20 @@ def _directed(spectrum: _Table, moments: list[_Table], bins: int) -> "Dataset":
     s, a1, a2, r1, r2 = (table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments))
     s, counts = layout.densities(spectrum.name, s, "m2/Hz")
     c1, c2 = _moment(r1, a1, 1), _moment(r2, a2, 2)
-    density = np.empty((*s.shape, bins))
-    limited = 0
-    for i in range(0, time.size, _CHUNK):
-        piece = slice(i, i + _CHUNK)
-        unfolded = maximum_entropy(c1[piece], c2[piece], bins)
-        density[piece] = s[piece, :, None] * unfolded.share * (bins / 360.0)
-        limited += int(np.count_nonzero(unfolded.limited & (s[piece] > 0.0)))
+    density, done = unfold(s, c1, c2, bins)
     return layout.dataset(
         source=spectrum.name,
-        source_format="NDBC realtime text",
+        source_format=source_format,
         frequency=frequency,
         density=density,
-        direction=360.0 / bins * np.arange(bins),
+        direction=compass(bins),
         time=_datetimes(time),
         notes={
             **counts,
             "masked_moments": sum(int(np.count_nonzero(np.isnan(values))) for values in (a1, a2, r1, r2)),
-            "undirected_densities": int(np.count_nonzero(np.isnan(c1) & (s > 0.0))),  # energy shared out evenly, for want of a1 or r1
-            "limited_moments": limited,
+            **done,
             "repeated_times": spectrum.repeated,
             "unpaired_times": spectrum.time.size - time.size,
-            "directional_method": "maximum entropy (Kobune & Hashimoto 1986)",
             "sites": 1,
         },
     )
@@ -238,3 +262,18 @@ def _seconds(where: str, tokens: list[str], fields: int) -> int:
     if not 1900 <= date.year < 2200:
         raise ReaderError(f"{where} must begin with a date between 1900 and 2200, got {' '.join(tokens)!r}")
     return int((date - datetime(1970, 1, 1)).total_seconds())
+
+
+def _read(path: Path, site: int, bins: int) -> "Dataset":
+    Count("", 0, 0).check_whole("site", site)
+    return read(path, bins=bins)
+
+
+READER: Final = Reader(
+    name="NDBC text",
+    extensions=(".data_spec", ".txt"),
+    description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), or a year of S(f).",
+    sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
+    read=_read,
+    files=files_of,
+)

@@ -8,9 +8,10 @@ one that matters is missing or unknown, the file is refused: a sea turned round 
 Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data documentation, "Wave spectra".
 """
 
+import math
 import re
 import warnings
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,10 +19,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from fftocean.arrays import Real
+from fftocean.arrays import Integer, Real
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, hdf5, layout
+from fftocean.readers import bands, circular, files, hdf5, layout, moments, package, units
+from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -38,9 +40,9 @@ _SPECTRA: Final = {
     "sea_surface_wave_directional_variance_spectral_density": True,
     "sea_surface_wave_variance_spectral_density": False,
 }
-_DEGREES: Final = ("deg", "degr", "degree", "degrees")
-_RADIANS: Final = ("rad", "radian", "radians")
-_PER_HERTZ: Final = (("s", 1), ("hz", -1), ("hertz", -1), ("sec", 1))
+_FIRST: Final = "frequency1"
+_SECOND: Final = "frequency2"
+_WIDTHS: Final = ("df", "waveBandwidth", "bandwidth", "frequency_bandwidth")
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,7 @@ def recognises(magic: bytes) -> bool:
     return magic.startswith((hdf5.MAGIC, b"CDF"))
 
 
-def read(path: Path, *, site: int) -> "Dataset":
+def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
     """
     Read the spectra of one place.
 
@@ -88,7 +90,7 @@ def read(path: Path, *, site: int) -> "Dataset":
         engine = "h5netcdf" if modern else "scipy"
         stream = opened.open("rb") if isinstance(opened, Path) else opened
         with stream, xr.open_dataset(stream, engine=engine, decode_timedelta=False) as raw:
-            return tidy(raw, site=site, source=path.name)
+            return tidy(raw, site=site, source=path.name, bins=bins)
 
 
 @contextmanager
@@ -106,7 +108,15 @@ def _broken(name: str) -> Iterator[None]:
         raise ReaderError(f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}") from error
 
 
-def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str = "the dataset") -> "Dataset":
+def tidy(
+    raw: "Dataset | DataArray",
+    *,
+    site: int = 0,
+    time: int | None = None,
+    source: str = "the dataset",
+    bins: int = 72,
+    negative: str = "refuse",
+) -> "Dataset":
     """
     Put an opened dataset of any known kind into our layout; one that is in it already comes out as it went in.
 
@@ -116,13 +126,14 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
             variable's own order (a grid is counted row by row).
         time: one time only; all of them where None.
         source: what to call it in errors.
+        bins: directions round the compass into which the moments of a buoy are unfolded.
+        negative: what to do with negative densities: "refuse" or "clip", see `layout.densities`.
 
     Raises:
         ReaderError: see the head of this file.
         ParameterError: `site` or `time` is not in the dataset.
     """
-    if not hasattr(raw, "data_vars"):
-        raise ReaderError(f"{source} must be an xarray.Dataset, got {type(raw).__name__}")
+    raw = package.as_dataset(raw, source)
     spectrum, directional = _spectrum(raw, source)
     where = f"{source}: variable {spectrum.name}"
     if {"scale_factor", "add_offset", "_FillValue"} & spectrum.attrs.keys():
@@ -152,7 +163,14 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
     if "time" not in axes or axes["time"] not in spectrum.dims:
         values = values[np.newaxis]
 
-    frequency, f_order = layout.frequencies(*_frequency(raw, axes, family, source))
+    there, f = _frequency(raw, axes, family, source)
+    kept, left_out = layout.above_zero(f)
+    frequency, f_order = layout.frequencies(there, f[kept])
+    f_order = np.flatnonzero(kept)[f_order]
+    notes |= left_out
+    edges = _bands(raw, axes["freq"], frequency, f_order, source)
+    if (logarithm := _logarithm(where, spectrum.attrs)) is not None and not family.log10:
+        values = units.Unit(1.0, {}, logarithm.base, logarithm.offset).linear(values)
     scale = _per_degree(where, spectrum.attrs, family, directional)
     values = scale * values[:, f_order]
     direction = None
@@ -170,23 +188,41 @@ def tidy(raw: "Dataset", *, site: int = 0, time: int | None = None, source: str 
     if family.log10:
         values, empty = _from_log10(where, values)
         notes["below_threshold_values"] = empty
-    density, counts = layout.densities(where, values, "m2/Hz/degree" if directional else "m2/Hz")
+    unit = "m2/Hz/degree" if directional else "m2/Hz"
+    density, counts = layout.densities(where, values, unit, negative=negative)
+    if not directional:
+        pair = circular.find(
+            raw, spectrum.name, source, lambda v: _table(source, v.isel(picked), order)[:, f_order]
+        )
+        if pair is not None:
+            density, done = moments.unfold(density, *pair, bins)
+            direction = moments.compass(bins)
+            notes |= done
     return layout.dataset(
         source=source if source != "the dataset" else str(raw.attrs.get("source", source)),
-        source_format=str(raw.attrs.get("source_format", family.name)),
+        source_format=str(raw.attrs.get("source_format", circular.FAMILIES.get(str(spectrum.name), family.name))),
         frequency=frequency,
         density=density,
         direction=direction,
         time=_times(raw, axes, picked, source),
         depth=_depth(raw, axes, picked, len(density)),
         position=_position(raw, picked),
+        bands=edges,
         notes={**counts, **notes},
     )
 
 
+def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Real:
+    """The numbers of one place, (time, f), NaN where they are fill values."""
+    values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
+    with np.errstate(invalid="ignore"):
+        values[np.abs(values) > layout.FILL] = np.nan
+    return np.atleast_2d(values)
+
+
 def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
     """The variable with the spectra, and whether it says itself that it has directions."""
-    for name in ("d2fd", "efth", "ef"):
+    for name in ("d2fd", "efth", "ef", *circular.DENSITIES):
         if name in raw.data_vars:
             return raw[name], _SPECTRA.get(str(raw[name].attrs.get("standard_name")))
     found = [name for name, v in raw.data_vars.items() if v.attrs.get("standard_name") in _SPECTRA]
@@ -255,10 +291,44 @@ def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
     values = _numbers(where, f)
     if family is _ERA5 and (numbers := _bin_numbers(where, values, 30)) is not None:
         return where, 0.03453 * 1.1 ** (numbers - 1.0)
-    unit = str(f.attrs.get("units", "Hz" if family.documented else "")).replace(" ", "").lower()
-    if unit not in ("hz", "s-1", "s^-1", "s**-1", "1/s", "hertz"):
+    unit = units.parse(f.attrs.get("units", "Hz" if family.documented else ""))
+    if unit is None or not unit.is_(s=-1):
         raise ReaderError(f"{where} must have units Hz or s-1, got {f.attrs.get('units')!r}")
-    return where, values
+    return where, values * unit.scale
+
+
+def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, source: str) -> Real | None:
+    """
+    Return the edges of the bands that the file states, (f, 2) [Hz], or None.
+
+    By CF's `bounds` attribute, WAVEWATCH III's `frequency1` and `frequency2`, or a width of each band.
+    """
+    f = raw[axis]
+    name = f.attrs.get("bounds", f.encoding.get("bounds"))
+    found: list[tuple[Hashable, DataArray]] = []
+    if name in raw.variables:
+        found = [(name, raw[name].isel({raw[name].dims[-1]: i})) for i in range(2) if raw[name].ndim == 2 and raw[name].shape[1] == 2]
+    elif _FIRST in raw.variables and _SECOND in raw.variables:
+        found = [(_FIRST, raw[_FIRST]), (_SECOND, raw[_SECOND])]
+    else:
+        width = next((w for w in _WIDTHS if w in raw.variables and raw[w].dims == (axis,)), None)
+        if width is None:
+            return None
+        where = f"{source}: variable {width}"
+        return bands.of_widths(where, frequency, _hertz(where, raw[width], f.attrs.get("units", "Hz"))[order])
+    if not found or any(edge.dims != (axis,) for _, edge in found):
+        raise ReaderError(f"{source}: variable {name or _FIRST} must hold two edges of the band of each {axis}")
+    edges = [_hertz(f"{source}: variable {name}", edge, f.attrs.get("units", "Hz"))[order] for name, edge in found]
+    return bands.checked(f"{source}: variable {found[0][0]}", frequency, np.stack(edges, axis=1))
+
+
+def _hertz(where: str, variable: "DataArray", unit: str) -> Real:
+    """Frequencies in Hz; bounds without a unit have that of their axis, as CF says."""
+    said = variable.attrs.get("units", unit)
+    parsed = units.parse(said)
+    if parsed is None or not parsed.is_(s=-1):
+        raise ReaderError(f"{where} must have units Hz or s-1, got {said!r:.60}")
+    return _numbers(where, variable) * parsed.scale
 
 
 def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real, bool]:
@@ -268,11 +338,11 @@ def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
     if family is _ERA5 and (numbers := _bin_numbers(where, values, 24)) is not None:
         values = 7.5 + 15.0 * (numbers - 1.0)
     else:
-        unit = str(d.attrs.get("units", "degree" if family.documented else "")).lower()
+        unit = units.parse(d.attrs.get("units", "degree" if family.documented else ""))
         turn = np.nanmax(np.abs(values), initial=0.0)
-        if unit in _RADIANS:
+        if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
             values = np.degrees(values)
-        elif unit.removesuffix("_true") not in _DEGREES:
+        elif unit is None or not unit.is_(rad=1):
             raise ReaderError(f"{where} must have units degree or radian, got {d.attrs.get('units')!r}")
         elif values.size >= 8 and turn <= 2.0 * np.pi + 1e-3:
             raise ReaderError(f"{where} must be in degrees, as it says, but spans {turn:.4g} in {values.size} steps: is it in radians?")
@@ -327,25 +397,28 @@ def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, direction
 
 
 def _unit(where: str, text: Any, directional: bool) -> float:
-    """Read `m2 s rad-1`, `m**2 s radian**-1`, `m^{2}.s.degree^{-1}`, `m2/Hz/degr`, `m^2/(Hz radian)` alike."""
-    powers: dict[str, int] = {}
-    spelt = re.sub(r"[{}^]|\*\*", "", str(text).lower())
-    sign = 1
-    for token in re.findall(r"[a-z]+-?[0-9]*|/|[()]|[^\s.*·]", spelt):
-        match = re.fullmatch(r"([a-z]+)(-?[0-9]*)", token)
-        if token == "/":
-            sign = -1
-        elif match:
-            powers[match[1]] = powers.get(match[1], 0) + sign * int(match[2] or 1)
-            sign = sign if "(" in spelt else 1
-        elif token not in "()1":
-            powers[token] = 1  # unknown: refused below
-    per_angle = {name: power for name, power in powers.items() if name in (*_DEGREES, *_RADIANS)}
-    rest = {name: power for name, power in powers.items() if name not in per_angle}
-    right = rest.pop("m", 0) == 2 and len(rest) == 1 and next(iter(rest.items())) in _PER_HERTZ
-    if not right or list(per_angle.values()) != ([-1] if directional else []):
+    """Return what turns numbers in a unit, in any of UDUNITS' spellings, into m2/Hz/degree (m2/Hz)."""
+    unit = units.parse(text)
+    right = {"m": 2, "s": 1, "rad": -1} if directional else {"m": 2, "s": 1}
+    if unit is None or not unit.is_(**right):
         raise ReaderError(f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}")
-    return np.pi / 180.0 if set(per_angle) & set(_RADIANS) else 1.0
+    return unit.scale * (np.pi / 180.0 if directional else 1.0)
+
+
+def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
+    """Return the base of the logarithms that a variable says it holds, and what was added before; None where it says none."""
+    unit = units.parse(attrs.get("units"))
+    if unit is not None and unit.base is not None:
+        return unit
+    said = " ".join(str(attrs.get(key, "")) for key in ("standard_name", "long_name"))
+    words = set(re.split(r"[^a-z0-9]+", said.lower()))
+    if not words & {"logarithm", "log", "log10", "ln", "lg"}:
+        return None
+    if words & {"natural", "ln"}:
+        return units.Unit(base=math.e)
+    if words & {"ten", "10", "log10", "lg", "decadic", "common"}:
+        return units.Unit(base=10.0)
+    raise ReaderError(f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), got {said!r:.80}")
 
 
 def _from_log10(where: str, values: Real) -> tuple[Real, int]:
@@ -389,14 +462,9 @@ def _depth(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashabl
     for name, variable in raw.variables.items():
         if name == "dpt" or str(variable.attrs.get("standard_name", "")).startswith("sea_floor_depth_below"):
             depth = _at(raw[name], picked)
-            if set(depth.dims) <= {axes.get("time")} and str(variable.attrs.get("units", "m")) in (
-                "m",
-                "meter",
-                "metre",
-                "meters",
-                "metres",
-            ):
-                values = np.broadcast_to(np.asarray(depth.values, dtype=np.float64), (count,))
+            unit = units.parse(variable.attrs.get("units", "m"))
+            if set(depth.dims) <= {axes.get("time")} and unit is not None and unit.is_(m=1):
+                values = unit.scale * np.broadcast_to(np.asarray(depth.values, dtype=np.float64), (count,))
                 return np.where((values > 0.0) & (values < 1e5), values, np.nan)
     return None
 
@@ -411,3 +479,12 @@ def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float
                 if values.size and np.issubdtype(values.dtype, np.number) and np.isfinite(values[0]):
                     position[key] = float(values[0])
     return position
+
+
+READER: Final = Reader(
+    name="netCDF",
+    extensions=(".nc",),
+    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, and what follows the CF conventions.",
+    sniff=lambda head: recognises(head.data),
+    read=lambda path, site, bins: read(path, site=site, bins=bins),
+)

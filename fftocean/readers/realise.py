@@ -1,4 +1,4 @@
-"""From a measured spectrum to a `Sea`: straight lines between its points, its own variance, our directions."""
+"""Seas made from measured spectra: straight lines with the moments of the source's own bands, and our directions."""
 
 import math
 import warnings
@@ -15,11 +15,12 @@ from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import TabulatedSpectrum
 from fftocean.physics.spreading import Spreading
 from fftocean.physics.tabulated import TabulatedSpreading, bin_widths
+from fftocean.readers import bands
 from fftocean.readers.layout import announce
 from fftocean.readers.netcdf import tidy
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from xarray import DataArray, Dataset
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,27 +29,33 @@ class Realised:
 
     sea: Sea
     hs_source: float  # significant wave height of the source's own sum over bands [m]; what `sea` has
-    factor: float  # on the densities, so that the straight lines between them hold as much as the bands [-]
+    factor: float  # m0 of the source's bands over that of straight lines through its densities [-]
+    tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
+    tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
+    notes: tuple[str, ...] = ()  # what was masked, repaired or assumed, in words
 
     @classmethod
     def from_spectrum(
         cls,
-        dataset: "Dataset",
+        dataset: "Dataset | DataArray",
         *,
         time: int = 0,
         site: int = 0,
         depth: float | None = None,
         direction: float | None = None,
         spreading: Spreading | None = None,
+        negative: str = "refuse",
     ) -> "Realised":
         """
         Realise one spectrum of a dataset.
 
-        Between its frequencies and directions the spectrum is drawn in straight lines; outside them it is 0. The source's variance
-        is the sum of S(f) df over its bands, each reaching half way to its neighbours and the outermost as far out as in: so buoys
-        sum it, and the wavespectra package (`hs(tail=False)`). The straight lines hold a little more or less; the densities are
-        multiplied by one `factor` to make up for it. A frequency that is missing altogether is bridged; single missing bins are
-        empty, as in ERA5.
+        The source's moments are sums over its bands of S(f) f^n df. Bands are the dataset's own where
+        it has them (`freq_bnds`, and what netCDF files call them); else each reaches half way to its
+        neighbours and the outermost as far out as in: so buoys are summed, and so does the wavespectra
+        package (`hs(tail=False)`). Between frequencies and directions the sea is drawn in straight
+        lines, which have the same m0, m1 and m2, hence Hs, Tm01 and Tm02 (`bands.straight_lines`);
+        outside the bands it is 0. A frequency that is missing altogether is bridged; single missing
+        bins are empty, as in ERA5.
 
         Args:
             dataset: from `readers.open`, the wavespectra package, or opened by xarray: dimensions freq, dir, perhaps time, site.
@@ -57,24 +64,29 @@ class Realised:
             depth: still-water depth [m]; None takes `dpt` of the dataset, and deep water where it has none.
             direction: toward which the waves go, counter-clockwise from +x [degrees]: for a spectrum without directions.
             spreading: how they spread: for a spectrum without directions, which needs both.
+            negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each frequency: for
+                directions that were drawn as a cut Fourier series (`wavespectra.read_ndbc`).
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
             ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
         """
-        spectrum = announce(tidy(dataset, site=site, time=time))
-        if depth is None:
-            depth = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.inf
-            depth = math.inf if math.isnan(depth) else depth
+        spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
+        notes = [str(text) for key, text in spectrum.attrs.items() if key.endswith("_note")]
+        depth = _depth(spectrum, depth, notes)
         frequency = np.asarray(spectrum["freq"].values)
+        own = np.asarray(spectrum["freq_bnds"].values) if "freq_bnds" in spectrum.coords else None
         compass = None
         if "efth" in spectrum:
             if direction is not None or spreading is not None:
                 raise ParameterError(f"a spectrum with directions takes no others, got direction={direction!r}, spreading={spreading!r}")
-            compass, density = _whole_circle(np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]))
+            compass, density = _whole_circle(np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]), notes)
             measured = ~np.all(np.isnan(density), axis=1)
-            frequency, density = frequency[measured], np.nan_to_num(density[measured], nan=0.0)
-            total = density @ bin_widths(compass)
+            density = density[measured]
+            if empty := int(np.count_nonzero(np.isnan(density))):
+                notes.append(f"{empty} missing bins of frequency and direction were taken as empty")
+            density = np.nan_to_num(density, nan=0.0)
+            total = np.sum(density * bin_widths(compass), axis=1)
         else:
             if direction is None or spreading is None:
                 raise ParameterError(
@@ -83,61 +95,97 @@ class Realised:
                 )
             total = np.asarray(spectrum["ef"].values[0])
             measured = ~np.isnan(total)
-            frequency, total = frequency[measured], total[measured]
+            total = total[measured]
+        edges = bands.without(frequency, own, measured)
+        frequency = frequency[measured]
         if frequency.size < 2:
             raise ReaderError(
                 f"time {time} must have at least 2 frequencies that are not missing (land, ice, a silent buoy?), got {frequency.size}"
             )
+        if missing := int(np.count_nonzero(~measured)):
+            notes.append(f"{missing} missing frequencies were bridged, or left out at the ends")
 
-        m0 = float(np.sum(total * np.gradient(frequency)))
+        lines = bands.straight_lines(frequency, total, edges)
+        m0, m1, m2 = lines.moments
         hs = 4.0 * math.sqrt(m0)
         if hs > SIGNIFICANT_WAVE_HEIGHT.high:
             raise ReaderError(
                 f"time {time}: the significant wave height must be {SIGNIFICANT_WAVE_HEIGHT.rule}, got {hs:g} (in other units?)"
             )
-        lines = float(np.sum(0.5 * (total[1:] + total[:-1]) * np.diff(frequency)))
-        if not lines > 0.0:
+        if not m0 > 0.0:
             warnings.warn("the spectrum holds no energy: the sea is exactly flat", SeaWarning, stacklevel=2)
-            return cls(sea=Sea(depth=depth), hs_source=0.0, factor=1.0)
-        factor = m0 / lines
+            return cls(sea=Sea(depth=depth), hs_source=0.0, factor=1.0, notes=(*notes, "the spectrum holds no energy"))
+        if lines.matched < 2:
+            kept = "Hs and Tm01" if lines.matched else "Hs"
+            notes.append(f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02")
         if compass is not None:
             toward = 270.0 - compass  # clockwise from north, FROM -> counter-clockwise from east, TOWARD
-            energy = density * np.gradient(frequency)[:, np.newaxis] * bin_widths(compass)
+            energy = density * (edges[:, 1] - edges[:, 0])[:, np.newaxis] * bin_widths(compass)
             direction, _ = mean_direction_and_spread(energy, np.radians(np.broadcast_to(toward, energy.shape)))
             spreading = TabulatedSpreading(frequency=frequency.tolist(), direction=(toward - direction).tolist(), density=density.tolist())
         assert direction is not None
         assert spreading is not None
-        straight = TabulatedSpectrum(frequency=frequency.tolist(), density=(total * factor).tolist())
+        straight = TabulatedSpectrum(frequency=lines.frequency.tolist(), density=lines.density.tolist())
         system = WaveSystem(spectrum=straight, spreading=spreading, direction=direction)
-        return cls(sea=Sea(system, depth=depth), hs_source=hs, factor=factor)
+        return cls(
+            sea=Sea(system, depth=depth),
+            hs_source=hs,
+            factor=lines.factor,
+            tm01_source=m0 / m1,
+            tm02_source=math.sqrt(m0 / m2),
+            notes=tuple(notes),
+        )
+
+
+def _depth(spectrum: "Dataset", depth: float | None, notes: list[str]) -> float:
+    """Return the depth that is asked for, else the dataset's own, else deep water; and note which."""
+    if depth is not None:
+        return depth
+    own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
+    if math.isnan(own):
+        notes.append("no depth is known: the water is taken as deep")
+        return math.inf
+    notes.append(f"the depth is the measurement's own, {own:g} m")
+    return own
 
 
 def sea_from_spectrum(
-    dataset: "Dataset",
+    dataset: "Dataset | DataArray",
     *,
     time: int = 0,
     site: int = 0,
     depth: float | None = None,
     direction: float | None = None,
     spreading: Spreading | None = None,
+    negative: str = "refuse",
 ) -> Sea:
     """The sea of one measured spectrum: `Realised.from_spectrum(...)`, which has the arguments, without its report."""
-    return Realised.from_spectrum(dataset, time=time, site=site, depth=depth, direction=direction, spreading=spreading).sea
+    return Realised.from_spectrum(
+        dataset,
+        time=time,
+        site=site,
+        depth=depth,
+        direction=direction,
+        spreading=spreading,
+        negative=negative,
+    ).sea
 
 
-def _whole_circle(compass: Real, density: Real) -> tuple[Real, Real]:
+def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real, Real]:
     """
     Close a sector: where directions leave out more than twice their usual step, nothing was computed and nothing comes from there.
 
     Args:
         compass: (d,) ascending in [0, 360) [degrees].
         density: (f, d).
+        notes: to which a note is added where this was done.
     """
     gaps = np.diff(compass, append=compass[0] + 360.0)
     step = float(np.median(gaps))
     wide = np.flatnonzero(gaps > 2.5 * step)
     if not wide.size:
         return compass, density
+    notes.append(f"directions leave out {float(np.sum(gaps[wide] - 2.0 * step)):g} degrees of the circle: nothing comes from there")
     ends = np.concatenate([compass[wide] + step, compass[(wide + 1) % compass.size] - step]) % 360.0
     silent = np.all(np.isnan(density), axis=1, keepdims=True)
     compass = np.concatenate([compass, ends])

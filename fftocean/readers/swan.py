@@ -16,6 +16,7 @@ from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
 from fftocean.readers import files, layout
+from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -196,3 +197,12 @@ def _time(where: str, line: str) -> datetime:
     if not 1900 <= time.year < 2200:
         raise ReaderError(f"{where} must begin with a time between 1900 and 2200, got {token}")
     return time
+
+
+READER: Final = Reader(
+    name="SWAN 2-D ASCII",
+    extensions=(".spec", ".sp2", ".spc"),
+    description="Spectra by frequency and direction, of one or more places.",
+    sniff=lambda head: recognises(head.first_line),
+    read=lambda path, site, bins: read(path, site=site),  # noqa: ARG005
+)

@@ -98,6 +98,7 @@ VERDICTS = {
     "bake.format":           "r   r   r  r r   r    r     r",
     "bake.engine":           "r   r   r  r r   r    r     r",
     "bake.lookup":           "r   r   r  r r   r    r     r",
+    "bake.normals":         "r   r   r  r r   r    r     r",
     "bake.mips":             "r   r   r  r r   a    r     r",
     "bake.pictures":         "r   r   r  r r   r    r     r",
     "bake.foam.tau":         "r   r   r  r r   r    r     r",

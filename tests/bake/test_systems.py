@@ -29,6 +29,7 @@ SPREAD = {
     "donelan-banner": ("", fo.DonelanBanner()),
     "mitsuyasu": ("speed = 9.0", fo.Mitsuyasu(speed=9.0)),
     "hasselmann": ("speed = 9.0", fo.Hasselmann(speed=9.0)),
+    "long-crested": ("", fo.LongCrested()),
     "wrapped-normal": ("spread = 20.0", fo.WrappedNormal(spread=20.0)),
     "swell": ("xi = 0.7", fo.SwellElongation(fo.DonelanBanner(), xi=0.7)),
     "blend": ("weight = 0.2", fo.Blend(fo.DonelanBanner(), fo.CosineSquared(), weight=0.2)),

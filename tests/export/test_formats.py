@@ -9,7 +9,7 @@ import OpenEXR
 import pytest
 
 from fftocean.errors import IntegrityError, OutputError, ParameterError
-from fftocean.export import formats
+from fftocean.export import formats, rules
 from fftocean.export.formats import FORMATS, assemble, decode, decode_levels, encode, payloads, require
 from fftocean.export.profiles import PROFILES, arrange, restore
 
@@ -280,12 +280,14 @@ def test_frames_of_an_atlas_stand_in_reading_order():
     assert "wrapmodes" not in file.header()  # its tiles repeat, it does not
     side = json.loads(files["displacement.json"])
     across, down = side["tiles"]
-    assert (across, down) == (2, 3)  # 16 x 12 rather than 24 x 8
+    assert (across, down) == (2, 3)  # 20 x 18 rather than 30 x 12
+    assert side["gutter"] == 1
     for c, letter in enumerate("RGB"):
         picture = file.channels()[letter].pixels
         for i, frame in enumerate(sequence):
-            tile = picture[i // across * 4 :, i % across * 8 :][:4, :8]
-            assert np.array_equal(tile, frame[..., c].astype(np.float16))
+            cell = picture[i // across * 6 :, i % across * 10 :][:6, :10]
+            wrapped = np.take(np.take(frame[..., c], range(-1, 5), 0, mode="wrap"), range(-1, 9), 1, mode="wrap")
+            assert np.array_equal(cell, wrapped.astype(np.float16))
     assert side["seconds_per_frame"] == pytest.approx(1 / 3)
     assert side["sha256"] == hashlib.sha256(files["displacement.exr"]).hexdigest()
 
@@ -350,7 +352,7 @@ def test_the_sidecar_says_all_that_a_reader_needs(name):
     assert (side["frames"], side["rows"], side["columns"]) == (FRAMES, ROWS, COLUMNS)
     assert (side["loop"], side["seconds_per_frame"]) == (12.0, 2.0)
     assert (side["size"], side["size_unit"], side["unit"]) == ([50000.0, 25000.0], "cm", "cm")
-    assert side["conventions"] == PROFILES["unreal"].describe(raw=name not in ("png16", "exr-atlas"))
+    assert side["conventions"] == rules.conventions(PROFILES["unreal"])
     letters = {"bin": "RGBA", "ktx2": "RGBA", "exr-atlas": "RGB"}.get(name, "Y")
     assert side["channels"] == {letter: "1" if letter == "A" else "height" for letter in letters}
     if FORMATS[name].scaled:

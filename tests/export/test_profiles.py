@@ -11,7 +11,9 @@ import pytest
 
 import fftocean as fo
 from fftocean.errors import ParameterError
-from fftocean.export.profiles import CHANNELS, PROFILES, arrange, meaning, profile_for, restore, unit_in
+from fftocean.export import rules
+from fftocean.export.engines import profile_for
+from fftocean.export.profiles import CHANNELS, PROFILES, arrange, meaning, restore, unit_in
 
 pytestmark = pytest.mark.nojit
 NX, NY, LX, LY = 48, 64, 60.0, 100.0
@@ -25,11 +27,12 @@ class Engine(NamedTuple):
     per_metre: float
     row0_v: int  # where the loader puts row 0 of a picture
     green_up: bool  # a normal map's green points up the picture, toward row 0
+    packed: bool = True  # its materials read normals as n = 2 c - 1
 
 
 EAST, NORTH, SOUTH, UP = (0, 1), (1, 1), (1, -1), (2, 1)
 ENGINES = {
-    "canonical": Engine((EAST, NORTH, UP), (0, 1), 1.0, 1, True),
+    "canonical": Engine((EAST, NORTH, UP), (0, 1), 1.0, 1, True, packed=False),
     "blender": Engine((EAST, NORTH, UP), (0, 1), 1.0, 1, True),  # image rows count from the bottom
     "unity": Engine((EAST, UP, NORTH), (0, 2), 1.0, 1, True),  # textures begin at the bottom; left-handed
     "unreal": Engine((EAST, SOUTH, UP), (0, 1), 100.0, 0, False),  # left-handed, cm, DirectX: v down, green down
@@ -150,6 +153,7 @@ def test_normals_are_those_of_the_displaced_surface(frame, name):
     """Green and red laid along the engine's axes, blue up: the cross product of the surface's tangents by differences, to 2e-6."""
     engine = ENGINES[name]
     pixels = arrange(PROFILES[name], "normal", fo.normals(frame)).astype(float)
+    pixels = 2 * pixels - 1 if engine.packed else pixels
     surface = arrange(PROFILES[name], "vector", displacement(frame)).astype(float)
     first, second = engine.flat
     up = 3 - first - second
@@ -196,21 +200,25 @@ def test_a_flat_sea_points_exactly_up(name):
     flat = np.zeros((5, 4, 3), dtype=np.float32)
     assert not arrange(PROFILES[name], "vector", flat).any()
     flat[..., 2] = 1.0
-    assert np.all(arrange(PROFILES[name], "normal", flat) == [0.0, 0.0, 1.0])
+    stored = arrange(PROFILES[name], "normal", flat).astype(np.float16)  # halves: no rounding either
+    decoded = 2 * stored.astype(np.float32) - 1 if ENGINES[name].packed else stored
+    assert np.all(decoded == [0.0, 0.0, 1.0])
 
 
 @everywhere
-@pytest.mark.parametrize("kind", ["scalar", "height", "vector", "normal", "derivative", "covariance"])
+@pytest.mark.parametrize("kind", ["scalar", "height", "vector", "normal", "derivative", "covariance", "stretch"])
 def test_there_and_back(name, kind):
-    """Bits in metres; in centimetres an ulp: one rounding there, one back."""
+    """Bits in metres; in centimetres an ulp: one rounding there, one back; packed, c = (1 + n) / 2 rounds by 2^-25."""
     profile, count = PROFILES[name], CHANNELS.get(kind, 1)
-    ours = np.random.default_rng(2).standard_normal((7, 5, count)).astype(np.float32)
+    ours = np.random.default_rng(2).uniform(-1, 1, (7, 5, count)).astype(np.float32)
     back = restore(profile, kind, arrange(profile, kind, ours))
     assert back.dtype == np.float32
     assert back.flags.c_contiguous
     if profile.unit == "cm" and kind in ("vector", "height"):
         assert np.all(np.abs(back - ours) <= np.spacing(np.abs(ours)))
         assert unit_in(profile, kind, "m") == "cm"
+    elif kind == "normal" and ENGINES[name].packed:
+        assert np.max(np.abs(back - ours)) <= 2.0**-24
     else:
         assert back.tobytes() == ours.tobytes()
         assert unit_in(profile, kind, "m") == "m"
@@ -236,7 +244,7 @@ def test_heights_in_centimetres_are_rounded_once():
 @everywhere
 def test_a_profile_says_what_it_is(name):
     """The words of the manifest against the engine's own facts."""
-    engine, said = ENGINES[name], PROFILES[name].describe()
+    engine, said = ENGINES[name], rules.conventions(PROFILES[name])
     words = {EAST: "east", NORTH: "north", SOUTH: "south", UP: "up"}
     assert said["profile"] == name
     assert said["axes"].startswith(", ".join(f"{c} {words[axis]}" for c, axis in zip("XYZ", engine.world, strict=True)))
@@ -244,39 +252,44 @@ def test_a_profile_says_what_it_is(name):
     assert said["unit"] == {1.0: "m", 100.0: "cm"}[engine.per_metre]
     assert said["rows"].endswith(f"the loader puts it at v = {engine.row0_v}")
     assert said["normal_green"].startswith("up (toward row 0)" if engine.green_up else "down (away from row 0)")
-
-
-@everywhere
-@pytest.mark.parametrize("raw", [False, True], ids=["picture", "raw"])
-def test_the_rule_for_sampling_finds_the_water(frame, name, raw):
-    """The formulas for u and v that stand in the manifest, reckoned out: by the engine's loader, or for raw bytes from v = 0."""
-    engine, said = ENGINES[name], PROFILES[name].describe(raw=raw)
-    u_rule, v_rule, wrap = (part.partition(" = ")[2] or part for part in said["samples"].split(", "))
-    assert wrap == "repeated"
-    pixels = arrange(PROFILES[name], "height", frame.height[..., None])[..., 0]
-    first, second = ("XYZ"[i] for i in engine.flat)
-    for j, i in ((0, 0), (1, 5), (20, 47), (NY - 1, 1)):
-        u = eval(u_rule, {first: i * LX / NX, "size": LX, "columns": NX})
-        v = eval(v_rule, {second: engine.world[engine.flat[1]][1] * j * LY / NY, "size": LY, "rows": NY})
-        column, row = u * NX - 0.5, (v if raw or engine.row0_v == 0 else 1.0 - v) * NY - 0.5
-        assert (column, row) == pytest.approx((round(column), round(row)), abs=1e-9)  # the middle of a texel
-        assert pixels[round(row) % NY, round(column) % NX] == pytest.approx(frame.height[j, i] * engine.per_metre, rel=1e-6)
+    assert said["normals"] == ("packed: n = 2 c - 1" if engine.packed else "signed: n = c")
 
 
 def test_three_by_its_own_loader_is_another_file():
-    assert profile_for("three", raw=True).name == "three"
-    assert profile_for("three").name == "three-exr"
-    assert profile_for("unity", raw=True) is profile_for("unity") is PROFILES["unity"]
-    with pytest.raises(ParameterError, match=r"engine must be one of canonical, blender, .* got 'cryengine'"):
-        profile_for("cryengine")
+    assert profile_for("three", "bin").name == "three"
+    assert profile_for("three", "exr").name == "three-exr"
+    assert profile_for("babylon", "bin").first_row == "south"
+    assert profile_for("babylon", "exr").first_row == "north"
+
+
+def test_the_encoding_of_normals_is_the_engines_or_the_one_that_is_chosen():
+    assert profile_for("three", "bin").normals == "packed"
+    assert profile_for("canonical", "bin").normals == "signed"
+    assert profile_for("three", "bin", "signed").normals == "signed"
+    assert profile_for("canonical", "bin", "packed").normals == "packed"
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        (("cryengine", "exr"), r"engine must be one of canonical, blender, .* got 'cryengine'"),
+        (("unity", "jpeg"), r"format must be one of exr, .* got 'jpeg'"),
+        (("unity", "exr", "octahedral"), "normals must be one of engine, signed, packed, got 'octahedral'"),
+        (("godot", "png16"), "engine godot cannot use format png16: it reads PNG with 8 bits; choose format exr"),
+    ],
+)
+def test_what_no_engine_has_is_refused(asked, message):
+    with pytest.raises(ParameterError, match=message):
+        profile_for(*asked)
 
 
 def test_channels_in_words():
     names = ("x, choppiness applied", "y, choppiness applied", "height")
     assert meaning(PROFILES["canonical"], "vector", names) == names
     assert meaning(PROFILES["godot"], "vector", names) == (names[0], "height", "minus (y, choppiness applied)")
-    assert meaning(PROFILES["unreal"], "normal", ("x", "y", "z")) == ("x", "minus (y)", "z")
-    assert meaning(PROFILES["houdini"], "normal", ("x", "y", "z")) == ("x", "minus (y)", "z")
+    assert meaning(PROFILES["unreal"], "derivative", ("a", "b", "c", "d")) == ("a", "minus (b)", "c", "d")
+    assert meaning(PROFILES["houdini"], "normal", ("x", "y", "z")) == ("(1 + x) / 2", "(1 - y) / 2", "(1 + z) / 2")
+    assert meaning(PROFILES["canonical"], "normal", ("x", "y", "z")) == ("x", "y", "z")
     assert meaning(PROFILES["unreal"], "height", ("height",)) == ("height",)
     assert unit_in(PROFILES["unreal"], "vector", "m/s") == "cm/s"
     assert unit_in(PROFILES["unreal"], "normal", "1") == "1"

@@ -13,7 +13,7 @@ from fftocean.export.formats import assemble, encode
 from fftocean.export.profiles import PROFILES, arrange
 
 READERS = Path(__file__).resolve().parents[2] / "examples" / "readers"
-FRAMES, NY, NX, LX, LY, LOOP = 3, 5, 8, 40.0, 20.0, 6.0
+FRAMES, NY, NX, LX, LY, LOOP, START = 3, 5, 8, 40.0, 20.0, 6.0, 0.5
 # how each engine's two horizontal axes lie: (X, Z) of the point x east, y north of the tile's corner, and its units in a metre
 SECOND = {name: -1.0 if name in ("unreal", "godot", "bevy", "gltf", "three", "three-exr", "houdini") else 1.0 for name in PROFILES}
 UNITS = {name: 100.0 if name == "unreal" else 1.0 for name in PROFILES}
@@ -33,6 +33,8 @@ def bake(folder, name):
         unit="m",
         size=(LX, LY),
         loop=LOOP,
+        start=START,
+        lookup="eulerian",
     ).items():
         (folder / path).write_bytes(data)
     return heights.astype(float)
@@ -40,13 +42,23 @@ def bake(folder, name):
 
 def trilinear(heights, x, y, t):
     """Between our own samples, one axis after the other."""
-    for axis, at in enumerate((t / LOOP * FRAMES, y / LY * NY, x / LX * NX)):
+    for axis, at in enumerate(((t - START) / LOOP * FRAMES, y / LY * NY, x / LX * NX)):
         low = int(np.floor(at))
         n = heights.shape[0]
         heights = (1 - (at - low)) * heights[low % n] + (at - low) * heights[(low + 1) % n]
         assert heights.ndim == 2 - axis
     return float(heights)
 
+
+REFUSED = [
+    ({"schema": 2}, "schema must be 1, got 2"),
+    ({"dtype": "float32"}, "dtype must be float16, little-endian, got float32"),
+    ({"levels": 3}, "levels must be 1, got 3"),
+    ({"lookup": "lagrangian"}, "lookup must be eulerian, got lagrangian"),
+    ({"closes": False}, "closes must be true, got false"),
+    ({"channels": {"R": "coverage"}}, "R must be height, got coverage"),
+]
+"""Sidecars that a reader of heights at places does not understand, and its words."""
 
 POINTS = [(0.0, 0.0, 0.0), (5.0, 4.0, 2.0), (12.3, 7.7, 1.1), (39.9, 19.9, 5.9), (-3.0, -1.0, -0.5), (1234.5, 987.6, 100.3)]
 
@@ -71,8 +83,13 @@ def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
         "  return [json, bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length)];\n"
         "};\n"
         f"const answers = {json.dumps(questions)}.map(([name, ...at]) => new SeaHeights(...open(name)).at(...at));\n"
-        "let refused = '';\n"
-        "try { const [json, bytes] = open('godot'); new SeaHeights(json, bytes.slice(8)); } catch (error) { refused = error.message; }\n"
+        "const refused = [];\n"
+        "const attempt = (change, cut) => {\n"
+        "  const [json, bytes] = open('godot');\n"
+        "  try { new SeaHeights({ ...json, ...change }, bytes.slice(cut)); } catch (error) { refused.push(error.message); }\n"
+        "};\n"
+        "attempt({}, 8);\n"
+        f"for (const change of {json.dumps([change for change, _ in REFUSED])}) attempt(change, 0);\n"
         "console.log(JSON.stringify({ answers, refused }));\n"
     )
     run = subprocess.run(["node", "ask.mjs"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True)
@@ -82,7 +99,9 @@ def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
     apart = np.abs(np.array(said["answers"]) - expected) / scale
     # centimetres are rounded to half anew: half a step at 400 is 0.125; metres are the very halves that were written
     assert np.all(apart <= np.where(scale > 1, 0.00126, 1e-12))
-    assert said["refused"] == f"height.bin must have {8 * FRAMES * NY * NX} bytes, got {8 * (FRAMES * NY * NX - 1)}"
+    first, *others = said["refused"]
+    assert others == [why for _, why in REFUSED]
+    assert first == f"height.bin must have {8 * FRAMES * NY * NX} bytes, got {8 * (FRAMES * NY * NX - 1)}"
 
 
 @pytest.mark.parametrize("file", ["SeaHeights.cs", "sea_heights.gd", "sea_heights.js"])
@@ -95,11 +114,15 @@ def test_what_a_reader_asks_of_the_sidecar_is_there(file, tmp_path):
     if file.endswith(".cs"):
         asked = set(re.findall(r"\bs\.(\w+)", code))
         (declared,) = re.findall(r"struct Sidecar \{(.*?)\}", code)
+        assert re.search(r"struct Channels \{ public string R; \}", code)
         assert asked <= set(re.findall(r"\w+", declared))
     elif file.endswith(".gd"):
         asked = set(re.findall(r"s\[\"(\w+)\"\]", code))
+        asked |= set(re.findall(r"\"(\w+)\":", re.search(r"const EXPECTED := \{(.*?)\}", code)[1]))
     else:
         (unpacked,) = re.findall(r"const \{(.*?)\} = this\.s", code)
         asked = set(re.findall(r"\w+", unpacked)) | set(re.findall(r"sidecar\.(\w+)", code))
-    assert asked == {"file", "frames", "rows", "columns", "row_origin", "row_sign", "loop", "size"}
+        asked |= set(re.findall(r"(\w+):", re.search(r"const expected = \{(.*?)\}", code)[1]))
+    placed = {"frames", "rows", "columns", "row_origin", "row_sign", "loop", "start", "size"}
+    assert asked == placed | {"file", "schema", "dtype", "levels", "lookup", "closes", "channels"}
     assert asked <= sidecar.keys()

@@ -100,3 +100,15 @@ def test_moments_that_nothing_has_are_drawn_in_and_marked(c1, c2):
     got, _ = moments_of(share)
     want = c1 if abs(c1) <= LIMIT else c1 * LIMIT / abs(c1)
     assert got == pytest.approx(want, abs=5e-3)  # the first moment, which has the direction, stays; bins of 5 degrees miss LIMIT by that
+
+
+@pytest.mark.parametrize("bins", [36, 72])
+def test_a_record_unfolds_alone_as_among_others(bins):
+    """Equal bytes, whatever else is unfolded at the same time and whichever problems are done first."""
+    c1, c2 = possible_moments(60, 0.98)
+    c2[::7] = np.nan
+    together = maximum_entropy(c1, c2, bins).share
+    for count in (1, 3, 13):
+        for start in range(0, 60, 11):
+            part = slice(start, start + count)
+            assert np.array_equal(maximum_entropy(c1[part], c2[part], bins).share, together[part])

@@ -80,17 +80,46 @@ def test_broken_files(name, how, originals, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["44004w2000.txt", "41010.data_spec", "41010.swdir", "swanfile.spec"])
-def test_a_text_file_cut_inside_a_line_is_always_refused(name, originals, tmp_path):
-    """Where a number is cut in two, both halves may be numbers: the missing end of the line gives it away."""
+def test_a_text_file_cut_inside_a_line_is_refused_or_whole_records(name, originals, tmp_path):
+    """
+    Cut anywhere but at the end of a line.
+
+    What is left either ends with a whole number, of which at most the last digits of SWAN's last whole number can be missing, and
+    then says that its last line has no end; or it is refused.
+    """
     shutil.copytree(originals, tmp_path, dirs_exist_ok=True)
     path = tmp_path / name
     opened = next(path.parent.glob(f"{path.stem}.data_spec"), path)
     data = path.read_bytes()
-    for length in random.Random(name).sample(range(1, len(data)), 40):
+    whole = readers.open(opened)
+    lengths = random.Random(name).sample(range(1, len(data)), 40) + list(range(len(data) - 12, len(data)))
+    kept = 0
+    for length in lengths:
         if data[length - 1 : length] != b"\n":
             path.write_bytes(data[:length])
-            with pytest.raises(ReaderError, match=r"cut short|UTF-8"):
-                readers.open(opened)
+            try:
+                part = readers.open(opened)
+            except ReaderError:
+                continue
+            kept += 1
+            assert path.name in part.attrs["unterminated"]
+            first, second = (d["ef" if "ef" in d else "efth"].values.ravel() for d in (whole.sel(time=part.time), part))
+            same = (first == second) | (np.isnan(first) & np.isnan(second))
+            assert np.count_nonzero(~same) <= (1 if name == "swanfile.spec" else 0)
+    assert kept >= 1
+
+
+@pytest.mark.parametrize("name", ["44004w2000.txt", "41010.data_spec", "41010.swr2", "swanfile.spec"])
+def test_a_file_without_its_final_newline_is_the_same_file(name, originals, tmp_path):
+    """Editors and mail leave it off; the dataset is the same, and says so."""
+    shutil.copytree(originals, tmp_path, dirs_exist_ok=True)
+    path = tmp_path / name
+    opened = next(path.parent.glob(f"{path.stem}.data_spec"), path)
+    whole = readers.open(opened)
+    path.write_text(path.read_text().rstrip("\n"))
+    part = readers.open(opened)
+    assert name in part.attrs.pop("unterminated")
+    assert part.identical(whole)
 
 
 @pytest.mark.parametrize("name", ["ww3file.nc", "wavespectra.nc", "era5.nc"])

@@ -22,12 +22,19 @@ def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
 
 
 def test_at_the_points_it_is_the_source():
-    """S D [m^2 s/rad^2] = efth [m^2/Hz/degree] (180/pi)/(2 pi), times the factor that is reported."""
+    """
+    S D [m^2 s/rad^2] = efth [m^2/Hz/degree] (180/pi)/(2 pi), but for a smooth factor of frequency alone.
+
+    It makes up for straight lines being wider than bands: (df/f)^2/6, 0.2 % of m2, where bands are 10 % wide; most of it in the tail.
+    """
     order = sea(toward=200.0)
     made = Realised.from_spectrum(ww3(order), time=0)
     got = made.sea.density(2.0 * np.pi * FREQUENCY[:, None], np.radians(90.0 - TO))
-    want = order.density[0] * (180.0 / np.pi) / (2.0 * np.pi) * made.factor
-    assert got == pytest.approx(want, rel=1e-9, abs=1e-12 * want.max())  # angles are turned by the mean direction and back
+    want = order.density[0] * (180.0 / np.pi) / (2.0 * np.pi)
+    some = want.sum(axis=1) > 1e-6 * want.max()
+    factor = got.sum(axis=1)[some] / want.sum(axis=1)[some]
+    assert factor == pytest.approx(np.ones(factor.size), abs=0.03)
+    assert got[some] == pytest.approx(want[some] * factor[:, None], rel=1e-9, abs=1e-12 * want.max())  # angles are turned there and back
 
 
 def test_its_variance_is_the_sum_over_the_bands_of_the_source():
@@ -46,16 +53,6 @@ def test_its_variance_is_the_sum_over_the_bands_of_the_source():
     over_theta = np.sum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1) * (theta[1] - theta[0])
     m0 = np.sum(0.5 * (over_theta[1:] + over_theta[:-1]) * np.diff(omega))
     assert 4.0 * math.sqrt(m0) == pytest.approx(want, rel=2e-4)
-
-
-def test_the_factor_says_how_much_the_straight_lines_lacked():
-    """A single band of energy, the rest empty: its triangle holds S (f2 - f0)/2, exactly the band, so the factor is 1; at an end, 2."""
-    density = np.zeros((30, 24))
-    density[10] = 0.1
-    assert Realised.from_spectrum(by_hand(density)).factor == pytest.approx(1.0, rel=1e-12)
-    density = np.zeros((30, 24))
-    density[29] = 0.1
-    assert Realised.from_spectrum(by_hand(density)).factor == pytest.approx(2.0, rel=1e-12)
 
 
 def test_a_known_sea_comes_back():
@@ -79,8 +76,13 @@ def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
     f = np.delete(FREQUENCY, 12)
     rest = np.nan_to_num(np.delete(order, 12, axis=0)).sum(axis=1) * 15.0
     assert made.hs_source == pytest.approx(4.0 * math.sqrt(np.sum(rest * np.gradient(f))), rel=1e-12)
-    got = made.sea(2.0 * np.pi * FREQUENCY[12])
-    assert got == pytest.approx(np.interp(FREQUENCY[12], f, rest) * made.factor / (2.0 * np.pi), rel=1e-9)
+    ends = [float(made.sea(2.0 * np.pi * FREQUENCY[i])) for i in (11, 13)]
+    between = np.interp(FREQUENCY[12], FREQUENCY[[11, 13]], ends)
+    assert made.sea(2.0 * np.pi * FREQUENCY[12]) == pytest.approx(between, rel=1e-9)
+    assert [note for note in made.notes if "missing" in note] == [
+        "1 missing bins of frequency and direction were taken as empty",
+        "1 missing frequencies were bridged, or left out at the ends",
+    ]
 
 
 def test_a_sector_is_closed_with_nothing():
@@ -184,8 +186,8 @@ def test_a_height_that_no_sea_has_is_refused():
 @pytest.mark.parametrize(
     ("what", "message"),
     [
-        (None, "must be an xarray.Dataset, got NoneType"),
-        (xr.DataArray([1.0]), "must be an xarray.Dataset, got DataArray"),
+        (None, "must be an xarray.Dataset, or .*, got NoneType"),
+        (xr.DataArray([1.0]), "must have a frequency dimension"),
         (xr.Dataset({"hs": ((), 1.0)}), "must hold one wave spectrum .* got hs"),
         (xr.Dataset({"efth": (("x", "dir"), np.ones((3, 4)))}), "must have a frequency dimension"),
         (xr.Dataset({"efth": (("freq", "dir"), np.ones((3, 4)))}), "dimension freq must have a coordinate"),

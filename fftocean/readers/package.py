@@ -1,0 +1,116 @@
+"""What the wavespectra package hands out, as a dataset in the layout that its readers document."""
+
+import re
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from fftocean.errors import ReaderError
+from fftocean.readers import layout, units
+
+if TYPE_CHECKING:
+    from xarray import DataArray, Dataset
+
+_NAMES: Final = ("efth", "ef")
+_DIRECTIONAL: Final = "sea_surface_wave_directional_variance_spectral_density"
+_UNDIRECTED: Final = "sea_surface_wave_variance_spectral_density"
+
+
+def as_dataset(given: Any, source: str) -> "Dataset":
+    """
+    Return a dataset of spectra, given that or a bare array of densities.
+
+    The package's transforms (`rotate`, `smooth`, `split`), partitions and `oned` hand out arrays,
+    with and without a name, and keep attributes that no longer hold: those of the directions on a
+    spectrum that has none, radians on directions in degrees, prose as units of frequency. Where the
+    layout is the package's own, `efth` or `ef` on `freq` and perhaps `dir`, such left-overs give
+    way to what that layout documents.
+
+    Args:
+        given: an xarray.Dataset or DataArray.
+        source: what to call it in errors.
+
+    Raises:
+        ReaderError: neither of these, or an array that is no density.
+    """
+    if hasattr(given, "data_vars"):
+        dataset: Dataset = given
+    elif hasattr(given, "dims") and hasattr(given, "coords") and hasattr(given, "to_dataset"):
+        dataset = _named(given, source)
+    else:
+        raise ReaderError(
+            f"{source} must be an xarray.Dataset, or the xarray.DataArray of its densities, got "
+            f"{type(given).__name__}"
+        )
+    return _without_left_overs(dataset)
+
+
+def _named(array: "DataArray", source: str) -> "Dataset":
+    """Return a dataset of an array; one without a name, as `split` leaves it, is `efth`."""
+    said = array.attrs.get("units")
+    unit = units.parse(said)
+    wrong = unit is not None and unit.is_(m=2)
+    if wrong or "energy" in str(array.name):
+        raise ReaderError(
+            f"{source} must hold densities (m2 s degree-1), got {array.name or 'an array'} in "
+            f"{said!r:.40}, "
+            "energies of bins (`to_energy`): give the spectrum from which they were made"
+        )
+    if array.name is None:
+        array = array.rename("efth")
+    return array.to_dataset()
+
+
+def _without_left_overs(dataset: "Dataset") -> "Dataset":
+    name = next((n for n in _NAMES if n in dataset.data_vars and "freq" in dataset[n].dims), None)
+    if name is None:
+        return dataset
+    spectrum = dataset[name]
+    if (
+        "dir" not in spectrum.dims
+        and spectrum.attrs.get("standard_name") in (_DIRECTIONAL, None)
+        and name == "efth"
+    ):
+        attrs = {**spectrum.attrs, "standard_name": _UNDIRECTED}
+        if _per_angle(attrs.get("units")):
+            attrs["units"] = "m2 s"
+        dataset = dataset.drop_vars("efth").assign(ef=spectrum.assign_attrs(attrs))
+    for axis, right, powers in (("freq", "Hz", {"s": -1}), ("dir", "degree", {"rad": 1})):
+        if axis not in dataset.coords or dataset[axis].dtype.kind not in "fiu":
+            continue
+        attrs = dict(dataset[axis].attrs)
+        unit = units.parse(attrs.get("units"))
+        prose = (
+            isinstance(attrs.get("units"), str)
+            and unit is None
+            and re.search(r"\s", attrs["units"]) is not None
+        )
+        turned = axis == "dir" and unit is not None and unit.is_(**powers) and unit.scale == 1.0
+        if prose or (turned and np.ptp(dataset[axis].values) > 2.0 * np.pi + 1e-3):
+            attrs["units"] = right
+            dataset = dataset.assign_coords({axis: (axis, dataset[axis].values, attrs)})
+    if "dir" in dataset.coords and dataset["dir"].ndim == 1 and dataset["dir"].dtype.kind in "fiu":
+        dataset = _once_round(dataset, name)
+    return dataset
+
+
+def _per_angle(text: object) -> bool:
+    unit = units.parse(text)
+    return unit is not None and unit.is_(m=2, s=1, rad=-1)
+
+
+def _once_round(dataset: "Dataset", name: str) -> "Dataset":
+    """Leave out a last direction that repeats the first, as TRIAXYS tables have it."""
+    d = dataset["dir"].values
+    if (
+        d.size < 5
+        or "dir" not in dataset[name].dims
+        or abs(abs(float(d[-1]) - float(d[0])) - 360.0) > 1e-6
+    ):
+        return dataset
+    if dataset[name].size > layout.MAX_VALUES:
+        return dataset
+    first, last = dataset[name].isel(dir=0).values, dataset[name].isel(dir=-1).values
+    top = float(np.nanmax(np.abs(first), initial=0.0))
+    same = np.allclose(first, last, rtol=0.0, atol=1e-3 * top + 1e-9, equal_nan=True)
+    return dataset.isel(dir=slice(0, -1)) if same else dataset

@@ -1,0 +1,123 @@
+"""A server on a free port of the loopback interface, and a headless browser that opens its pages."""
+
+import base64
+import functools
+import http.server
+import json
+import queue
+import subprocess
+import threading
+from pathlib import Path
+
+import numpy as np
+
+LONGEST = 300.0  # [s] that one page may take, also on a machine that is busy with other work; it takes a few
+
+
+class Site:
+    """An HTTP server of some folders, each under its name."""
+
+    def __init__(self, folders):
+        self.folders = {name: Path(folder).resolve() for name, folder in folders.items()}
+
+    def __enter__(self):
+        handler = functools.partial(_Handler, self.folders)
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+        self._server.daemon_threads = True
+        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.1})
+        self._thread.start()
+        self.address = f"http://127.0.0.1:{self._server.server_address[1]}"
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()
+
+
+class _Handler(http.server.SimpleHTTPRequestHandler):
+    """GET of files below the folders; isolated from other origins, as engines with threads demand."""
+
+    extensions_map = {**http.server.SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm"}  # noqa: E501,RUF012
+
+    def __init__(self, folders, *args, **kwargs):
+        self._folders = folders
+        super().__init__(*args, **kwargs)
+
+    def translate_path(self, path):
+        name, _, rest = path.split("?")[0].lstrip("/").partition("/")
+        folder = self._folders.get(name)
+        file = (folder / rest).resolve() if folder else None
+        return str(file) if file and file.is_relative_to(folder) else "/nonexistent"
+
+    def end_headers(self):
+        self.send_header("Cross-Origin-Opener-Policy", "same-origin")
+        self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+        self.send_header("Cache-Control", "no-store")
+        super().end_headers()
+
+    def log_message(self, *_):
+        """Say nothing: a file that is missing shows in the page."""
+
+
+class Browser:
+    """One headless Chromium, driven by `driver.mjs`."""
+
+    def __init__(self, chromium, modules, site, *, log):
+        self.site = site
+        self._command = ["node", str(Path(__file__).with_name("driver.mjs")), chromium, str(modules)]
+        self._log = log
+
+    def __enter__(self):
+        self._errors = self._log.open("wb")
+        pipe = subprocess.PIPE
+        self._process = subprocess.Popen(self._command, stdin=pipe, stdout=pipe, stderr=self._errors)
+        self._lines = queue.SimpleQueue()
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+        try:
+            self.version = self._answer()["browser"]
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        self._process.stdin.close()  # the driver closes the browser, and ends
+        try:
+            self._process.wait(60)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join()
+        self._process.stdout.close()
+        self._errors.close()
+
+    def run(self, page, args):
+        """Return what `run(args)` of a page gives; and its console, without errors, or the test fails."""
+        url = f"{self.site.address}/pages/{page}"
+        self._process.stdin.write(json.dumps({"url": url, "args": args}).encode() + b"\n")
+        self._process.stdin.flush()
+        answer = self._answer()
+        assert not answer["failures"], "\n".join([*answer["failures"], *answer["log"]])
+        return answer["value"], answer["log"]
+
+    def _read(self):
+        for line in self._process.stdout:
+            self._lines.put(line)
+        self._lines.put(None)
+
+    def _answer(self):
+        try:
+            line = self._lines.get(timeout=LONGEST)
+        except queue.Empty:
+            self._process.kill()
+            raise TimeoutError(f"the browser did not answer within {LONGEST:g} s") from None
+        if line is None:
+            raise RuntimeError(f"the browser's driver ended: {self._log.read_text(errors='replace')[-2000:]}")
+        return json.loads(line)
+
+
+def floats(text, *shape):
+    """Return the float32 array that a page sent as base64."""
+    return np.frombuffer(base64.b64decode(text), dtype="<f4").reshape(*shape).astype(float)

@@ -1,0 +1,73 @@
+"""The Blender example refuses every bake that it would show wrongly, before Blender is needed; the rest it understands."""
+
+import importlib.util
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import fftocean as fo
+
+SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "blender" / "displace.py"
+SMALL = {
+    "ocean.n": 8,
+    "ocean.size": 20.0,
+    "bake.frames": 4,
+    "bake.engine": "blender",
+    "bake.maps": ["displacement"],
+    "bake.pictures": [],
+    "bake.format": "exr",
+}
+pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+
+
+@pytest.fixture(scope="module")
+def script():
+    spec = importlib.util.spec_from_file_location("displace", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)  # without bpy: it is needed only to build the scene
+    return module
+
+
+@pytest.mark.parametrize("form", ["exr", "exr-float"])
+@pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
+def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
+    manifest = fo.bake(fo.Job.default().replaced({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path)
+    assert script.read_bake(tmp_path) == json.loads(json.dumps(manifest))
+
+
+@pytest.mark.parametrize(
+    ("changes", "frames", "why"),
+    [
+        ({"bake.format": "png16"}, None, "format exr or exr-float, got png16: bake with --format exr"),
+        ({"bake.format": "npz"}, None, "must be sampled at .*: bake with --engine blender"),
+        ({}, "0:2", "must hold the whole loop, got frames 0:2:1 of 4"),
+        ({}, "0:4:2", "must hold the whole loop, got frames 0:3:2 of 4"),
+        ({"bake.maps": ["height"]}, None, "must have displacement maps, got height: bake with --maps displacement"),
+        ({"bake.engine": "unity"}, None, "not in Blender's axes"),
+        ({"bake.engine": "unreal"}, None, "not in Blender's axes"),
+    ],
+)
+def test_a_bake_that_it_would_show_wrongly_is_refused(script, tmp_path, changes, frames, why):
+    fo.bake(fo.Job.default().replaced({**SMALL, **changes}), tmp_path, frames=frames)
+    with pytest.raises(SystemExit, match=why):
+        script.read_bake(tmp_path)
+
+
+def test_what_is_no_bake_or_another_tools_is_refused(script, tmp_path):
+    with pytest.raises(SystemExit, match=r"must be a finished bake with its manifest\.json"):
+        script.read_bake(tmp_path)
+    fo.bake(fo.Job.default().replaced(SMALL), tmp_path / "sea")
+    text = json.loads((tmp_path / "sea/manifest.json").read_text())
+    for key, value, why in (
+        ("tool", "another", "must be of fftocean, got 'another'"),
+        ("conventions", {}, "has no 'axes'"),
+        ("frames", text["frames"][:3], "must hold the whole loop"),
+        ("frames", text["frames"][::-1], "frames 0 to 3 in order"),
+    ):
+        shutil.rmtree(tmp_path / "bent", ignore_errors=True)
+        (tmp_path / "bent").mkdir()
+        (tmp_path / "bent/manifest.json").write_text(json.dumps({**text, key: value}))
+        with pytest.raises(SystemExit, match=why):
+            script.read_bake(tmp_path / "bent")
