@@ -12,7 +12,7 @@ import numpy as np
 from fftocean.amplitudes import Draw, Modes, seed_amplitudes
 from fftocean.arrays import precision_of, require_memory
 from fftocean.cells import WHOLE, Band
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid
 from fftocean.limits import BAND_EDGE, LOOP, SEED
@@ -69,7 +69,7 @@ class Cascade:
         threads: int = 1,
     ) -> None:
         if not isinstance(sea, Sea):
-            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
         grids = _grids(tiles)
         shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
         loops = _loops(loop, len(grids))

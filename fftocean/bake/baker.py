@@ -29,7 +29,7 @@ from fftocean.bake.manifest import compose, read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
-from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
+from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, described
 from fftocean.export import engines, formats
 from fftocean.export.profiles import Profile
 from fftocean.host import cores
@@ -79,7 +79,7 @@ def bake(
         JobError: the job asks for more than can be.
     """
     if not isinstance(job, Job):
-        raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
+        raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {described(job)}")
     check_executor(executor, workers)
     folder = path_of("folder", folder)
     require_free(folder)

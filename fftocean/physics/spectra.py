@@ -11,7 +11,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.limits import (
     DENSITY,
     DEPTH,
@@ -52,7 +52,7 @@ def require_spectrum(name: str, value: object) -> None:
     """
     if isinstance(value, type) or not isinstance(value, FrequencySpectrum):
         raise ParameterError(
-            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {value!r:.60}"
+            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {described(value)}"
         )
     PEAK.check(f"{name}.peak", value.peak)
 
