@@ -102,8 +102,8 @@ DOORS = {
     "Ocean.from_modes": (lambda v: fo.Ocean.from_modes(v, n=8, size=50.0), ("modes",)),
     "Ocean amplitudes": (lambda v: fo.Ocean(fo.Sea(), n=8, size=50.0, amplitudes=v), ()),
     "Ocean.frames": (
-        lambda v: fo.Ocean.from_modes([], n=8, size=50.0).frames(v),
-        ("modes", "list"),
+        lambda v: next(fo.Ocean.from_modes([], n=8, size=50.0).frames(v, ahead=0)),
+        ("list", "bytes"),
     ),
     "Cascade": (lambda v: fo.Cascade(v, [(32, 60.0), (32, 20.0)]), ("sea",)),
     "Eulerian": (fo.Eulerian, ("ocean",)),
