@@ -66,7 +66,7 @@ def test_the_manifest_names_the_part_that_states_the_water(tmp_path, monkeypatch
         "spectrum = { kind = 'elfouhaily', speed = 6.0 }\n"
     )
     shallow = fo.Job.read("job.toml").replaced(
-        {"ocean.n": 8, "bake.frames": 1, "bake.pictures": []}
+        {"ocean.n": 8, "ocean.loop": 60.0, "bake.frames": 1, "bake.pictures": []}
     )
     tile = fo.bake(shallow, "out")["ocean"]
     assert (tile["depth"], tile["surface_tension"]) == (12.0, 0.074)
