@@ -549,11 +549,10 @@ def _info(options: argparse.Namespace) -> int:
         better = f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %" if e.better_period != e.period else ""
         table.add_row("loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}")
     table.add_row("folds", str(statistics.folding))
-    for name, unit in (("depth", "m"), ("surface_tension", "N/m")):
-        value = getattr(ocean.sea, name)
-        if value != job.settings[f"sea.{name}"]:
-            stated = getattr(ocean.sea, f"{name}_from") or "the measured file"
-            table.add_row(name.replace("_", " "), f"{value:g} {unit}, by {stated}")
+    assert ocean.sea is not None  # a job has a sea
+    for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
+        if part:
+            table.add_row("water stated by", part)
     table.add_row("FFT library", ocean.backend)
     cost = estimate(job, scene=scene)
     table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")
