@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from fftocean import noise
-from fftocean.arrays import Complex, Integer, Real
+from fftocean.arrays import Complex, Integer, Real, brief_repr
 from fftocean.cells import QUADRANTS, WHOLE, Band, Cells
 from fftocean.errors import ParameterError
 from fftocean.grid import Grid
@@ -26,6 +26,9 @@ class Modes(NamedTuple):
     amplitude: Real  # [m], >= 0
     phase: Real  # [rad]
     omega: Real  # [rad/s]; on a loop, a whole number of turns in its period
+
+    def __repr__(self) -> str:
+        return brief_repr(self)
 
 
 _BLOCK = 2**16  # cells of a quadrant at a time
@@ -50,6 +53,8 @@ class Amplitudes:
     draw: Literal["gaussian", "fixed", "given"]
     band: Band = WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     cycles: Integer | None = field(init=False)  # whole turns in a loop
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         cycles = None if self.loop is None else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))

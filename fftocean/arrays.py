@@ -1,6 +1,7 @@
 """Array types by name, and the memory there is for them."""
 
 import os
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -68,3 +69,31 @@ def require_memory(what: str, needed: float) -> None:
     if needed > available:
         free = max(available, 0.0) / 2**30
         raise ParameterError(f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free")
+
+
+SHOWN = 280
+"""How long the text is by which a value shows itself, in characters, at most."""
+
+
+def brief(value: Any) -> str:
+    """Return a short text for a value within another: an array by its shape and type, a mapping by its keys."""
+    if isinstance(value, np.ndarray):
+        if value.size > 3:
+            return f"<{' x '.join(map(str, value.shape))} {value.dtype}>"
+        return np.array2string(value, precision=6)
+    if isinstance(value, (float, np.floating)):
+        return f"{value:.6g}"
+    if isinstance(value, dict):
+        return f"{{{', '.join(map(str, value))}}}"
+    return repr(value)
+
+
+def brief_repr(value: Any) -> str:
+    """Return the `repr` of a dataclass or named tuple that holds arrays: its fields, each `brief`, cut at `SHOWN` characters."""
+    names = [f.name for f in fields(value) if f.repr] if is_dataclass(value) else list(value._fields)
+    return shortened(f"{type(value).__name__}({', '.join(f'{name}={brief(getattr(value, name))}' for name in names)})")
+
+
+def shortened(text: str) -> str:
+    """Return a text that ends in a bracket, cut in its middle where it is longer than `SHOWN`."""
+    return text if len(text) <= SHOWN else f"{text[: SHOWN - 4]}...{text[-1]}"

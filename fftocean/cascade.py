@@ -12,7 +12,7 @@ import numpy as np
 from fftocean.amplitudes import Draw, Modes, seed_amplitudes
 from fftocean.arrays import precision_of, require_memory
 from fftocean.cells import WHOLE, Band
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid
 from fftocean.limits import BAND_EDGE, LOOP, SEED
@@ -70,7 +70,7 @@ class Cascade:
         threads: int = 1,
     ) -> None:
         if not isinstance(sea, Sea):
-            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
         grids = _grids(tiles)
         shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
         loops = _loops(loop, len(grids))
@@ -169,10 +169,12 @@ class Cascade:
         return tuple(ocean.loop_frame(j, count, fields) for ocean in self.oceans)
 
     def __repr__(self) -> str:
+        shown = 3  # tiles
         tiles = ", ".join(
             f"{o.grid.nx} x {o.grid.ny} over {o.grid.lx:g} x {o.grid.ly:g} m for {low:.3g} to {high:.3g} rad/m"
-            for o, (low, high) in zip(self.oceans, self.bands, strict=True)
+            for o, (low, high) in zip(self.oceans[:shown], self.bands, strict=False)
         )
+        tiles += f", {len(self) - shown} more" if len(self) > shown else ""
         return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
 
 

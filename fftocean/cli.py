@@ -294,10 +294,6 @@ def _path(text: str) -> Path:
     return Path(text)
 
 
-def _add_info_flags(command: argparse.ArgumentParser) -> None:
-    _add_job_flags(command)
-
-
 def _add_job_flags(command: argparse.ArgumentParser) -> None:
     """Add the job file, flags for the keys that have one, and --set for all."""
     from fftocean.bake.parameters import PARAMETERS
@@ -341,6 +337,8 @@ def _job(options: argparse.Namespace) -> "Job":
 
 def _at_rate(job: "Job", rate: float, changes: dict[str, Any]) -> "Job":
     """Return a job with as many frames as its loop has at a rate [1/s]."""
+    from fftocean.errors import JobError
+
     if "bake.frames" in changes:
         raise JobError("--fps and a number of frames must not be given together; leave one out")
     if not (math.isfinite(rate) and rate > 0.0):
@@ -726,11 +724,10 @@ def _info(options: argparse.Namespace) -> int:
         better = f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %" if e.better_period != e.period else ""
         table.add_row("loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}")
     table.add_row("folds", str(statistics.folding))
-    for name, unit in (("depth", "m"), ("surface_tension", "N/m")):
-        value = getattr(ocean.sea, name)
-        if value != job.settings[f"sea.{name}"]:
-            stated = getattr(ocean.sea, f"{name}_from") or "the measured file"
-            table.add_row(name.replace("_", " "), f"{value:g} {unit}, by {stated}")
+    assert ocean.sea is not None  # a job has a sea
+    for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
+        if part:
+            table.add_row("water stated by", part)
     table.add_row("FFT library", ocean.backend)
     cost = estimate(job, scene=scene)
     table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")

@@ -69,7 +69,7 @@ def described(value: object) -> str:
     if isinstance(value, type):
         return f"the class {value.__name__}"
     kind = type(value).__name__
-    text = repr(value)
+    text = " ".join(repr(value).split())  # on one line, as an array is not
     if text.startswith((f"{kind}(", f"<{kind}")):
         return text if len(text) <= 60 else f"{text[:57]}..."
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"

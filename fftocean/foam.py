@@ -163,6 +163,9 @@ class LiveFoam:
         self._stepper = _Stepper(settings, self._step)
         self._begin(0)
 
+    def __repr__(self) -> str:
+        return f"LiveFoam({self._settings}, {self._ocean}, t={self._last:g})"
+
     def at(self, t: float) -> Real:
         """
         Move on to time t [s], and return the coverage there, (ny, nx) in 0..1.

@@ -135,6 +135,11 @@ BY_PLACE = ("height", "slope_x", "slope_y", "velocity_x", "velocity_y", "velocit
 NOT_BY_PLACE = "a height field over places has no displacement, nor the stretch of one"
 
 
+def _absent(name: str) -> property:
+    """Return a property that raises the `FieldError` of a field which is never here."""
+    return property(lambda frame: frame[name])
+
+
 class EulerianFrame(_Arrays):
     """
     The water at places: named arrays, (ny, nx), indexed [iy, ix]; sample [iy, ix] is the water that is now at x, y.
@@ -146,10 +151,8 @@ class EulerianFrame(_Arrays):
 
     __slots__ = ()
 
-    def __getattr__(self, name: str) -> Real:
-        if name.startswith(("displace_", "stretch_")):
-            raise FieldError(self._missing(name))
-        raise AttributeError(f"an eulerian frame has no attribute {name!r}")
+    displace_x, displace_y = _absent("displace_x"), _absent("displace_y")
+    stretch_xx, stretch_xy, stretch_yy = _absent("stretch_xx"), _absent("stretch_xy"), _absent("stretch_yy")
 
     def _missing(self, name: str) -> str:
         if name in BY_PLACE:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Modes
-from fftocean.arrays import Real, RealLike
+from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
 from fftocean.errors import ParameterError
@@ -36,6 +36,8 @@ class Kinematics:
     pressures: Real  # dynamic pressure: what the waves add to -rho g z [Pa]
     heights: Real  # of the linear surface above (x, y) [m]
     wet: npt.NDArray[np.bool_]  # whether there is water
+
+    __repr__ = brief_repr
 
 
 def at(

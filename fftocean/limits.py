@@ -106,3 +106,4 @@ BAND_EDGE = Quantity("rad/m", 0.0, math.inf)
 BAND_START = Quantity("rad/m", 0.0, 1e9)
 THREADS = Count("", 1, 1024)
 FRAMES = Count("", 1, 10**6)
+MOMENTS = Count("", 1, 2**32)  # of a loop: at 60 a second, two years

@@ -15,12 +15,13 @@ import numpy as np
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike, precision_of, require_memory
 from fftocean.cells import WHOLE, Band
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, potential_factor
+from fftocean.forks import no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.kernels import passes
-from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, FRAMES, LOOP, THREADS, TIME
+from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, LOOP, MOMENTS, THREADS, TIME
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import POINTWISE, Synthesis, Turn
@@ -61,7 +62,8 @@ class Ocean:
         threads: how many threads share the work on one frame; the bytes are the same for any number.
 
     An ocean owns plans and buffers, and locks them while it computes: threads may share one, but only one of them works at a
-    time; give each its own to work in parallel.
+    time; give each its own to work in parallel. A fork waits for what other threads have begun (see `forks`), and the child may
+    use the oceans that it got and make new ones.
 
     Raises:
         ParameterError: a value out of range, a sea whose spectrum is not finite and >= 0, or more memory than there is.
@@ -84,7 +86,9 @@ class Ocean:
         threads: int = 1,
     ) -> None:
         if not isinstance(sea, Sea):
-            raise ParameterError(f"sea must be a Sea, got {sea!r:.80}")
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
+        if not isinstance(amplitudes, str):
+            raise ParameterError(f"amplitudes must be 'gaussian' or 'fixed', got {described(amplitudes)}")
         grid, dtype, loop = _checked(n, size, dtype, loop)
         band = _checked_band(band)
         if loop is not None and loop < 4.0 * (longest := longest_period(sea, band)):
@@ -95,7 +99,8 @@ class Ocean:
                 stacklevel=2,
             )
         self.seed: int | None = seed  # checked where it is used, next
-        drawn = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
+        with no_fork():
+            drawn = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
         self._set_up(sea, drawn, choppiness, dtype, backend, planning, threads)
 
     @classmethod
@@ -127,6 +132,8 @@ class Ocean:
             ParameterError: a wave that the grid cannot hold, or a value out of range.
         """
         grid, dtype, loop = _checked(n, size, dtype, loop)
+        if not isinstance(modes, Iterable):
+            raise ParameterError(f"modes must be a list of (mx, my, amplitude, phase), got {described(modes)}")
         amplitudes = place_modes(modes, grid, depth=depth, surface_tension=surface_tension, loop=loop)
         ocean = cls.__new__(cls)
         ocean.seed = None  # there is no chance in it
@@ -143,8 +150,10 @@ class Ocean:
         self.dtype = dtype
         self._require_range()
         workers = THREADS.check_whole("threads", threads)
-        self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
+        with no_fork():
+            self._synthesis = Synthesis(amplitudes, dtype, backend=backend, planning=planning, threads=workers)
         self._frequency = _frequencies(amplitudes, self._synthesis.columns)
+        self._few_turns = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
         self._lock, self._pid = threading.Lock(), os.getpid()
         self._recipe = (sea, self.seed, amplitudes, choppiness, dtype, backend, planning, threads)
 
@@ -226,18 +235,23 @@ class Ocean:
         """
         Return the j-th of `count` equally spaced frames of the loop; j and j + count give equal bits, for any whole j.
 
+        The phase of each wave is a whole number of turns times j/count, in exact arithmetic for `count` up to 2^32.
+
         Raises:
             ParameterError: this ocean does not loop, `j` or `count` is not a whole number, and as `frame`.
         """
         if self.loop is None or self.amplitudes.cycles is None:
             raise ParameterError("loop_frame needs an ocean that loops: Ocean(..., loop=16.0)")
-        count = FRAMES.check_whole("count", count)
+        count = MOMENTS.check_whole("count", count)
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
 
         def turn(columns: slice, out: Real) -> None:
-            passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
+            if count <= 2**26 and self._few_turns:
+                passes.turns_in_loop(self._frequency[columns], float(step), float(count), out)
+            else:
+                passes.turns_in_fine_loop(self._frequency[columns], step, count, out)
 
         return self._render(self.loop * step / count, fields, out, turn)
 
@@ -256,6 +270,8 @@ class Ocean:
         Raises:
             ParameterError: as `frame`, when the frame in question comes up; `ahead` out of range.
         """
+        if not isinstance(times, Iterable):
+            raise ParameterError(f"times must be numbers of seconds in a list or a generator, got {described(times)}")
         fields = named(fields)
         return self._pipeline((partial(self.frame, t, fields) for t in times), ahead, reuse)
 
@@ -267,7 +283,8 @@ class Ocean:
             ParameterError: as `loop_frame` and `frames`.
         """
         fields = named(fields)
-        return self._pipeline((partial(self.loop_frame, j, count, fields) for j in range(FRAMES.check_whole("count", count))), ahead, reuse)
+        steps = range(MOMENTS.check_whole("count", count))
+        return self._pipeline((partial(self.loop_frame, j, count, fields) for j in steps), ahead, reuse)
 
     def _pipeline(self, jobs: Iterator[Callable[..., Frame]], ahead: int, reuse: bool) -> Iterator[Frame]:
         """Run jobs in their order, some of them ahead; each takes an earlier frame, or None, as `out`."""
@@ -324,7 +341,7 @@ class Ocean:
     def _render(self, t: float, fields: Sequence[str], out: Frame | None, turn: Turn) -> Frame:
         fields = named(fields)
         arrays = self._outputs(fields, out)
-        with self._locked():
+        with no_fork(), self._locked():
             self._synthesis.run(turn, arrays, self.choppiness)
         frame = Frame(t, self.grid, self.choppiness, arrays)
         if out is not None:

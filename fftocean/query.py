@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Modes
-from fftocean.arrays import Real, RealLike
+from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
 from fftocean.errors import FieldError, ParameterError
 from fftocean.fields import potential_factor
@@ -166,7 +166,7 @@ class Query:
         return _rebuilt, self._recipe
 
     def __repr__(self) -> str:
-        return f"Query({self.source!r}, mode={self.mode!r}, shortest={self.shortest:g}, threads={self.threads})"
+        return shortened(f"Query(mode={self.mode!r}, shortest={self.shortest:g}, threads={self.threads}, {self.source!r})")
 
     def at(self, x: RealLike, y: RealLike, t: RealLike, fields: Sequence[str] = WANTED) -> Answer:
         """

@@ -24,7 +24,7 @@ from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
 from fftocean.bake.files import write_whole
 from fftocean.cascade import Cascade
-from fftocean.errors import OutputError, ParameterError, SeaWarning, how_to_install
+from fftocean.errors import OutputError, ParameterError, SeaWarning, described, how_to_install
 from fftocean.fields import FIELDS
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
@@ -387,7 +387,7 @@ def _require_ocean(ocean: Any) -> None:
             "or one of cascade.oceans"
         )
     if not isinstance(ocean, Ocean):
-        raise ParameterError(f"ocean must be an Ocean, got {ocean!r:.80}")
+        raise ParameterError(f"ocean must be an Ocean, got {described(ocean)}")
 
 
 def _require(name: str) -> Any:

@@ -124,6 +124,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
 
 
 _STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
+_WIDTHS = 1000.0
 _PLACES = 2**16
 """The places at which the water of several tiles is added up to look for folds."""
 
@@ -132,17 +133,15 @@ def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     """
     Return the folds of the water of all tiles together, in `count` moments over the loop, or over `span` [s].
 
-    One tile is looked at in all its samples. Several are added up at places of the finest one's samples, drawn over the width of
-    the largest: the others, whose waves are longer, are interpolated between their own samples.
+    One tile is looked at in all its samples. Several are added up at places of the finest one's samples, drawn over many widths
+    of the largest, as they lie beside each other differently in each: the others, whose waves are longer, are interpolated.
     """
     period = tiles[0].loop if len({tile.loop for tile in tiles}) == 1 else None
     places = _places(tiles)
     total: Folding | None = None
     for j in range(count):
-        if period is None:
-            frames = [tile.frame(j * span / count, _STRETCHES) for tile in tiles]
-        else:
-            frames = [tile.loop_frame(j, count, _STRETCHES) for tile in tiles]
+        t = j * (span if period is None else period) / count
+        frames = [tile.frame(t, _STRETCHES) for tile in tiles]
         if len(frames) == 1:
             xx, xy, yy = (frames[0][name] for name in _STRETCHES)
         else:
@@ -163,8 +162,8 @@ def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
         return []
     large, fine = tiles[0].grid, tiles[-1].grid
     draw = np.random.default_rng(0)  # where to look, which has no part in the sea
-    x = np.floor(draw.uniform(0.0, large.lx * fine.nx / fine.lx, _PLACES)) * (fine.lx / fine.nx)
-    y = np.floor(draw.uniform(0.0, large.ly * fine.ny / fine.ly, _PLACES)) * (fine.ly / fine.ny)
+    x = np.floor(draw.uniform(0.0, _WIDTHS * large.lx * fine.nx / fine.lx, _PLACES)) * (fine.lx / fine.nx)
+    y = np.floor(draw.uniform(0.0, _WIDTHS * large.ly * fine.ny / fine.ly, _PLACES)) * (fine.ly / fine.ny)
     grids = [tile.grid for tile in tiles]
     scaled = [(x * (g.nx / g.lx) % g.nx, y * (g.ny / g.ly) % g.ny) for g in grids[:-1]]
     return [*scaled, (np.rint(x * (fine.nx / fine.lx)) % fine.nx, np.rint(y * (fine.ny / fine.ly)) % fine.ny)]

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Modes
-from fftocean.arrays import Integer, Real, RealLike
+from fftocean.arrays import Integer, Real, RealLike, brief_repr
 from fftocean.cascade import Cascade
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, described
 from fftocean.fields import potential_factor
 from fftocean.gerstner.waves import Waves
 from fftocean.kernels import passes
@@ -43,6 +43,8 @@ class Trains:
     depth: float  # [m]
     choppiness: float  # [-]
     model: Waves | None = None  # which may start from rest
+
+    __repr__ = brief_repr
 
     def turned(self, t: float) -> Real:
         """
@@ -107,7 +109,7 @@ def trains_of(source: Any, *, depth: float | None = None, choppiness: float | No
         modes = Modes(model.kx, model.ky, model.amplitude, model.phase, model.omega)
         push = model.sharpness * model.amplitude / model.wavenumber
         return _listed([(modes, push, (math.inf, math.inf), None)], math.inf, 1.0, shortest, model)
-    raise ParameterError(f"waves must come from an Ocean, a Cascade, a few-wave model or Modes, got {source!r:.80}")
+    raise ParameterError(f"waves must come from an Ocean, a Cascade, a few-wave model or Modes, got {described(source)}")
 
 
 def _listed(parts: list[Part], depth: float, choppiness: float, shortest: float, model: Waves | None = None) -> Trains:

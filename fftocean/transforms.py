@@ -18,7 +18,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from fftocean import wisdom
+from fftocean import forks, wisdom
 from fftocean.arrays import COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
@@ -27,14 +27,27 @@ PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "
 
 ESTIMATE = 64  # FFTW_ESTIMATE in C
 ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
-_planner = threading.Lock()  # FFTW's planner is shared by all plans and is not safe to enter twice
+_planner = threading.RLock()  # FFTW's planner is shared by all plans; a plan may be collected while its thread makes another
 _importing = threading.Lock()
+
+
+class _Planner:
+    """The planner's lock, whichever that is now, for forks to take."""
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        return _planner.acquire(blocking, timeout)
+
+    def release(self) -> None:
+        _planner.release()
+
+
+forks.guard(_Planner())
 
 
 def _renew_locks() -> None:
     """In a forked child: whoever held them is not there."""
     global _planner, _importing
-    _planner, _importing = threading.Lock(), threading.Lock()
+    _planner, _importing = threading.RLock(), threading.Lock()
 
 
 if hasattr(os, "register_at_fork"):
@@ -117,6 +130,11 @@ class _FFTW:
     def __call__(self) -> None:
         self._plan.execute()
 
+    def __del__(self) -> None:
+        if _planner is not None and hasattr(self, "_plan"):  # at the end of the interpreter there may be none
+            with _planner:  # pyfftw takes a lock of its own to destroy a plan, which no fork may find taken
+                del self._plan
+
 
 class _MKL:
     """MKL through its FFTW3 interface; its plans know no effort."""
@@ -137,10 +155,17 @@ class _MKL:
         if not plan:
             raise MemoryError(f"MKL could not plan {count} transforms of {n}")
         self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)
-        weakref.finalize(self, getattr(mkl, f"{prefix}_destroy_plan"), self._plan).atexit = False  # daemon threads may be at it then
+        destroy = getattr(mkl, f"{prefix}_destroy_plan")
+        weakref.finalize(self, _destroyed, destroy, self._plan).atexit = False  # daemon threads may be at it then
 
     def __call__(self) -> None:
         self._execute(self._plan)
+
+
+def _destroyed(destroy: Callable[[ctypes.c_void_p], None], plan: ctypes.c_void_p) -> None:
+    """Give back a plan of MKL, while nobody makes one."""
+    with _planner:
+        destroy(plan)
 
 
 class _SciPy:

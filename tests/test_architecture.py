@@ -11,7 +11,7 @@ import pytest
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
 FLOORS = {
-    0: ["constants", "errors", "host", "arrays", "limits"],
+    0: ["constants", "errors", "host", "forks", "arrays", "limits"],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
@@ -46,8 +46,8 @@ STAIRS = [
 ]
 STEP = {module: (stair, step) for stair, steps in enumerate(STAIRS) for step, modules in enumerate(steps) for module in modules}
 
-ONLY = {room: {"arrays", "errors"} for room in ("kernels", "export")}  # bare arrays in, bare arrays out
-ONLY |= {"wisdom": {"errors", "host"}, "transforms": {"arrays", "errors", "wisdom"}}
+ONLY = {"kernels": {"arrays", "errors", "forks"}, "export": {"arrays", "errors"}}  # bare arrays in, bare arrays out
+ONLY |= {"wisdom": {"errors", "host"}, "transforms": {"arrays", "errors", "forks", "wisdom"}}
 NEVER = {
     "gerstner": {"fields", "transforms", "synthesis", "ocean", "kernels", "amplitudes"}
 }  # a check must not share code with the checked
@@ -269,8 +269,16 @@ def complaints(module: str, source: str) -> list[str]:
         ("physics.moments", "from fftocean.physics import dispersion", "must not import physics.dispersion: it is no step further down"),
         ("errors", "from fftocean.limits import Quantity", "must not import limits: it is no step further down"),
         ("limits", "from fftocean.physics.dispersion import wavenumber", "must not import physics.dispersion: floor 1 lies above floor 0"),
-        ("kernels.passes", "from fftocean.constants import GRAVITY", "must not import constants: kernels sees arrays and errors only"),
-        ("transforms", "from fftocean.limits import SAMPLES", "must not import limits: transforms sees arrays and errors and wisdom only"),
+        (
+            "kernels.passes",
+            "from fftocean.constants import GRAVITY",
+            "must not import constants: kernels sees arrays and errors and forks only",
+        ),
+        (
+            "transforms",
+            "from fftocean.limits import SAMPLES",
+            "must not import limits: transforms sees arrays and errors and forks and wisdom only",
+        ),
         ("export.exr", "from fftocean.physics.sea import Sea", "must not import physics.sea: export sees arrays and errors only"),
         ("export.exr", "from fftocean.kernels import passes", "must not import kernels.passes: export sees arrays and errors only"),
         ("gerstner.direct", "from fftocean.kernels import passes", "must not import kernels.passes: a check must not share code"),

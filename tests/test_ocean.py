@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import fractions
 import math
 import os
 import pickle
@@ -17,6 +18,7 @@ import pytest
 
 import fftocean as fo
 from fftocean.fields import EIGHT, FIELDS
+from fftocean.kernels import passes
 
 ALL = (*FIELDS, "normal", "jacobian")
 DEEP = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
@@ -153,6 +155,47 @@ def test_loop_frames_close_to_the_bit(dtype):
         assert all(np.array_equal(one[f], two[f]) for f in EIGHT)
 
 
+@pytest.mark.parametrize("count", [7, 2**20, 2**26, 2**26 + 1, 2**31 - 1, 2**32 - 5, 2**32])
+@pytest.mark.parametrize(("size", "loop"), [(50.0, 16.0), (0.02, 1e9)])
+def test_phases_of_a_loop_are_those_of_whole_numbers(count, size, loop):
+    """
+    a cos(k x - 2 pi (n j mod count)/count - phase) with Python's integers, which have no bounds: n reaches 1e12 turns here.
+
+    Two numbers of 32 bits, multiplied in double precision, lose whole turns, and in 64 bits with a sign overflow.
+    """
+    modes = [(1, 0, 0.3, 0.4), (0, 2, 0.2, 1.0), (-3, 1, 0.1, 2.0)]
+    ocean = fo.Ocean.from_modes(modes, n=16, size=size, loop=loop, surface_tension=0.074, dtype="float64")
+    waves = ocean.modes()
+    turns = [round(omega * loop / (2.0 * math.pi)) for omega in waves.omega]
+    assert max(turns) > (1e9 if loop > 1e3 else 1)
+    x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
+    for j in (0, 1, count // 3, count - 1, 2**31 + 7, 2**32 - 9, -5, 10**30 + 1):
+        expected = np.zeros_like(x)
+        for n, kx, ky, amplitude, phase in zip(turns, waves.kx, waves.ky, waves.amplitude, waves.phase, strict=True):
+            turned = float(fractions.Fraction((n * j) % count, count))
+            expected += amplitude * np.cos(kx * x + ky * y - 2.0 * math.pi * turned - phase)
+        frame = ocean.loop_frame(j, count, ("height",))
+        assert np.max(np.abs(frame.height - expected)) < 1e-14 * 50
+        assert frame.t == loop * (j % count) / count
+        assert np.array_equal(frame.height, ocean.loop_frame(j + count, count, ("height",)).height)
+
+
+def test_turns_beyond_2_to_53_are_turned_in_whole_numbers():
+    """The two ways to turn agree where both hold, and the fine one holds for any whole double below 2^63."""
+    cycles = np.array([[1.0, 3.0, 2.0**49 + 1.0, 2.0**53 + 2.0, 2.0**62 + 2.0**11, 2.0**63 - 2.0**10]])
+    for step, count in ((5, 7), (2**25 + 3, 2**26), (2**31 + 11, 2**32 - 5), (2**32 - 1, 2**32)):
+        fine = np.empty_like(cycles)
+        passes.turns_in_fine_loop(cycles, step, count, fine)
+        exact = [float(fractions.Fraction(int(c) * step % count, count)) for c in cycles[0]]
+        apart = fine[0] - exact
+        assert np.max(np.abs(apart - np.rint(apart))) < 2e-16
+        assert np.max(np.abs(fine)) <= 0.5
+        if count <= 2**26:
+            plain = np.empty((1, 3))
+            passes.turns_in_loop(cycles[:, :3], float(step), float(count), plain)
+            assert np.array_equal(plain, fine[:, :3])
+
+
 def test_loop_frames_are_the_frames_at_their_times():
     """Two clocks, whole turns and seconds: apart by the rounding of n t/T, 1e-13 of the largest value."""
     o = ocean(loop=32.0)
@@ -250,6 +293,7 @@ def test_only_what_is_asked_is_there():
         (lambda o: o.loop_frame(0, 48), "loops"),
         (lambda _: ocean(loop=30.0).loop_frame(0.5, 48), "j must be"),
         (lambda _: ocean(loop=30.0).loop_frame(0, 0), "count must be"),
+        (lambda _: ocean(loop=30.0).loop_frame(0, 2**32 + 1), "count must be a whole number between 1 and 4.29497e"),
         (lambda o: o.frame(0.0, out=ocean(n=16).frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=ocean(dtype="float32").frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))), "out must be a frame that has height, displace_x"),
@@ -402,7 +446,10 @@ def test_values_are_frozen():
         o.amplitudes.forward[1, 1] = 1.0
     with pytest.raises(dataclasses.FrozenInstanceError):
         o.amplitudes.depth = 3.0
-    assert dataclasses.replace(SHALLOW, depth=7.0).depth == 7.0
+    swell = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP(peak=1.0)), depth=5.0)
+    assert dataclasses.replace(swell, depth=7.0).depth == 7.0
+    with pytest.raises(fo.ParameterError, match=r"got 7 m for the sea and 5 m for systems\[0\].spectrum \(TMA\)"):
+        dataclasses.replace(SHALLOW, depth=7.0)
 
 
 def test_capillary_waves_run_faster():

@@ -20,10 +20,7 @@ def test_the_package_says_that_it_is_typed():
 
 def test_the_archive_packs_folders_of_the_root_alone():
     """A pattern without a leading slash also means folders of that name in stray environments."""
-    assert all(
-        pattern.startswith("/")
-        for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
-    )
+    assert all(pattern.startswith("/") for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
 
 
 def test_an_archive_holds_no_stray_environment(tmp_path):

@@ -251,7 +251,8 @@ def linear(change):
 
 
 def lifted(_, frame):
-    frame.height[:] += 0.01
+    if "height" in frame.fields:
+        frame.height[:] += 0.01
 
 
 def product(name, change):

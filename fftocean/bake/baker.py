@@ -19,7 +19,7 @@ from fftocean.bake.containers import assemble, intact, unpack
 from fftocean.bake.contents import Contents
 from fftocean.bake.crews import check_executor, crew_of
 from fftocean.bake.executors import Crew
-from fftocean.bake.files import as_json, make_folder, sweep, write_whole
+from fftocean.bake.files import as_json, make_folder, path_of, sweep, write_whole
 from fftocean.bake.frames import Scene, leave, seat
 from fftocean.bake.job import Job
 from fftocean.bake.journal import Journal, entries_of
@@ -30,7 +30,7 @@ from fftocean.bake.manifest import compose, read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Entry, Order, frames_of, tasks_of
 from fftocean.bake.survey import recalled, survey, wanting
-from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
+from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, described
 from fftocean.export import engines, formats
 from fftocean.export.profiles import Profile
 from fftocean.host import cores
@@ -82,9 +82,9 @@ def bake(
         JobError: the job asks for more than can be.
     """
     if not isinstance(job, Job):
-        raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {job!r:.60}")
+        raise JobError(f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {described(job)}")
     executor = check_executor(executor, workers)
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     require_free(folder)
     chosen = frames_of(frames, job.frames)
     scene = scene or scene_for(job, downsample, len(chosen))

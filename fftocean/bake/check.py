@@ -13,7 +13,7 @@ from fftocean.bake import layout, listing
 from fftocean.bake.claim import HEADER, read_checked
 from fftocean.bake.containers import INSEPARABLE, still_says
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import digest, read_whole
+from fftocean.bake.files import digest, path_of, read_whole
 from fftocean.bake.lock import require_free
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
@@ -70,7 +70,7 @@ def check(folder: str | Path, *, progress: Callable[[int, int], None] | None = N
         FolderInUseError: a bake is under way there.
         OutputError: a file is there and cannot be read.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     require_free(folder)
     if not folder.is_dir():
         raise OutputError(f"{folder} must be the folder of a bake, and is {'no folder' if folder.exists() else 'not there'}")

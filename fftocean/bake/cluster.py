@@ -92,9 +92,7 @@ class Cluster:
                     )
                 )
             own = self._address is None
-            self._client = self._open.enter_context(
-                client(address, timeout=START if own else PATIENCE, set_as_default=False)
-            )
+            self._client = self._open.enter_context(client(address, timeout=START if own else PATIENCE, set_as_default=False))
             self._client.wait_for_workers(1, timeout=START if own else 3 * PATIENCE)
             self.workers = len(self._client.scheduler_info(n_workers=-1)["workers"])
         except RuntimeError as error:

@@ -9,10 +9,22 @@ import stat
 from pathlib import Path
 from typing import Any
 
-from fftocean.errors import OutputError
+from fftocean.errors import JobError, OutputError, described
 
 MAX_JSON = 4 * 2**20  # what a job of the largest file can come to, several times over
 MAX_FILE = 2**37  # bytes: a container of a long sequence
+
+
+def path_of(name: str, value: Any) -> Path:
+    """
+    Return what names a file or folder as a path.
+
+    Raises:
+        JobError: it is no path.
+    """
+    if not isinstance(value, (str, os.PathLike)):
+        raise JobError(f"{name} must be a path, such as 'sea' or Path('sea'), got {described(value)}")
+    return Path(value)
 
 
 def write_whole(path: Path, data: bytes | memoryview) -> str:

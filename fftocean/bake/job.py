@@ -11,9 +11,11 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fftocean.arrays import shortened
+from fftocean.bake.files import path_of
 from fftocean.bake.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.bake.systems import measurement, systems_of, unknown_key
-from fftocean.errors import JobError, ParameterError, ReaderError
+from fftocean.errors import JobError, ParameterError, ReaderError, described
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import JONSWAP, TMA
@@ -41,6 +43,13 @@ class Job:
     systems: tuple[Mapping[str, Any], ...]  # as in the file
     source: str = "job"
 
+    def __repr__(self) -> str:
+        s, waves = self.settings, [*(["a wind sea"] if self.wind else []), *([f"{len(self.systems)} systems"] if self.systems else [])]
+        return shortened(
+            f"Job({self.source!r}: {' and '.join(waves)}, n={s['ocean.n']}, size={s['ocean.size']}, {self.frames} frames of "
+            f"{', '.join(self.maps)} as {self.format} for {self.engine})"
+        )
+
     @classmethod
     def default(cls) -> "Job":
         """Return the embedded sea: a moderate breeze on a large lake."""
@@ -56,7 +65,7 @@ class Job:
         Raises:
             JobError: it cannot be read, is too large, is not UTF-8 or not TOML, or holds a key or value that it may not.
         """
-        path = Path(path)
+        path = path_of("path", path)
         try:
             if not path.is_file():
                 raise JobError(f"{path} must be a TOML file, and is {'a folder or device' if path.exists() else 'not there'}")
@@ -74,6 +83,8 @@ class Job:
     @classmethod
     def from_toml(cls, text: str, *, source: str = "job") -> "Job":
         """Parse a job; see `read` for what is refused. A byte-order mark at the start is skipped."""
+        if not isinstance(text, str):
+            raise JobError(f"a job must be TOML text, got {described(text)}")
         text = text.removeprefix("\ufeff")
         if len(text) > MAX_BYTES:
             raise JobError(f"{source} must have at most {MAX_BYTES} bytes, got {len(text)}")
@@ -164,6 +175,8 @@ class Job:
         Raises:
             JobError: an unknown key, a value that it may not have, or another key of sea.wind where there is no wind sea.
         """
+        if not isinstance(changes, Mapping):
+            raise JobError(f"changes must be keys with values, such as {{'ocean.n': 512}}, got {described(changes)}")
         for key in changes:
             if key == "sea.systems":
                 raise JobError("sea.systems must be given in a job file, as [[sea.systems]]")

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, require_memory
+from fftocean.arrays import Real, RealLike, require_memory, shortened
 from fftocean.bake import layout, listing
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import digest, read_whole
+from fftocean.bake.files import digest, path_of, read_whole
 from fftocean.bake.manifest import read_manifest
 from fftocean.bake.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
@@ -25,6 +25,10 @@ class Bake:
     times: Real  # of the frames, (frames,) [s]
     frames: tuple[int, ...]  # which of the loop's they are
     manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        shapes = ", ".join(f"{name} {' x '.join(map(str, array.shape))}" for name, array in self.maps.items())
+        return shortened(f"Bake({len(self.frames)} frames of {shapes})")
 
     def __getitem__(self, name: str) -> Real:
         """
@@ -107,7 +111,7 @@ def load(folder: str | Path, *, maps: Iterable[str] | None = None, frames: Itera
         OutputError: a file is there and cannot be read.
         JobError: a map or a frame that was not baked.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     if layout.is_cascade(folder):
         return _tiles(folder, maps, frames, verify)
     return _bake(folder, maps, frames, verify)

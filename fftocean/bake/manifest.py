@@ -109,7 +109,7 @@ def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
     return [[min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)] for c in range(len(ranges[0]))]
 
 
-def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """The extremes of the whole sequence; `largest_choppiness` is that at which nothing folds, None where any is."""
     limits = [c for row in rows if (c := row["extremes"]["largest_choppiness"]) is not None]
     return {

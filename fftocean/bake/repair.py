@@ -11,7 +11,7 @@ from fftocean.bake.baker import bake
 from fftocean.bake.check import check
 from fftocean.bake.claim import HEADER, checked, differences, read_checked
 from fftocean.bake.contents import Contents
-from fftocean.bake.files import as_json, remove, write_whole
+from fftocean.bake.files import as_json, path_of, remove, write_whole
 from fftocean.bake.job import Job
 from fftocean.bake.ledger import Listen, Progress
 from fftocean.bake.manifest import read_manifest
@@ -48,7 +48,7 @@ def repair(
         OutputError: a file cannot be written, or this installation would not write the same bytes.
         FolderInUseError: a bake is under way there.
     """
-    folder = Path(folder)
+    folder = path_of("folder", folder)
     findings = check(folder)
     if layout.is_cascade(folder):
         for finding in findings:

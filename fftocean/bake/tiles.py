@@ -10,7 +10,7 @@ from fftocean.bake.baker import bake
 from fftocean.bake.claim import checked
 from fftocean.bake.crews import check_executor
 from fftocean.bake.estimate import Estimate, estimate
-from fftocean.bake.files import as_json, make_folder, read_whole, remove, sweep, write_whole
+from fftocean.bake.files import as_json, make_folder, path_of, read_whole, remove, sweep, write_whole
 from fftocean.bake.job import Job
 from fftocean.bake.layout import CASCADE_FILE, CASCADE_JOB, MANIFEST_FILE
 from fftocean.bake.lock import locked, require_free
@@ -54,8 +54,8 @@ def bake_tiles(
         JobError: tiles that cannot share a sea, or a map that does not add up over tiles.
         OutputError, FolderInUseError: as `bake`.
     """
-    check_executor(executor, workers)
-    folder = Path(folder)
+    executor = check_executor(executor, workers)
+    folder = path_of("folder", folder)
     require_free(folder)
     water = prepare(job, tiles, frames=frames, downsample=downsample)
     make_folder(folder)

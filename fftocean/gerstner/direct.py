@@ -11,8 +11,8 @@ from typing import Protocol
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike
-from fftocean.errors import ParameterError
+from fftocean.arrays import Real, RealLike, brief_repr
+from fftocean.errors import ParameterError, described
 
 
 class WaveList(Protocol):
@@ -66,6 +66,8 @@ class Surface:
     normal: Real  # (..., 3), unit, of the displaced surface
     jacobian: Real
 
+    __repr__ = brief_repr
+
 
 def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     """
@@ -86,6 +88,8 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     Raises:
         ParameterError: a position or time that is not finite.
     """
+    if isinstance(ocean, type) or not all(hasattr(ocean, name) for name in ("modes", "depth", "choppiness")):
+        raise ParameterError(f"waves to be summed must be those of an Ocean or a Cascade, got {described(ocean)}")
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     if not (np.all(np.isfinite(px)) and np.all(np.isfinite(py)) and math.isfinite(t)):
         raise ParameterError("x0, y0 and t must be finite")

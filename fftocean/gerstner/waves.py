@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, require_memory
+from fftocean.arrays import Real, RealLike, brief_repr, require_memory
 from fftocean.errors import ParameterError
 from fftocean.gerstner.checks import (
     COMPONENT,
@@ -32,6 +32,8 @@ class YUp:
     tangent: Real  # d position / dx, not normalised
     binormal: Real  # d position / dz, not normalised
     normal: Real  # unit; along binormal x tangent, which is up here: tangent x binormal points down
+
+    __repr__ = brief_repr
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -56,6 +58,8 @@ class WaveSurface:
     velocity_x: Real  # of the particle, d position / dt [m/s]
     velocity_y: Real
     velocity_z: Real
+
+    __repr__ = brief_repr
 
     @property
     def x(self) -> Real:
@@ -160,6 +164,8 @@ class Waves:
     omega: Real  # [rad/s]
     sharpness: Real  # q [-]
     tau: float = 0.0  # time constant of the start [s]; 0 is no start: the sea has always been there
+
+    __repr__ = brief_repr
 
     def __post_init__(self) -> None:
         columns = {

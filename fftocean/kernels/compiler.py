@@ -9,6 +9,11 @@ from typing import Any, TypeVar
 
 import numba as nb
 from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.compiler_lock import global_compiler_lock
+
+from fftocean import forks
+
+forks.guard(global_compiler_lock._lock)  # a child would wait for ever for what another thread was compiling
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, described
 
 # Spectra and seas are told apart by what they can do, not imported: this room lies below theirs.
 Spectrum = Any
@@ -36,7 +36,7 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
 
     if not 0.0 <= low <= high:
         raise ParameterError(f"a band must have 0 <= low <= high, got {low} to {high} rad/s")
-    peak = float(spectrum.peak)
+    peak = _peak_of(spectrum)
 
     def integrand(x: float) -> float:
         s = float(spectrum(peak * x)) if x > 0.0 else 0.0
@@ -60,6 +60,19 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
         # Sharp features: split the piece evenly and add the parts, which resolves all but fractals.
         total += _split(f, a, b, 1e-6 * whole) if complaint and error > 1e-12 * whole else part
     return float(total * peak ** (n + 1))
+
+
+def _peak_of(spectrum: Spectrum) -> float:
+    """
+    Return the peak of a spectrum [rad/s].
+
+    Raises:
+        ParameterError: not a spectrum.
+    """
+    if isinstance(spectrum, type) or not callable(spectrum) or not hasattr(spectrum, "peak"):
+        of = "; take system.spectrum" if hasattr(spectrum, "spectrum") else ""
+        raise ParameterError(f"a spectrum must be callable and have a peak, got {described(spectrum)}{of}")
+    return float(spectrum.peak)
 
 
 def _refined(edges: list[float]) -> list[float]:
@@ -119,7 +132,7 @@ def peak_period(spectrum: Spectrum) -> float:
 
     For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that of the deep-water sea.
     """
-    peak = float(spectrum.peak)
+    peak = _peak_of(spectrum)
     omega = np.union1d(peak * np.geomspace(0.1, 10.0, 4001), np.array(getattr(spectrum, "breaks", (peak,))))
     s = spectrum(omega)
     top = int(np.argmax(s))

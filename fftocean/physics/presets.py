@@ -7,7 +7,7 @@ from functools import lru_cache
 from fftocean.constants import GRAVITY
 from fftocean.limits import FETCH, Count
 from fftocean.physics.moments import significant_wave_height
-from fftocean.physics.spectra import FULLY_DEVELOPED_PEAK, JONSWAP, TMA, PiersonMoskowitz
+from fftocean.physics.spectra import FULLY_DEVELOPED_PEAK, JONSWAP, TMA, PiersonMoskowitz, fetch_limited
 from fftocean.physics.units import KNOT
 
 BEAUFORT = Count("", 0, 12)
@@ -150,11 +150,11 @@ def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
     from scipy.optimize import brentq
 
     def excess(log_fetch: float) -> float:
-        return significant_wave_height(JONSWAP.from_wind(speed=wind, fetch=math.exp(log_fetch))) - hs
+        return significant_wave_height(fetch_limited(wind, math.exp(log_fetch), 3.3)) - hs
 
     longest = math.log(FETCH.high)
     if _developing_wind(hs) >= wind or excess(longest) <= 0.0:
         spectrum: JONSWAP | PiersonMoskowitz = PiersonMoskowitz.from_wind(speed=_developing_wind(hs))
     else:
-        spectrum = JONSWAP.from_wind(speed=wind, fetch=math.exp(brentq(excess, 0.0, longest, xtol=1e-12)))
+        spectrum = fetch_limited(wind, math.exp(brentq(excess, 0.0, longest, xtol=1e-12)), 3.3)
     return 2.0 * math.pi / spectrum.peak, getattr(spectrum, "gamma", 1.0)

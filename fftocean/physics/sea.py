@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
 from fftocean.physics import moments, presets
 from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
@@ -121,7 +121,7 @@ class Sea:
         systems = (*waves, *systems) if isinstance(systems, Iterable) else (*waves, systems)
         for system in systems:
             if not isinstance(system, WaveSystem):
-                raise ParameterError(f"a sea must be made of WaveSystem values, got {system!r:.60}")
+                raise ParameterError(f"a sea must be made of WaveSystem values, got {described(system)}")
         object.__setattr__(self, "systems", systems)
         for name, given, quantity, default in (
             ("depth", depth, DEPTH, math.inf),
@@ -240,8 +240,8 @@ class Sea:
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]
         more = [f"{len(self.systems) - 3} more systems"] if len(self.systems) > 3 else []
-        water = [f"depth={self.depth:g}" + _by(self.depth_from)]
-        if self.surface_tension or self.surface_tension_from:
+        water = [f"depth={self.depth:g}" + (_by(self.depth_from) if math.isfinite(self.depth) else "")]
+        if self.surface_tension:
             water.append(f"surface_tension={self.surface_tension:g}" + _by(self.surface_tension_from))
         return f"Sea({', '.join([*shown, *more, *water])})"
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
-from fftocean.errors import ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.limits import (
     DENSITY,
     DEPTH,
@@ -52,7 +52,7 @@ def require_spectrum(name: str, value: object) -> None:
     """
     if isinstance(value, type) or not isinstance(value, FrequencySpectrum):
         raise ParameterError(
-            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {value!r:.60}"
+            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {described(value)}"
         )
     PEAK.check(f"{name}.peak", value.peak)
 
@@ -135,21 +135,8 @@ class JONSWAP:
         """
         speed = checked_wind(speed)
         fetch = FETCH.check("fetch", fetch)
-        gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
-        wind = max(speed, STILL_AIR)
-        x = GRAVITY * fetch / wind**2  # dimensionless fetch
-        # Dimensionless, with u = omega_p U/g and e = g^2 m0 / U^4:  e = alpha J(gamma) / u^4.
-        limit = 8.1e-3 * 0.2 / FULLY_DEVELOPED_PEAK**4
-        growth = 0.076 * _shape_integral(gamma) / 22.0**4
-        nearly = (0.99 * limit / growth) ** (1.0 / (4.0 / 3.0 - 0.22))  # fetch at which e is 99 % of its limit
-        mature = (22.0 / FULLY_DEVELOPED_PEAK) ** 3  # fetch at which the peak is that of the limit
-        u = max(22.0 * x ** (-1.0 / 3.0), FULLY_DEVELOPED_PEAK)
-        alpha = 0.076 * x**-0.22
-        if x > nearly:
-            age = min((x - nearly) / (mature - nearly), 1.0)
-            gamma = gamma ** (1.0 - age)
-            alpha = limit * (1.0 - 0.01 * nearly / x) * u**4 / _shape_integral(gamma)
-        return cls(peak=u * GRAVITY / wind, alpha=min(alpha, 1.0) if speed else 0.0, gamma=gamma)
+        warn_of_short_fetch(speed, fetch)
+        return fetch_limited(speed, fetch, PEAK_ENHANCEMENT.check("gamma", gamma))
 
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, gamma: float = 3.3) -> "JONSWAP":
@@ -170,6 +157,41 @@ class JONSWAP:
         r = np.exp(-((x - 1.0) ** 2) / (2.0 * sigma**2))
         s: Real = self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4) * self.gamma**r
         return s
+
+
+SHORTEST_FETCH = 100.0
+"""g F/U^2 below which a sea is hardly ever meant: the JONSWAP experiment measured from 100 on  (Hasselmann et al. 1973)."""
+
+
+def warn_of_short_fetch(speed: float, fetch: float) -> None:
+    """Warn of a fetch that is so short that it may be in another unit than metres."""
+    least = SHORTEST_FETCH * speed**2 / GRAVITY
+    if fetch < least:
+        warnings.warn(
+            f"a fetch of {fetch:g} m is very short for a wind of {speed:g} m/s: g F/U^2 is "
+            f"{SHORTEST_FETCH * fetch / least:.3g}, and growth was measured from {SHORTEST_FETCH:g} ({least:.4g} m) on; "
+            "fetch is in metres: 200 km is 200e3",
+            SeaWarning,
+            stacklevel=4,
+        )
+
+
+def fetch_limited(speed: float, fetch: float, gamma: float) -> JONSWAP:
+    """Return the sea of `JONSWAP.from_wind`, whose arguments these are, checked."""
+    wind = max(speed, STILL_AIR)
+    x = GRAVITY * fetch / wind**2  # dimensionless fetch
+    # Dimensionless, with u = omega_p U/g and e = g^2 m0 / U^4:  e = alpha J(gamma) / u^4.
+    limit = 8.1e-3 * 0.2 / FULLY_DEVELOPED_PEAK**4
+    growth = 0.076 * _shape_integral(gamma) / 22.0**4
+    nearly = (0.99 * limit / growth) ** (1.0 / (4.0 / 3.0 - 0.22))  # fetch at which e is 99 % of its limit
+    mature = (22.0 / FULLY_DEVELOPED_PEAK) ** 3  # fetch at which the peak is that of the limit
+    u = max(22.0 * x ** (-1.0 / 3.0), FULLY_DEVELOPED_PEAK)
+    alpha = 0.076 * x**-0.22
+    if x > nearly:
+        age = min((x - nearly) / (mature - nearly), 1.0)
+        gamma = gamma ** (1.0 - age)
+        alpha = limit * (1.0 - 0.01 * nearly / x) * u**4 / _shape_integral(gamma)
+    return JONSWAP(peak=u * GRAVITY / wind, alpha=min(alpha, 1.0) if speed else 0.0, gamma=gamma)
 
 
 @dataclass(frozen=True, slots=True)

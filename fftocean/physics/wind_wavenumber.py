@@ -19,7 +19,7 @@ from fftocean.errors import ParameterError
 from fftocean.limits import DEPTH, PHILLIPS_CONSTANT, SIGNIFICANT_WAVE_HEIGHT, Quantity, keep_checked
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
 from fftocean.physics.dispersion import angular_frequency, group_velocity, wavenumber
-from fftocean.physics.spectra import STILL_AIR, checked_wind
+from fftocean.physics.spectra import STILL_AIR, checked_wind, warn_of_short_fetch
 from fftocean.physics.spreading import wrapped
 
 ANY_FETCH = Quantity("m", 1.0, math.inf)
@@ -171,6 +171,7 @@ class Elfouhaily:
                 f"fetch must be at least {shortest:.4g} m for a wind of {self.speed:g} m/s (where U10/c_p is {YOUNGEST:g}), "
                 f"got {self.fetch:g} m"
             )
+        warn_of_short_fetch(self.speed, self.fetch)
 
     @property
     def inverse_wave_age(self) -> float:

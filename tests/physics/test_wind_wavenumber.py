@@ -246,6 +246,7 @@ def test_still_air_is_a_flat_sea_and_says_so():
         assert Sea(WaveSystem(spectrum=s)).hs == 0.0
 
 
+@pytest.mark.filterwarnings("ignore:a fetch of:fftocean.errors.SeaWarning")
 def test_a_fetch_too_short_for_the_paper_is_refused_with_the_shortest():
     """U10/c_p = 5 is where the paper ends; the message names a fetch that is accepted."""
     with pytest.raises(ParameterError, match=r"fetch must be at least (\d+\.\d) m for a wind of 10 m/s") as refusal:

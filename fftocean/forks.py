@@ -1,0 +1,100 @@
+"""
+Forks while other threads compute.
+
+A forked child has only the thread that forked. What another thread was in the middle of stays as it was for ever: a plan half made, a
+lock held by nobody. So a fork waits until no thread makes an ocean or computes a frame, and takes the locks of the libraries that
+plan and compile; then the child can make oceans and frames of its own. It waits for `PATIENCE` seconds at most, so a fork never
+hangs, and what a child may do after a longer wait is not promised. Nor is a fork during an import in another thread, which Python
+itself does not survive: import the package and make a first ocean before.
+"""
+
+import contextlib
+import os
+import threading
+import time
+from collections.abc import Iterator
+from typing import Protocol
+
+PATIENCE = 30.0
+"""The longest that a fork waits for the work of other threads [s]."""
+
+
+class Lock(Protocol):
+    """A lock that may be waited for."""
+
+    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
+        """Take it, or return False after `timeout` seconds."""
+
+    def release(self) -> None:
+        """Give it back."""
+
+
+class _Gate:
+    """How many threads are at work, and whether others must wait before they begin."""
+
+    def __init__(self) -> None:
+        self.changed = threading.Condition()
+        self.working = 0
+        self.closed = False
+        self.own = threading.local()  # how often the thread itself is inside
+
+
+_gate = _Gate()
+_guarded: list[Lock] = []
+_taken: list[Lock] = []
+
+
+def guard(lock: Lock) -> None:
+    """Let each fork take a lock of a library, so that the child gets it free."""
+    _guarded.append(lock)
+
+
+@contextlib.contextmanager
+def no_fork() -> Iterator[None]:
+    """Keep forks of other threads waiting while the block runs; a block within a block is no other."""
+    gate = _gate
+    depth = getattr(gate.own, "depth", 0)
+    if not depth:
+        with gate.changed:
+            while gate.closed:
+                gate.changed.wait()
+            gate.working += 1
+    gate.own.depth = depth + 1
+    try:
+        yield
+    finally:
+        gate.own.depth = depth
+        if not depth:
+            with gate.changed:
+                gate.working -= 1
+                gate.changed.notify_all()
+
+
+def _before() -> None:
+    gate, until = _gate, time.monotonic() + PATIENCE
+    own = 1 if getattr(gate.own, "depth", 0) else 0
+    with gate.changed:
+        gate.closed = True
+        gate.changed.wait_for(lambda: gate.working <= own, PATIENCE)
+    for lock in _guarded:
+        if lock.acquire(timeout=max(until - time.monotonic(), 0.1)):
+            _taken.append(lock)
+
+
+def _in_parent() -> None:
+    while _taken:
+        _taken.pop().release()
+    with _gate.changed:
+        _gate.closed = False
+        _gate.changed.notify_all()
+
+
+def _in_child() -> None:
+    global _gate
+    while _taken:
+        _taken.pop().release()
+    _gate = _Gate()  # nobody else is here
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(before=_before, after_in_parent=_in_parent, after_in_child=_in_child)
