@@ -10,7 +10,7 @@ from fftocean.bake import layout
 from fftocean.bake.contents import Contents
 from fftocean.bake.files import digest, make_rooms, read_whole, write_whole
 from fftocean.bake.frames import Scene
-from fftocean.bake.manifest import extremes_over, played
+from fftocean.bake.manifest import played
 from fftocean.bake.maps import MAPS
 from fftocean.bake.order import Order
 from fftocean.errors import FFTOceanError, IntegrityError
