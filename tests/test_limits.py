@@ -130,6 +130,7 @@ CONSTRUCTORS = {
 KEYS = [(name, key) for name, (_, valid) in CONSTRUCTORS.items() for key in valid]
 BAD = [math.nan, math.inf, -math.inf, -1.0, 0.0, "5", True, None, 1e308, 1e-308]
 REFUSED_EVERYWHERE = (math.nan, -math.inf, "5", True, None)
+UNSTATED = {("Sea", "depth"), ("Sea", "surface_tension")}  # None: taken from the sea's spectra
 
 
 def build(name: str, key: str, value: object) -> np.ndarray:
@@ -163,7 +164,8 @@ def test_a_clean_refusal_or_a_finite_sea(name, key, value):
         assert any(message.endswith(f"got {text}") for text in shown), message  # and what came
     else:
         assert np.all((said >= 0.0) & (said < math.inf))
-        assert not any(value is bad for bad in REFUSED_EVERYWHERE)
+        unstated = value is None and (name, key) in UNSTATED
+        assert unstated or not any(value is bad for bad in REFUSED_EVERYWHERE)
 
 
 def test_exactly_these_odd_values_are_let_through():
@@ -180,6 +182,7 @@ def test_exactly_these_odd_values_are_let_through():
         *((key, value) for key in ("hs", "alpha", "s", "weight", "density", "surface_tension", "speed") for value in (0.0, 1e-308)),
         *((key, value) for key in ("direction", "bearing") for value in (-1.0, 0.0, 1e-308)),
         *(("depth", value) for value in (math.inf, 1e308)),
+        *((key, None) for _, key in UNSTATED),
     }
 
 

@@ -26,10 +26,12 @@ def test_pictures_may_be_none(tmp_path):
 def test_files_of_others_are_not_written_over(tmp_path, name):
     (tmp_path / "height").mkdir()
     (tmp_path / name).write_text("mine")
-    with pytest.raises(fo.OutputError, match=name):
-        bake(tmp_path)
-    assert (tmp_path / name).read_text() == "mine"
-    bake(tmp_path, overwrite=True)
+    for overwrite in (False, True):  # no job.json or manifest.json lists the file
+        with pytest.raises(fo.OutputError, match=name):
+            bake(tmp_path, overwrite=overwrite)
+        assert (tmp_path / name).read_text() == "mine"
+    (tmp_path / name).unlink()
+    bake(tmp_path)
     assert fo.check(tmp_path) == ()
 
 
