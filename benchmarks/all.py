@@ -1,9 +1,10 @@
 """
 Ask every question and write it all anew: results/*.json, results/*.png and RESULTS.md.
 
-Each question runs in a process of its own; all of them take about a quarter of an hour on two cores. On a machine that does other things
-meanwhile the ratios still hold, and RESULTS.md says how busy it was. A question that fails keeps the answer that it had;
-`--only frame` asks one again and leaves the others as they are.
+Each question runs in a process of its own; all of them take about a quarter of an hour on two
+cores. On a machine that does other things meanwhile the ratios still hold, and RESULTS.md says how
+busy it was. A question that fails keeps the answer that it had; `--only frame` asks one again and
+leaves the others as they are.
 
     python benchmarks/all.py [--only frame memory] [--quick]
 """
@@ -21,7 +22,23 @@ from rich.console import Console
 HERE = Path(__file__).resolve().parent
 QUICK = {  # a minute, to see that everything runs; its figures mean nothing
     "frame": ("--n", "64", "128", "--seconds", "2"),
-    "direct_sum": ("--n", "4", "6", "8", "12", "16", "24", "32", "96", "128", "192", "--seconds", "0", "--limit", "2e6"),
+    "direct_sum": (
+        "--n",
+        "4",
+        "6",
+        "8",
+        "12",
+        "16",
+        "24",
+        "32",
+        "96",
+        "128",
+        "192",
+        "--seconds",
+        "0",
+        "--limit",
+        "2e6",
+    ),
     "scaling": ("--n", "64", "100", "127", "128", "256", "--seconds", "2"),
     "memory": ("--n", "64", "128", "--runs", "1"),
     "startup": ("--runs", "2", "--cold", "1", "--n", "64"),
@@ -30,25 +47,51 @@ QUICK = {  # a minute, to see that everything runs; its figures mean nothing
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", nargs="+", choices=report.QUESTIONS, default=list(report.QUESTIONS), help="default: all")
-    parser.add_argument("--quick", action="store_true", help="a minute, with settings whose figures mean nothing, to see that all runs")
-    parser.add_argument("--output", type=Path, default=HERE, metavar="DIR", help="folder for RESULTS.md and results/ (default: benchmarks)")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        choices=report.QUESTIONS,
+        default=list(report.QUESTIONS),
+        help="default: all",
+    )
+    parser.add_argument(
+        "--quick",
+        action="store_true",
+        help="a minute, with settings whose figures mean nothing, to see that all runs",
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        default=HERE,
+        metavar="DIR",
+        help="folder for RESULTS.md and results/ (default: benchmarks)",
+    )
     options = parser.parse_args(arguments)
     console, start = Console(stderr=True, highlight=False), time.perf_counter()
     results = options.output / "results"
     results.mkdir(parents=True, exist_ok=True)
     failed = []
     for i, name in enumerate(options.only):
-        console.print(f"[bold]{name}[/], {i + 1} of {len(options.only)}, after {time.perf_counter() - start:.0f} s")
+        console.print(
+            f"[bold]{name}[/], {i + 1} of {len(options.only)}, after {time.perf_counter() - start:.0f} s"
+        )
         flags = QUICK[name] if options.quick else ()
         files = ("--json", str(results / f"{name}.json"), "--plot", str(results / f"{name}.png"))
-        done = subprocess.run([sys.executable, str(HERE / f"{name}.py"), *flags, *files], stdout=subprocess.DEVNULL, check=False)
+        done = subprocess.run(
+            [sys.executable, str(HERE / f"{name}.py"), *flags, *files],
+            stdout=subprocess.DEVNULL,
+            check=False,
+        )
         failed += [name] if done.returncode else []
     page = options.output / "RESULTS.md"
     page.write_text(report.report(report.gather(results)), encoding="utf-8")
     console.print(
-        f"look at {page}, {time.perf_counter() - start:.0f} s" + (f"; failed: {', '.join(failed)}" if failed else ""), markup=False
+        f"look at {page}, {time.perf_counter() - start:.0f} s"
+        + (f"; failed: {', '.join(failed)}" if failed else ""),
+        markup=False,
     )
     return 1 if failed else 0
 

@@ -1,11 +1,12 @@
 """
 How fast is a bake, and where does its time go?
 
-The embedded default job is baked whole at each n: three maps (height, displacement, normal) as half-float EXR. Frames a second are those of
-the bake as a user runs it, in one process and in one for each core. Where the time goes is seen by Python's own profiler in one process:
-every function's own time goes to a room of the house by the file that it stands in, and that of the library functions to the room that
-called them. Compiled kernels are wrapped for it, so that each is seen under its own file. The profiler makes Python slower, not the rest:
-"Python" is an upper bound.
+The embedded default job is baked whole at each n: three maps (height, displacement, normal) as
+half-float EXR. Frames a second are those of the bake as a user runs it, in one process and in one
+for each core. Where the time goes is seen by Python's own profiler in one process: every function's
+own time goes to a room of the house by the file that it stands in, and that of the library
+functions to the room that called them. Compiled kernels are wrapped for it, so that each is seen
+under its own file. The profiler makes Python slower, not the rest: "Python" is an upper bound.
 
     python benchmarks/bake.py [--n 256 512] [--frames 240] [--json FILE] [--plot FILE]
 """
@@ -36,16 +37,37 @@ ASKS = "How fast is a bake, and where does its time go?"
 Function = tuple[str, int, str]  # file, line, name: as the profiler has it
 PACKAGE = Path(fo.__file__).resolve().parent
 
-# The first row that fits a function's place in the package, or a library function's name, says whose time it is.
+# The first row that fits a function's place in the package, or a library function's name, says
+# whose time it is.
 ROOMS = (
     (
         "simulation",
-        ("ocean.py:frame", "ocean.py:loop_frame", "ocean.py:_", "synthesis.py", "transforms.py", "kernels/passes", "kernels/surface"),
+        (
+            "ocean.py:frame",
+            "ocean.py:loop_frame",
+            "ocean.py:_",
+            "synthesis.py",
+            "transforms.py",
+            "kernels/passes",
+            "kernels/surface",
+        ),
     ),
     ("encoder", ("export/", "kernels/half", "bake/frames.py:_halves")),
     ("maps", ("bake/maps.py", "foam.py", "eulerian.py", "mips.py", "products.py", "kernels/")),
     ("preview", ("bake/preview.py", "bake/pictures.py", "bake/blend.py")),
-    ("setting up", ("amplitudes.py", "noise.py", "physics/", "statistics.py", "grid.py", "limits.py", "ocean.py", "wisdom.py")),
+    (
+        "setting up",
+        (
+            "amplitudes.py",
+            "noise.py",
+            "physics/",
+            "statistics.py",
+            "grid.py",
+            "limits.py",
+            "ocean.py",
+            "wisdom.py",
+        ),
+    ),
     ("checksums", ("~:sha256",)),
     ("disk", ("~:posix.", "~:nt.", "~:_io.open", "~:_io.FileIO")),
 )
@@ -55,7 +77,9 @@ COLOURS = {"simulation": BLUE, "encoder": "#00805d", OTHER: "#c75000"}
 
 def flags(parser: argparse.ArgumentParser) -> None:
     script.sizes(parser, 256, 512)
-    parser.add_argument("--frames", type=int, default=240, help="in the loop, all of which are baked (default: 240)")
+    parser.add_argument(
+        "--frames", type=int, default=240, help="in the loop, all of which are baked (default: 240)"
+    )
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
@@ -68,21 +92,42 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
             for executor, workers in (("serial", 1), ("processes", host.cores())):
                 say(f"{n} x {n}, {executor}, {workers} at work")
                 start = time.perf_counter()
-                fo.bake(job(n, options.frames), Path(folder, f"{n} {executor}"), executor=executor, workers=workers)
+                fo.bake(
+                    job(n, options.frames),
+                    Path(folder, f"{n} {executor}"),
+                    executor=executor,
+                    workers=workers,
+                )
                 seconds = time.perf_counter() - start
                 at = {"n": n, "executor": executor, "workers": workers, "frames": options.frames}
-                readings.append(Reading.of("frames a second", "1/s", summary([options.frames / seconds]), at, clock="wall"))
+                readings.append(
+                    Reading.of(
+                        "frames a second",
+                        "1/s",
+                        summary([options.frames / seconds]),
+                        at,
+                        clock="wall",
+                    )
+                )
             say(f"{n} x {n}, under the profiler")
             with kernels_seen():
                 profile = cProfile.Profile()
-                profile.runcall(fo.bake, job(n, options.frames), Path(folder, f"{n} profile"), executor="serial")
+                profile.runcall(
+                    fo.bake, job(n, options.frames), Path(folder, f"{n} profile"), executor="serial"
+                )
             shares = rooms(pstats.Stats(profile).stats)  # type: ignore[attr-defined]
             total = sum(shares.values())
             at = {"n": n, "frames": options.frames}
             for name, seconds in sorted(shares.items(), key=lambda item: -item[1]):
-                readings.append(Reading.single(name, "%", 100.0 * seconds / total, at, clock="wall"))
+                readings.append(
+                    Reading.single(name, "%", 100.0 * seconds / total, at, clock="wall")
+                )
             both = shares.get("simulation", 0.0) + shares.get("encoder", 0.0)
-            readings.append(Reading.single("simulation and encoder", "%", 100.0 * both / total, at, clock="wall"))
+            readings.append(
+                Reading.single(
+                    "simulation and encoder", "%", 100.0 * both / total, at, clock="wall"
+                )
+            )
     return readings
 
 
@@ -93,7 +138,10 @@ def job(n: int, frames: int) -> fo.Job:
 
 @contextmanager
 def kernels_seen() -> Iterator[None]:
-    """Let the profiler see compiled kernels, which it takes for lines of their callers: each as a function of its own file."""
+    """
+    Let the profiler see compiled kernels, which it takes for lines of their callers: each as a
+    function of its own file.
+    """
     changed: list[tuple[Any, str, Any]] = []
     for info in pkgutil.iter_modules(kernels.__path__):
         module = importlib.import_module(f"{kernels.__name__}.{info.name}")
@@ -117,17 +165,25 @@ def seen(kernel: Callable[..., Any], name: str, file: str) -> Callable[..., Any]
     return made
 
 
-def rooms(stats: Mapping[Function, tuple[int, int, float, float, Mapping[Function, tuple[int, int, float, float]]]]) -> dict[str, float]:
+def rooms(
+    stats: Mapping[
+        Function, tuple[int, int, float, float, Mapping[Function, tuple[int, int, float, float]]]
+    ],
+) -> dict[str, float]:
     """
     Sort a profile's seconds by room.
 
     Args:
-        stats: for each function (calls, primitive calls, own time, time, callers), as `pstats.Stats` has it.
+        stats: for each function (calls, primitive calls, own time, time, callers), as
+            `pstats.Stats` has it.
     """
     homes: dict[Function, str | None] = {}
 
     def home(function: Function) -> str:
-        """Its own room, or that of the caller in whose service it spends most; a ring of libraries is Python's."""
+        """
+        Its own room, or that of the caller in whose service it spends most; a ring of libraries is
+        Python's.
+        """
         if function not in homes:
             homes[function] = OTHER  # while it is looked for
             own = room_of(function)
@@ -152,7 +208,10 @@ def rooms(stats: Mapping[Function, tuple[int, int, float, float, Mapping[Functio
 
 
 def room_of(function: Function) -> str | None:
-    """The room that a function names by where it stands; None for a library's, which works for whoever called it."""
+    """
+    The room that a function names by where it stands; None for a library's, which works for whoever
+    called it.
+    """
     file, _, name = function
     if file == "~":
         place = "~:" + name
@@ -181,13 +240,25 @@ def draw(result: Result, path: Path) -> None:
             rows.append((f"{r.at['n']} x {r.at['n']}, {who}", r.median, f"{r.median:.1f}", BLUE))
         bars(left, rows)
         left.set_title("Frames a second, three EXR maps each")
-        shares = [r for r in result.readings if r.unit == "%" and r.at["n"] == n and r.what != "simulation and encoder"]
-        bars(right, [(r.what, r.median, f"{r.median:.1f} %", COLOURS.get(r.what, "#56707a")) for r in shares])
+        shares = [
+            r
+            for r in result.readings
+            if r.unit == "%" and r.at["n"] == n and r.what != "simulation and encoder"
+        ]
+        bars(
+            right,
+            [
+                (r.what, r.median, f"{r.median:.1f} %", COLOURS.get(r.what, "#56707a"))
+                for r in shares
+            ],
+        )
         right.set_title(f"Where the time of a bake of {n} x {n} goes")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    return script.run("bake", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+    return script.run(
+        "bake", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
+    )
 
 
 if __name__ == "__main__":

@@ -1,16 +1,18 @@
 """
 What does a frame cost, and against what?
 
-A full frame is height, two displacements, Jacobian and unit normals of the displaced surface, float32. At each n four races are run,
-in each of which the contenders take turns:
+A full frame is height, two displacements, Jacobian and unit normals of the displaced surface,
+float32. At each n four races are run, in each of which the contenders take turns:
 
-  others     every FFT library's full frame, one thread, against NumPy as the textbooks write it (eight complex128 ifft2), against its eight
-             ifft2 alone, against NumPy and SciPy with care (complex64 halves, irfft2), and against the floor: eight bare real transforms
-             (c2r) of the same library, planned with MEASURE all at once or one by one, whichever is faster, and one copy of what
-             they make
+  others     every FFT library's full frame, one thread, against NumPy as the textbooks write it
+  (eight complex128 ifft2), against its eight
+             ifft2 alone, against NumPy and SciPy with care (complex64 halves, irfft2), and against
+             the floor: eight bare real transforms (c2r) of the same library, planned with MEASURE
+             all at once or one by one, whichever is faster, and one copy of what they make
   fields     full, the eight linear fields, height only, and the full frame in float64
   planning   MEASURE against ESTIMATE
-  threads    one against two, and against all cores (by the clock on the wall; the other races count CPU time)
+  threads    one against two, and against all cores (by the clock on the wall; the other races count
+  CPU time)
 
     python benchmarks/frame.py [--n 256 512] [--seconds 10] [--json FILE] [--plot FILE]
 """
@@ -33,14 +35,22 @@ from fftocean.fields import EIGHT
 from fftocean.plots import BLUE
 
 ASKS = "What does a frame cost, and against what?"
-BYTES_A_POINT = 900.0  # that the largest race holds: the textbook's filters and intermediate fields, and the floors' buffers
+# that the largest race holds: the textbook's filters and intermediate fields, and the floors'
+# buffers
+BYTES_A_POINT = 900.0
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
     script.sizes(parser, 128, 256, 512, 1024, 2048)
-    parser.add_argument("--seconds", type=float, default=20.0, help="per n, planning not counted (default: 20)")
     parser.add_argument(
-        "--backends", nargs="+", default=list(machine.backends()), choices=machine.backends(), help="default: all that are here"
+        "--seconds", type=float, default=20.0, help="per n, planning not counted (default: 20)"
+    )
+    parser.add_argument(
+        "--backends",
+        nargs="+",
+        default=list(machine.backends()),
+        choices=machine.backends(),
+        help="default: all that are here",
     )
 
 
@@ -49,7 +59,9 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     readings: list[Reading] = []
     for n in options.n:
         if (free := available_memory()) < BYTES_A_POINT * n * n:
-            say(f"{n} x {n} is left out: its contenders need {BYTES_A_POINT * n * n / 2**30:.1f} GiB, {free / 2**30:.1f} are free")
+            say(
+                f"{n} x {n} is left out: its contenders need {BYTES_A_POINT * n * n / 2**30:.1f} GiB, {free / 2**30:.1f} are free"
+            )
             continue
         for share, title, the_race in (
             (0.45, "others", others),
@@ -63,7 +75,9 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 
 def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
-    """Full frames of every library against other ways to make them, and against the bare transforms."""
+    """
+    Full frames of every library against other ways to make them, and against the bare transforms.
+    """
     entries, pairs, own = [], [], None
     for backend in backends:
         own = ocean(n, backend=backend)
@@ -94,7 +108,10 @@ def fields(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
     own, double = ocean(n, backend=backends[0]), ocean(n, backend=backends[0], dtype="float64")
     at = conditions("fields", n, backends[0])
     full = Entry("full frame", Fast(own), at)
-    eight, height = Entry("eight linear fields", Fast(own, EIGHT), at), Entry("height only", Fast(own, ("height",)), at)
+    eight, height = (
+        Entry("eight linear fields", Fast(own, EIGHT), at),
+        Entry("height only", Fast(own, ("height",)), at),
+    )
     wide = Entry("full frame", Fast(double), {**at, "dtype": "float64"})
     pairs = [
         Pair("eight linear fields / full frame", eight, full),
@@ -109,8 +126,14 @@ def planning(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
     backend = backends[0]
     at = conditions("planning", n, backend)
     full = Entry("full frame", Fast(ocean(n, backend=backend)), at)
-    quick = Entry("full frame", Fast(ocean(n, backend=backend, planning="estimate")), {**at, "planning": "estimate"})
-    return race([full, quick], [Pair("estimate / measure", quick, full)], clock="cpu", seconds=seconds)
+    quick = Entry(
+        "full frame",
+        Fast(ocean(n, backend=backend, planning="estimate")),
+        {**at, "planning": "estimate"},
+    )
+    return race(
+        [full, quick], [Pair("estimate / measure", quick, full)], clock="cpu", seconds=seconds
+    )
 
 
 def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
@@ -133,7 +156,14 @@ def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 def conditions(of: str, n: int, backend: str) -> dict[str, Condition]:
     """Under which conditions a full frame runs in a race, unless it is about one of them."""
-    return {"race": of, "n": n, "backend": backend, "planning": "measure", "dtype": "float32", "threads": 1}
+    return {
+        "race": of,
+        "n": n,
+        "backend": backend,
+        "planning": "measure",
+        "dtype": "float32",
+        "threads": 1,
+    }
 
 
 def draw(result: Result, path: Path) -> None:
@@ -144,13 +174,24 @@ def draw(result: Result, path: Path) -> None:
     with sheet(path, ASKS, result, width=12.5, height=6.0) as figure:
         left, right = figure.subplots(1, 2, width_ratios=(1.2, 1.0))
         lines = []
-        for what, label, colour in (("textbook", "textbook NumPy", COLOURS["textbook"]), ("careful", "careful SciPy", COLOURS["careful"])):
+        for what, label, colour in (
+            ("textbook", "textbook NumPy", COLOURS["textbook"]),
+            ("careful", "careful SciPy", COLOURS["careful"]),
+        ):
             lines.append(curve(label, result.all(what), colour))
         for name in backends:
             lines.append(curve(f"fftocean, {name}", mains(result, name), shades[name], width=2.6))
             if bare := result.all("floor", backend=name):
-                lines.append(curve(f"bare transforms, {name}", bare, shades[name], style=":", marker=""))
-        curves(left, lines, xlabel="samples a side, n", ylabel="one full frame, one thread [ms]", sizes=result.settings["n"])
+                lines.append(
+                    curve(f"bare transforms, {name}", bare, shades[name], style=":", marker="")
+                )
+        curves(
+            left,
+            lines,
+            xlabel="samples a side, n",
+            ylabel="one full frame, one thread [ms]",
+            sizes=result.settings["n"],
+        )
         left.set_title("Cost against resolution")
         measured = sorted(int(r.at["n"]) for r in mains(result, best))
         n = 512 if 512 in measured else measured[-1]
@@ -158,7 +199,12 @@ def draw(result: Result, path: Path) -> None:
         rows = []
         for label, what, at, colour in (
             ("textbook NumPy", "textbook / full frame", {"backend": best}, COLOURS["textbook"]),
-            ("its eight ifft2 alone", "textbook, its eight ifft2 alone / full frame", {"backend": best}, COLOURS["textbook"]),
+            (
+                "its eight ifft2 alone",
+                "textbook, its eight ifft2 alone / full frame",
+                {"backend": best},
+                COLOURS["textbook"],
+            ),
             ("careful SciPy", "careful / full frame", {"backend": best}, COLOURS["careful"]),
             ("ours in float64", "float64 / float32", {}, "#7fb8d8"),
             ("ours", "", {}, BLUE),
@@ -166,9 +212,23 @@ def draw(result: Result, path: Path) -> None:
             ("height only", "height only / full frame", {}, "#7fb8d8"),
         ):
             times = result.find(what, n=n, **at).median if what else 1.0
-            rows.append((label, times, f"{plain(round(times, 2))}" if what else f"1, {duration(ours)} with {best}", colour))
+            rows.append(
+                (
+                    label,
+                    times,
+                    f"{plain(round(times, 2))}" if what else f"1, {duration(ours)} with {best}",
+                    colour,
+                )
+            )
         for r in result.all("one thread / more", n=n, backend=best):
-            rows.append((f"{r.at['threads']} threads", 1.0 / r.median, f"{1.0 / r.median:.2f} ({r.median:.2f} times as fast)", "#7fb8d8"))
+            rows.append(
+                (
+                    f"{r.at['threads']} threads",
+                    1.0 / r.median,
+                    f"{1.0 / r.median:.2f} ({r.median:.2f} times as fast)",
+                    "#7fb8d8",
+                )
+            )
         bars(right, rows)
         right.set_title(f"{n} x {n}: how many times as long as our full frame")
 
@@ -181,11 +241,21 @@ def mains(result: Result, backend: str) -> list[Reading]:
 def curve(label: str, readings: Sequence[Reading], colour: str, **how: str | float) -> Line:
     """A line through readings, by n, with their quartiles as a band."""
     rows = sorted(readings, key=lambda r: r.at["n"])
-    return Line(label, [r.at["n"] for r in rows], [r.median for r in rows], colour, [r.low for r in rows], [r.high for r in rows], **how)
+    return Line(
+        label,
+        [r.at["n"] for r in rows],
+        [r.median for r in rows],
+        colour,
+        [r.low for r in rows],
+        [r.high for r in rows],
+        **how,
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    return script.run("frame", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+    return script.run(
+        "frame", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
+    )
 
 
 if __name__ == "__main__":

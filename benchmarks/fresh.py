@@ -1,4 +1,6 @@
-"""Things that only a fresh process shows: what it takes to start, and how much memory it comes to."""
+"""
+Things that only a fresh process shows: what it takes to start, and how much memory it comes to.
+"""
 
 import json
 import os
@@ -12,13 +14,20 @@ from typing import Any
 
 import fftocean
 
-CACHES = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")  # where kernels and wisdom may be kept from one process to the next
+CACHES = (
+    "NUMBA_CACHE_DIR",
+    "XDG_CACHE_HOME",
+    "LOCALAPPDATA",
+)  # where kernels and wisdom may be kept from one process to the next
 PACKAGE_HOME = str(Path(fftocean.__file__).resolve().parents[1])
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One process: how long it lived and how much of the processor it used [s], and what it printed last, as JSON."""
+    """
+    One process: how long it lived and how much of the processor it used [s], and what it printed
+    last, as JSON.
+    """
 
     wall: float
     cpu: float
@@ -48,7 +57,9 @@ def python(*arguments: str, cache: Path | None = None) -> Run:
     )
     wall, cpu = time.perf_counter() - start, children_cpu() - used
     if done.returncode:
-        raise RuntimeError(f"python {' '.join(arguments):.80} failed with {done.returncode}: {done.stderr.strip()[-800:]}")
+        raise RuntimeError(
+            f"python {' '.join(arguments):.80} failed with {done.returncode}: {done.stderr.strip()[-800:]}"
+        )
     return Run(wall, cpu, last_json(done.stdout))
 
 

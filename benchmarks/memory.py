@@ -1,10 +1,11 @@
 """
 How much memory do full frames take?
 
-For each n a fresh process makes a frame of 4 x 4, for which all is imported that will be, and notes what it holds. Then it makes an ocean
-and three full frames into the same arrays, and notes the most that it ever held and what it holds while it goes on. Compiled kernels come
-from the cache, as in daily life.
-The figures are the process's own pages in memory (Linux: VmHWM and VmRSS), above those after the imports.
+For each n a fresh process makes a frame of 4 x 4, for which all is imported that will be, and notes
+what it holds. Then it makes an ocean and three full frames into the same arrays, and notes the most
+that it ever held and what it holds while it goes on. Compiled kernels come from the cache, as in
+daily life. The figures are the process's own pages in memory (Linux: VmHWM and VmRSS), above those
+after the imports.
 
     python benchmarks/memory.py [--n 256 512] [--json FILE] [--plot FILE]
 """
@@ -84,9 +85,19 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     fresh.python("-c", CHILD, "32", ",".join(FULL), options.backend)
     for n in options.n:
         say(f"{n} x {n}")
-        said = [fresh.python("-c", CHILD, str(n), ",".join(FULL), options.backend).said for _ in range(options.runs)]
+        said = [
+            fresh.python("-c", CHILD, str(n), ",".join(FULL), options.backend).said
+            for _ in range(options.runs)
+        ]
         for key, what in WHAT.items():
-            readings.append(Reading.of(what, "MiB", summary([one[key] for one in said]), {"n": n, "dtype": "float32", "threads": 1}))
+            readings.append(
+                Reading.of(
+                    what,
+                    "MiB",
+                    summary([one[key] for one in said]),
+                    {"n": n, "dtype": "float32", "threads": 1},
+                )
+            )
     return readings
 
 
@@ -109,7 +120,9 @@ def draw(result: Result, path: Path) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    return script.run("memory", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+    return script.run(
+        "memory", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
+    )
 
 
 if __name__ == "__main__":

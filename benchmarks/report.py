@@ -1,5 +1,6 @@
 """
-RESULTS.md from the JSON files: the goals row by row, then each question with its picture and its readings. Nothing is written by hand.
+RESULTS.md from the JSON files: the goals row by row, then each question with its picture and its
+readings. Nothing is written by hand.
 
     python benchmarks/report.py
 """
@@ -55,23 +56,77 @@ class Goal:
 def goals() -> list[Goal]:
     """All of them, in the order in which they are reported."""
     found = []
-    for backend, bounds in (("pyfftw", {256: 9.0, 512: 9.0, 1024: 7.0}), ("mkl", {256: 18.0, 512: 18.0, 1024: 14.0})):
+    for backend, bounds in (
+        ("pyfftw", {256: 9.0, 512: 9.0, 1024: 7.0}),
+        ("mkl", {256: 18.0, 512: 18.0, 1024: 14.0}),
+    ):
         for n, bound in bounds.items():
             what = f"textbook NumPy / full frame, {n} x {n}, {backend}"
-            found.append(Goal(what, ">=", bound, "frame", "textbook / full frame", {"n": n, "backend": backend}))
+            found.append(
+                Goal(
+                    what,
+                    ">=",
+                    bound,
+                    "frame",
+                    "textbook / full frame",
+                    {"n": n, "backend": backend},
+                )
+            )
     for backend in ("pyfftw", "mkl"):
         for n in (256, 512, 1024):
             what = f"full frame / eight raw c2r and a copy, {n} x {n}, {backend}"
-            found.append(Goal(what, "<=", 1.1, "frame", "full frame / floor", {"n": n, "backend": backend}))
+            found.append(
+                Goal(what, "<=", 1.1, "frame", "full frame / floor", {"n": n, "backend": backend})
+            )
     for backend in ("pyfftw", "mkl"):
         for n in (512, 1024, 2048):
             what = f"one thread / two, {n} x {n}, {backend}"
-            found.append(Goal(what, ">=", 1.6, "frame", "one thread / more", {"n": n, "backend": backend, "threads": 2}))
-    for n in (256, 512, 1024):  # "about a third": of the eight transforms it needs one, and the same evolution
-        found.append(Goal(f"height only / full frame, {n} x {n}", "<=", 0.36, "frame", "height only / full frame", {"n": n}))
+            found.append(
+                Goal(
+                    what,
+                    ">=",
+                    1.6,
+                    "frame",
+                    "one thread / more",
+                    {"n": n, "backend": backend, "threads": 2},
+                )
+            )
+    for n in (
+        256,
+        512,
+        1024,
+    ):  # "about a third": of the eight transforms it needs one, and the same evolution
+        found.append(
+            Goal(
+                f"height only / full frame, {n} x {n}",
+                "<=",
+                0.36,
+                "frame",
+                "height only / full frame",
+                {"n": n},
+            )
+        )
     at: dict[str, Condition] = {"n": 128, "dtype": "float32"}
-    found.append(Goal("direct sum / FFT, eight fields, 128 x 128", ">=", 5000.0, "direct_sum", "direct sum / FFT", at))
-    found.append(Goal("peak memory above imports, full frames, 2048 x 2048", "<=", 400.0, "memory", "peak above imports", {"n": 2048}))
+    found.append(
+        Goal(
+            "direct sum / FFT, eight fields, 128 x 128",
+            ">=",
+            5000.0,
+            "direct_sum",
+            "direct sum / FFT",
+            at,
+        )
+    )
+    found.append(
+        Goal(
+            "peak memory above imports, full frames, 2048 x 2048",
+            "<=",
+            400.0,
+            "memory",
+            "peak above imports",
+            {"n": 2048},
+        )
+    )
     for what, bound, reading in (
         ("`import fftocean`", 0.3, "import fftocean, above Python"),
         ("`fftocean --help`, a whole process", 0.3, "fftocean --help"),
@@ -79,15 +134,37 @@ def goals() -> list[Goal]:
         ("first frame in later processes", 1.5, "first frame in later processes"),
     ):
         found.append(Goal(what, "<=", bound, "startup", reading, {}, clock="wall"))
-    found.append(Goal("bake at 512, 3 maps: simulation and encoder", ">=", 70.0, "bake", "simulation and encoder", {"n": 512}))
-    found.append(Goal("bake at 512, 3 maps: Python's own share", "<=", 10.0, "bake", "Python", {"n": 512}))
+    found.append(
+        Goal(
+            "bake at 512, 3 maps: simulation and encoder",
+            ">=",
+            70.0,
+            "bake",
+            "simulation and encoder",
+            {"n": 512},
+        )
+    )
+    found.append(
+        Goal("bake at 512, 3 maps: Python's own share", "<=", 10.0, "bake", "Python", {"n": 512})
+    )
     return found
 
 
 def report(results: Mapping[str, Result]) -> str:
     """The whole page."""
     return (
-        "\n".join([*_head(results), *_goals(results), *(line for name in QUESTIONS if name in results for line in _section(results[name]))])
+        "\n".join(
+            [
+                *_head(results),
+                *_goals(results),
+                *(
+                    line
+                    for name in QUESTIONS
+                    if name in results
+                    for line in _section(results[name])
+                ),
+            ]
+        )
         + "\n"
     )
 
@@ -121,15 +198,25 @@ def _head(results: Mapping[str, Result]) -> list[str]:
         if name in results:
             before, after = results[name].before, results[name].after
             busy = [r.median for r in results[name].all("wall time / CPU time")]
-            word = f"; a second of one thread's work took {max(busy):.2f} s at worst" if busy and max(busy) > BUSY_FROM else ""
-            lines.append(f"| {name} | {before['utc']} UTC, load {before['load']} before, {after['load']} after{word} |")
+            word = (
+                f"; a second of one thread's work took {max(busy):.2f} s at worst"
+                if busy and max(busy) > BUSY_FROM
+                else ""
+            )
+            lines.append(
+                f"| {name} | {before['utc']} UTC, load {before['load']} before, {after['load']} after{word} |"
+            )
     return [*lines, ""]
 
 
 def _goals(results: Mapping[str, Result]) -> list[str]:
     lines = ["## Goals", "", "| what | goal | measured | quartiles | |", "|---|---|---|---|---|"]
     for goal in goals():
-        found = results[goal.question].all(goal.reading, clock=goal.clock, **goal.at) if goal.question in results else []
+        found = (
+            results[goal.question].all(goal.reading, clock=goal.clock, **goal.at)
+            if goal.question in results
+            else []
+        )
         sign = {"<=": "at most", ">=": "at least"}[goal.sign]
         if len(found) == 1:
             r = found[0]
@@ -146,13 +233,28 @@ def _section(result: Result) -> list[str]:
     lines = [f"## {name}: {result.asks}", "", f"![{result.asks}](results/{name}.png)", ""]
     readings = [r for r in result.readings if name not in SHOWN or r.what.startswith(SHOWN[name])]
     keys = list(dict.fromkeys(key for r in readings for key in r.at))
-    lines += [f"| {' | '.join(['what', *keys, 'median', 'quartiles', 'of', 'clock'])} |", "|---" * (len(keys) + 5) + "|"]
+    lines += [
+        f"| {' | '.join(['what', *keys, 'median', 'quartiles', 'of', 'clock'])} |",
+        "|---" * (len(keys) + 5) + "|",
+    ]
     for r in readings:
         conditions = [str(r.at.get(key, "")) for key in keys]
-        cells = [r.what, *conditions, f"{number(r.median)}{unit_of(r)}", f"{number(r.low)} to {number(r.high)}", str(r.count), r.clock]
+        cells = [
+            r.what,
+            *conditions,
+            f"{number(r.median)}{unit_of(r)}",
+            f"{number(r.low)} to {number(r.high)}",
+            str(r.count),
+            r.clock,
+        ]
         lines.append(f"| {' | '.join(cells)} |")
     settings = ", ".join(f"{key} {value}" for key, value in result.settings.items())
-    return [*lines, "", f"Settings: {settings}. Every reading: [results/{name}.json](results/{name}.json).", ""]
+    return [
+        *lines,
+        "",
+        f"Settings: {settings}. Every reading: [results/{name}.json](results/{name}.json).",
+        "",
+    ]
 
 
 def unit_of(reading: Reading) -> str:
@@ -166,7 +268,11 @@ def number(value: float) -> str:
 
 def gather(folder: Path = RESULTS) -> dict[str, Result]:
     """The results that are there, in the order of the questions."""
-    return {name: read(folder / f"{name}.json") for name in QUESTIONS if (folder / f"{name}.json").exists()}
+    return {
+        name: read(folder / f"{name}.json")
+        for name in QUESTIONS
+        if (folder / f"{name}.json").exists()
+    }
 
 
 def main(_: Sequence[str] | None = None) -> int:

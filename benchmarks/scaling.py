@@ -1,9 +1,9 @@
 """
 How does a full frame scale with n, and what do odd and prime sizes cost?
 
-All sizes take turns, so that a slow minute slows them all. The work of a transform of N = n x n points grows as N log2 N: a flat line of
-nanoseconds per point and log2 N is a frame that scales as it should; it rises where the working set leaves a cache, and for sizes with
-large prime factors.
+All sizes take turns, so that a slow minute slows them all. The work of a transform of N = n x n
+points grows as N log2 N: a flat line of nanoseconds per point and log2 N is a frame that scales as
+it should; it rises where the working set leaves a cache, and for sizes with large prime factors.
 
     python benchmarks/scaling.py [--n 64 100 127] [--seconds 10] [--json FILE] [--plot FILE]
 """
@@ -23,15 +23,50 @@ from fftocean.bench.results import Entry, Reading, Result, race
 from fftocean.plots import BLUE, VERMILION
 
 ASKS = "How does a full frame scale with n, and what do odd and prime sizes cost?"
-KINDS = {"a power of two": (BLUE, "o"), "smooth": ("#00805d", "s"), "prime, or twice one": (VERMILION, "^"), "other": ("#56707a", "D")}
+KINDS = {
+    "a power of two": (BLUE, "o"),
+    "smooth": ("#00805d", "s"),
+    "prime, or twice one": (VERMILION, "^"),
+    "other": ("#56707a", "D"),
+}
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
     script.sizes(
-        parser, 64, 81, 100, 127, 128, 129, 180, 243, 250, 251, 256, 257, 300, 360, 432, 500, 509, 511, 512, 514, 625, 720, 1000, 1009, 1024
+        parser,
+        64,
+        81,
+        100,
+        127,
+        128,
+        129,
+        180,
+        243,
+        250,
+        251,
+        256,
+        257,
+        300,
+        360,
+        432,
+        500,
+        509,
+        511,
+        512,
+        514,
+        625,
+        720,
+        1000,
+        1009,
+        1024,
     )
     parser.add_argument("--seconds", type=float, default=40.0, help="in all (default: 40)")
-    parser.add_argument("--planning", default="estimate", choices=("estimate", "measure"), help="default: estimate, as everywhere")
+    parser.add_argument(
+        "--planning",
+        default="estimate",
+        choices=("estimate", "measure"),
+        help="default: estimate, as everywhere",
+    )
     parser.add_argument("--backend", default="auto")
 
 
@@ -41,17 +76,34 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     for n in sorted(set(options.n)):
         say(f"{n} x {n} is made")
         own = ocean(n, planning=options.planning, backend=options.backend)
-        entries.append(Entry("full frame", Fast(own), {"n": n, "kind": kind(n), "backend": own.backend, "planning": options.planning}))
+        entries.append(
+            Entry(
+                "full frame",
+                Fast(own),
+                {"n": n, "kind": kind(n), "backend": own.backend, "planning": options.planning},
+            )
+        )
     say("all sizes take turns")
     readings = race(entries, clock="cpu", seconds=options.seconds)
     for r in [r for r in readings if r.what == "full frame"]:
         points = int(r.at["n"]) ** 2
-        readings.append(Reading(f"{r.what}, a point and log2 N", "ns", *per(r, points * math.log2(points)), r.count, r.clock, r.at))
+        readings.append(
+            Reading(
+                f"{r.what}, a point and log2 N",
+                "ns",
+                *per(r, points * math.log2(points)),
+                r.count,
+                r.clock,
+                r.at,
+            )
+        )
     powers = [r for r in readings if r.what == "full frame" and r.at["kind"] == "a power of two"]
     if len(powers) >= 3:
         law = power_law([float(r.at["n"]) ** 2 for r in powers], [r.median for r in powers])
         low, high = law.exponent - law.error, law.exponent + law.error
-        readings.append(Reading("exponent of N, powers of two", "1", law.exponent, low, high, law.points, "cpu"))
+        readings.append(
+            Reading("exponent of N, powers of two", "1", law.exponent, low, high, law.points, "cpu")
+        )
     return readings
 
 
@@ -82,7 +134,11 @@ def draw(result: Result, path: Path) -> None:
     with sheet(path, ASKS, result, width=12.0, height=5.4) as figure:
         for ax, what, ylabel in (
             (figure.add_subplot(1, 2, 1), "full frame", "one full frame, one thread [ms]"),
-            (figure.add_subplot(1, 2, 2), "full frame, a point and log2 N", "per point and log₂ N [ns]"),
+            (
+                figure.add_subplot(1, 2, 2),
+                "full frame, a point and log2 N",
+                "per point and log₂ N [ns]",
+            ),
         ):
             rows = sorted(result.all(what), key=lambda r: r.at["n"])
             lines = []
@@ -90,21 +146,51 @@ def draw(result: Result, path: Path) -> None:
                 of = [r for r in rows if r.at["kind"] == name]
                 if of:
                     x, y = [r.at["n"] for r in of], [r.median for r in of]
-                    lines.append(Line("", x, y, colour, style="-" if name == "a power of two" else "none", marker=marker))
-            ticks = [int(r.at["n"]) for r in rows if r.at["kind"] == "a power of two"] or [int(rows[0].at["n"]), int(rows[-1].at["n"])]
+                    lines.append(
+                        Line(
+                            "",
+                            x,
+                            y,
+                            colour,
+                            style="-" if name == "a power of two" else "none",
+                            marker=marker,
+                        )
+                    )
+            ticks = [int(r.at["n"]) for r in rows if r.at["kind"] == "a power of two"] or [
+                int(rows[0].at["n"]),
+                int(rows[-1].at["n"]),
+            ]
             curves(ax, lines, xlabel="samples a side, n", ylabel=ylabel, sizes=ticks)
             if what != "full frame":
                 ax.set_yscale("linear")
                 ax.set_ylim(0.0, None)
-        present = [name for name in KINDS if any(r.at["kind"] == name for r in result.all("full frame"))]
+        present = [
+            name for name in KINDS if any(r.at["kind"] == name for r in result.all("full frame"))
+        ]
         for i, name in enumerate(present):
             colour, marker = KINDS[name]
-            figure.axes[0].plot([0.05], [0.93 - 0.065 * i], marker, color=colour, transform=figure.axes[0].transAxes, markersize=5)
-            figure.axes[0].text(0.08, 0.93 - 0.065 * i, name, color=colour, va="center", transform=figure.axes[0].transAxes)
+            figure.axes[0].plot(
+                [0.05],
+                [0.93 - 0.065 * i],
+                marker,
+                color=colour,
+                transform=figure.axes[0].transAxes,
+                markersize=5,
+            )
+            figure.axes[0].text(
+                0.08,
+                0.93 - 0.065 * i,
+                name,
+                color=colour,
+                va="center",
+                transform=figure.axes[0].transAxes,
+            )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    return script.run("scaling", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+    return script.run(
+        "scaling", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-"""What the questions have in common: their flags, a line for each step, a table, a JSON file and a picture."""
+"""
+What the questions have in common: their flags, a line for each step, a table, a JSON file and a
+picture.
+"""
 
 import argparse
 import sys
@@ -28,21 +31,36 @@ def run(
     arguments: Sequence[str] | None = None,
 ) -> int:
     """Ask one question from the command line; return its exit code."""
-    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     flags(parser)
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write every reading, with quartiles and the machine")
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw it: .png, .svg or .pdf (needs matplotlib)")
+    parser.add_argument(
+        "--json",
+        type=Path,
+        metavar="FILE",
+        help="write every reading, with quartiles and the machine",
+    )
+    parser.add_argument(
+        "--plot", type=Path, metavar="FILE", help="draw it: .png, .svg or .pdf (needs matplotlib)"
+    )
     options = parser.parse_args(arguments)
     console, start = Console(stderr=True, highlight=False), time.perf_counter()
 
     def say(what: str) -> None:
-        console.print(f"{time.perf_counter() - start:5.0f} s  {question}: {what}", markup=False, soft_wrap=True)
+        console.print(
+            f"{time.perf_counter() - start:5.0f} s  {question}: {what}",
+            markup=False,
+            soft_wrap=True,
+        )
 
     before = machine.moment()
     settings = {key: value for key, value in vars(options).items() if key not in ("json", "plot")}
     try:
         result = answer(question, asks, measure(options, say), settings, before)
-        Console(width=150 if not sys.stdout.isatty() else None, highlight=False).print(table(result))
+        Console(width=150 if not sys.stdout.isatty() else None, highlight=False).print(
+            table(result)
+        )
         if options.json:
             result.write(options.json)
         if options.plot:
@@ -56,7 +74,13 @@ def run(
 
 def table(result: Result) -> Table:
     """Every reading of a result, one a line."""
-    rows = Table(title=result.asks, title_justify="left", box=None, pad_edge=False, caption=machine.one_line(dict(result.machine)))
+    rows = Table(
+        title=result.asks,
+        title_justify="left",
+        box=None,
+        pad_edge=False,
+        caption=machine.one_line(dict(result.machine)),
+    )
     for heading, justify in (
         ("what", "left"),
         ("at", "left"),
@@ -68,11 +92,25 @@ def table(result: Result) -> Table:
         rows.add_column(heading, justify=justify)
     for r in result.readings:
         at = " ".join(f"{key}={value}" for key, value in r.at.items())
-        rows.add_row(r.what, at, f"{plain(r.median)} {r.unit}", f"{plain(r.low)} .. {plain(r.high)}", str(r.count), r.clock)
+        rows.add_row(
+            r.what,
+            at,
+            f"{plain(r.median)} {r.unit}",
+            f"{plain(r.low)} .. {plain(r.high)}",
+            str(r.count),
+            r.clock,
+        )
     return rows
 
 
 def sizes(parser: argparse.ArgumentParser, *default: int) -> None:
     """The flag for samples a side."""
     words = " ".join(map(str, default))
-    parser.add_argument("--n", type=int, nargs="+", default=list(default), metavar="N", help=f"samples a side (default: {words})")
+    parser.add_argument(
+        "--n",
+        type=int,
+        nargs="+",
+        default=list(default),
+        metavar="N",
+        help=f"samples a side (default: {words})",
+    )

@@ -1,9 +1,11 @@
 """
 How long until the first frame?
 
-In fresh processes: `import fftocean`, `fftocean --help`, the first full frame after an installation (nothing compiled, no cache), and in
-every process after that. Each is the life of a whole process by the clock on the wall; "above Python" is that minus the median life of
-a process that does nothing. Processor time stands beside it: on a busy machine it is nearer to what a quiet one would show.
+In fresh processes: `import fftocean`, `fftocean --help`, the first full frame after an installation
+(nothing compiled, no cache), and in every process after that. Each is the life of a whole process
+by the clock on the wall; "above Python" is that minus the median life of a process that does
+nothing. Processor time stands beside it: on a busy machine it is nearer to what a quiet one would
+show.
 
     python benchmarks/startup.py [--runs 7] [--n 256] [--json FILE] [--plot FILE]
 """
@@ -43,8 +45,12 @@ PROGRAMS = {
 
 def flags(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runs", type=int, default=9, help="processes of each kind (default: 9)")
-    parser.add_argument("--cold", type=int, default=2, help="processes with an empty cache (default: 2)")
-    parser.add_argument("--n", type=int, default=256, help="samples a side of the first frame (default: 256)")
+    parser.add_argument(
+        "--cold", type=int, default=2, help="processes with an empty cache (default: 2)"
+    )
+    parser.add_argument(
+        "--n", type=int, default=256, help="samples a side of the first frame (default: 256)"
+    )
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
@@ -75,12 +81,18 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     return readings + both("first frame in later processes", later, n=options.n)
 
 
-def both(what: str, runs: Sequence[fresh.Run], *, less: Sequence[fresh.Run] = (), **at: int) -> list[Reading]:
+def both(
+    what: str, runs: Sequence[fresh.Run], *, less: Sequence[fresh.Run] = (), **at: int
+) -> list[Reading]:
     """A reading by each clock, above the median of other runs where there are any."""
     readings = []
     for clock in ("wall", "cpu"):
         base = float(np.median([getattr(run, clock) for run in less])) if less else 0.0
-        readings.append(Reading.of(what, "s", summary([getattr(run, clock) - base for run in runs]), at, clock=clock))
+        readings.append(
+            Reading.of(
+                what, "s", summary([getattr(run, clock) - base for run in runs]), at, clock=clock
+            )
+        )
     return readings
 
 
@@ -102,7 +114,9 @@ def draw(result: Result, path: Path) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    return script.run("startup", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments)
+    return script.run(
+        "startup", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
+    )
 
 
 if __name__ == "__main__":

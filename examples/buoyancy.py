@@ -1,14 +1,16 @@
 """
-A box rides the sea: heave, pitch and roll at 50 Hz, pushed by the pressure of the water under a grid of float points.
+A box rides the sea: heave, pitch and roll at 50 Hz, pushed by the pressure of the water under a
+grid of float points.
 
     python examples/buoyancy.py [--seconds 60] [--picture buoyancy.png | --no-picture]
 
 The picture needs matplotlib (in a checkout: pip install ".[plot]"); without it the run is the same.
 
-The box is moored loosely above one place. Under each float point the water presses upward with rho g times the depth to which the point
-is submerged; the sum of these forces and of their moments, with damping against the water's own vertical velocity, moves the box.
-Waves shorter than the box's beam are left out of the query: they press on a point, not on a hull. In calm water first, the box is
-let go from above its balance: its period must be the closed form's.
+The box is moored loosely above one place. Under each float point the water presses upward with rho
+g times the depth to which the point is submerged; the sum of these forces and of their moments,
+with damping against the water's own vertical velocity, moves the box. Waves shorter than the box's
+beam are left out of the query: they press on a point, not on a hull. In calm water first, the box
+is let go from above its balance: its period must be the closed form's.
 """
 
 import argparse
@@ -45,11 +47,16 @@ class Box:
     @property
     def inertia(self) -> tuple[float, float]:
         """About its own x (roll) and y (pitch) axes [kg m^2]."""
-        return self.mass / 12.0 * (self.beam**2 + self.height**2), self.mass / 12.0 * (self.length**2 + self.height**2)
+        return self.mass / 12.0 * (self.beam**2 + self.height**2), self.mass / 12.0 * (
+            self.length**2 + self.height**2
+        )
 
     @property
     def heave_period(self) -> float:
-        """2 pi sqrt(m / (rho g A)) = 2 pi sqrt(draught / g): a box on a spring of water, without added mass [s]."""
+        """
+        2 pi sqrt(m / (rho g A)) = 2 pi sqrt(draught / g): a box on a spring of water, without added
+        mass [s].
+        """
         return 2.0 * math.pi * math.sqrt(self.draught / GRAVITY)
 
     def bottom(self) -> tuple[np.ndarray, np.ndarray]:
@@ -62,16 +69,22 @@ class Box:
 
 def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -> np.ndarray:
     """
-    Return time, heave [m], roll and pitch [rad], and the height of the water at the middle, (steps, 5); calm water without a query.
+    Return time, heave [m], roll and pitch [rad], and the height of the water at the middle, (steps,
+    5); calm water without a query.
 
-    Semi-implicit Euler: forces of now change the velocity, the new velocity moves the box. It holds the energy of a spring where
-    the explicit rule feeds it, and asks for the water once a step. The buoyancy's own period is 2.2 s, 110 steps.
+    Semi-implicit Euler: forces of now change the velocity, the new velocity moves the box. It holds
+    the energy of a spring where the explicit rule feeds it, and asks for the water once a step. The
+    buoyancy's own period is 2.2 s, 110 steps.
     """
     x, y = box.bottom()
     part = box.length * box.beam / x.size
-    drag = 2.0 * box.damping * math.sqrt(WATER * GRAVITY * box.length * box.beam * box.mass) / x.size
+    drag = (
+        2.0 * box.damping * math.sqrt(WATER * GRAVITY * box.length * box.beam * box.mass) / x.size
+    )
     roll_inertia, pitch_inertia = box.inertia
-    tipping = box.mass * GRAVITY * 0.5 * (box.height - box.draught)  # the centre of mass lies above that of the water displaced
+    tipping = (
+        box.mass * GRAVITY * 0.5 * (box.height - box.draught)
+    )  # the centre of mass lies above that of the water displaced
     state = np.array([heave, 0.0, 0.0])  # heave, roll, pitch
     speed = np.zeros(3)
     steps = int(seconds * RATE)
@@ -83,10 +96,14 @@ def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -
         else:  # one call a step; angles are small: the points stay above their (x, y)
             found = query.at(np.append(x, 0.0), np.append(y, 0.0), t, ("heights", "velocities"))
             water, rising, middle = found.heights[:-1], found.velocities[:-1, 2], found.heights[-1]
-        level = state[0] - box.draught + y * state[1] - x * state[2]  # of each point: roll lifts port (y), pitch lowers the bow (x)
+        level = (
+            state[0] - box.draught + y * state[1] - x * state[2]
+        )  # of each point: roll lifts port (y), pitch lowers the bow (x)
         moving = speed[0] + y * speed[1] - x * speed[2]
         submerged = np.clip(water - level, 0.0, box.height)
-        force = WATER * GRAVITY * part * submerged + np.where(submerged > 0.0, drag * (rising - moving), 0.0)
+        force = WATER * GRAVITY * part * submerged + np.where(
+            submerged > 0.0, drag * (rising - moving), 0.0
+        )
         roll = (np.sum(y * force) + tipping * state[1]) / roll_inertia
         pitch = (-np.sum(x * force) + tipping * state[2]) / pitch_inertia
         speed = speed + np.array([np.sum(force) / box.mass - GRAVITY, roll, pitch]) / RATE
@@ -103,19 +120,25 @@ def period_of(heave: np.ndarray) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--picture", type=Path, default=Path("buoyancy.png"))
     parser.add_argument("--no-picture", action="store_true", help="draw nothing")
     options = parser.parse_args()
     drawn = not options.no_picture
     if drawn and importlib.util.find_spec("matplotlib") is None:
-        print("matplotlib is not installed, so no picture is drawn; in a checkout: pip install '.[plot]'")
+        print(
+            "matplotlib is not installed, so no picture is drawn; in a checkout: pip install '.[plot]'"
+        )
         drawn = False
     box = Box()
     damped = box.heave_period / math.sqrt(1.0 - box.damping**2)
     measured = period_of(ride(box, None, 20.0, heave=0.3)[:, 1])
-    print(f"heave in calm water: {measured:.3f} s between crossings; the closed form has {damped:.3f} s")
+    print(
+        f"heave in calm water: {measured:.3f} s between crossings; the closed form has {damped:.3f} s"
+    )
 
     sea = fo.Sea.from_wind(speed=9.0, fetch=60e3, direction=25.0)
     cascade = fo.Cascade(sea, tiles=[(128, 400.0), (128, 57.0)], seed=7, choppiness=1.0)
@@ -125,9 +148,13 @@ def main() -> None:
     track = ride(box, query, options.seconds)
     took = time.perf_counter() - start
     steps = track.shape[0]
-    print(f"{steps} steps at {RATE:g} Hz in {took:.1f} s: {1e3 * took / steps:.2f} ms each, {options.seconds / took:.1f} x real time")
+    print(
+        f"{steps} steps at {RATE:g} Hz in {took:.1f} s: {1e3 * took / steps:.2f} ms each, {options.seconds / took:.1f} x real time"
+    )
     heave, roll, pitch = np.std(track[:, 1:4], axis=0)
-    angles = f"4 sigma of roll {np.degrees(4 * roll):.0f}, of pitch {np.degrees(4 * pitch):.0f} degrees"
+    angles = (
+        f"4 sigma of roll {np.degrees(4 * roll):.0f}, of pitch {np.degrees(4 * pitch):.0f} degrees"
+    )
     print(f"Hs {sea.hs:.2f} m; heave {4 * heave:.2f} m; {angles}")
     if drawn:
         draw(query, box, track, options.picture)
@@ -143,7 +170,11 @@ def draw(query: fo.Query, box: Box, track: np.ndarray, picture: Path) -> None:
     t, heave, roll, pitch, water = track.T
     figure = plt.figure(figsize=(12, 7), layout="constrained")
     grid = figure.add_gridspec(2, 2, width_ratios=(1.5, 1))
-    up, turn, sea = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[:, 1])
+    up, turn, sea = (
+        figure.add_subplot(grid[0, 0]),
+        figure.add_subplot(grid[1, 0]),
+        figure.add_subplot(grid[:, 1]),
+    )
     up.plot(t, water, color="0.65", label="water at the middle")
     up.plot(t, heave, color="C0", label="heave")
     up.set(ylabel="[m]", title=f"A box of {box.length:g} x {box.beam:g} m, 50 steps a second")
@@ -156,12 +187,23 @@ def draw(query: fo.Query, box: Box, track: np.ndarray, picture: Path) -> None:
         axes.set_xlim(t[0], t[-1])
     side = np.linspace(-40.0, 40.0, 200)
     x, y = np.meshgrid(side, side)
-    shown = sea.pcolormesh(x, y, query.at(x, y, t[-1], "heights").heights, cmap="Blues_r", shading="auto")
+    shown = sea.pcolormesh(
+        x, y, query.at(x, y, t[-1], "heights").heights, cmap="Blues_r", shading="auto"
+    )
     figure.colorbar(shown, ax=sea, label="height [m]", shrink=0.6)
-    sea.add_patch(plt.Rectangle((-box.length / 2, -box.beam / 2), box.length, box.beam, facecolor="C1", edgecolor="k"))
+    sea.add_patch(
+        plt.Rectangle(
+            (-box.length / 2, -box.beam / 2), box.length, box.beam, facecolor="C1", edgecolor="k"
+        )
+    )
     px, py = box.bottom()
     sea.plot(px, py, ".", color="k", markersize=3)
-    sea.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title=f"t = {t[-1]:.0f} s: what the box feels of the sea")
+    sea.set(
+        aspect="equal",
+        xlabel="x [m]",
+        ylabel="y [m]",
+        title=f"t = {t[-1]:.0f} s: what the box feels of the sea",
+    )
     figure.savefig(picture, dpi=110)
     print(f"drawn: {picture}")
 

@@ -1,7 +1,8 @@
 """
 fftocean: seamlessly tiling, looping ocean surfaces with the statistics of a specified sea state.
 
-Names are loaded when first used, so that `import fftocean` does not wait for compilers and FFT libraries.
+Names are loaded when first used, so that `import fftocean` does not wait for compilers and FFT
+libraries.
 """
 
 import importlib
@@ -13,14 +14,13 @@ if TYPE_CHECKING:
     from fftocean import plots as plots
     from fftocean import readers as readers
     from fftocean import science as science
-    from fftocean.bake.baker import bake as bake
-    from fftocean.bake.check import Finding as Finding
-    from fftocean.bake.check import check as check
-    from fftocean.bake.job import Job as Job
-    from fftocean.bake.load import Bake as Bake
-    from fftocean.bake.load import BakedCascade as BakedCascade
-    from fftocean.bake.load import load as load
-    from fftocean.bake.repair import repair as repair
+    from fftocean.baking.bake import bake as bake
+    from fftocean.baking.finished.check import Finding as Finding
+    from fftocean.baking.finished.check import check as check
+    from fftocean.baking.finished.load import Bake as Bake
+    from fftocean.baking.finished.load import BakedCascade as BakedCascade
+    from fftocean.baking.finished.load import load as load
+    from fftocean.baking.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
     from fftocean.errors import CacheWarning as CacheWarning
     from fftocean.errors import FFTOceanError as FFTOceanError
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from fftocean.foam import Foam as Foam
     from fftocean.frame import EulerianFrame as EulerianFrame
     from fftocean.frame import Frame as Frame
+    from fftocean.job.job import Job as Job
     from fftocean.ocean import Ocean as Ocean
     from fftocean.physics import dispersion as dispersion
     from fftocean.physics import moments as moments
@@ -83,10 +84,11 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _ROOMS = {
-    "fftocean.bake.check": ("Finding", "check"),
-    "fftocean.bake.job": ("Job",),
-    "fftocean.bake.load": ("Bake", "BakedCascade", "load"),
-    "fftocean.bake.repair": ("repair",),
+    "fftocean.baking.bake": ("bake",),
+    "fftocean.baking.finished.check": ("Finding", "check"),
+    "fftocean.job.job": ("Job",),
+    "fftocean.baking.finished.load": ("Bake", "BakedCascade", "load"),
+    "fftocean.baking.repair": ("repair",),
     "fftocean.cascade": ("Cascade",),
     "fftocean.errors": (
         "CacheWarning",
@@ -106,8 +108,20 @@ _ROOMS = {
     "fftocean.ocean": ("Ocean",),
     "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
-    "fftocean.physics.spectra": ("JONSWAP", "TMA", "CustomSpectrum", "PiersonMoskowitz", "TabulatedSpectrum"),
-    "fftocean.physics.spreading": ("Blend", "CosinePower", "CosineSquared", "DonelanBanner", "LongCrested"),
+    "fftocean.physics.spectra": (
+        "JONSWAP",
+        "TMA",
+        "CustomSpectrum",
+        "PiersonMoskowitz",
+        "TabulatedSpectrum",
+    ),
+    "fftocean.physics.spreading": (
+        "Blend",
+        "CosinePower",
+        "CosineSquared",
+        "DonelanBanner",
+        "LongCrested",
+    ),
     "fftocean.physics.spreading_laws": (
         "CosineN",
         "CustomSpreading",
@@ -126,7 +140,6 @@ _ROOMS = {
     "fftocean.window": ("Window",),
 }
 _MODULES = {
-    "bake": "fftocean.bake",
     "dispersion": "fftocean.physics.dispersion",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",

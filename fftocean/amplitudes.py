@@ -19,7 +19,9 @@ Draw = Literal["gaussian", "fixed"]
 
 
 class Modes(NamedTuple):
-    """Every wave of a tile, in float64: height = sum of amplitude cos(kx x + ky y - omega t - phase)."""
+    """
+    Every wave of a tile, in float64: height = sum of amplitude cos(kx x + ky y - omega t - phase).
+    """
 
     kx: Real  # [rad/m]
     ky: Real  # [rad/m]
@@ -39,7 +41,8 @@ class Amplitudes:
     """
     The waves of a tile at t = 0, on the half plane of wavenumbers (see `Grid`).
 
-    h(k, t) = forward e^{-i omega t} + backward e^{+i omega t}, with forward = h0(k) and backward = conj(h0(-k)).
+    h(k, t) = forward e^{-i omega t} + backward e^{+i omega t}, with forward = h0(k) and backward =
+    conj(h0(-k)).
     """
 
     grid: Grid
@@ -51,31 +54,48 @@ class Amplitudes:
     variance_forward: Real  # E_k, the expected a^2/2 of the wave at +k [m^2]
     variance_backward: Real  # of the wave at -k [m^2]
     draw: Literal["gaussian", "fixed", "given"]
-    band: Band = WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
+    band: Band = (
+        WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
+    )
     cycles: Integer | None = field(init=False)  # whole turns in a loop
 
     __repr__ = brief_repr
 
     def __post_init__(self) -> None:
-        cycles = None if self.loop is None else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))
+        cycles = (
+            None
+            if self.loop is None
+            else dispersion.loop_cycles(self.omega, LOOP.check("loop", self.loop))
+        )
         object.__setattr__(self, "cycles", cycles)
         self.freeze()
 
     def freeze(self) -> None:
         """Forbid changes of the arrays; once more after they were unpickled, which forgets it."""
-        for array in (self.forward, self.backward, self.variance_forward, self.variance_backward, self.cycles):
+        for array in (
+            self.forward,
+            self.backward,
+            self.variance_forward,
+            self.variance_backward,
+            self.cycles,
+        ):
             if array is not None:
                 array.setflags(write=False)
 
     @property
     def squares(self) -> Real:
-        """|forward|^2 + |backward|^2: half the a^2/2 of an entry's two waves, +k and -k together, (ny, nx // 2 + 1) [m^2]."""
+        """
+        |forward|^2 + |backward|^2: half the a^2/2 of an entry's two waves, +k and -k together, (ny, nx // 2 + 1) [m^2].
+        """
         total: Real = np.abs(self.forward) ** 2 + np.abs(self.backward) ** 2
         return total
 
     @property
     def omega(self) -> Real:
-        """The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked for."""
+        """
+        The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked
+        for.
+        """
         return dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)
 
     @property
@@ -87,7 +107,9 @@ class Amplitudes:
     def variance(self) -> float:
         """m0 that the tile holds on average over seeds: the sum of E_k [m^2]."""
         half = float(np.sum(self.variance_forward))
-        return half + float(np.sum(self.variance_backward[:, 1:]))  # the column mx = 0 holds both k and -k
+        return half + float(
+            np.sum(self.variance_backward[:, 1:])
+        )  # the column mx = 0 holds both k and -k
 
     def modes(self) -> Modes:
         """Return every wave that carries energy."""
@@ -106,7 +128,13 @@ class Amplitudes:
 
 
 def seed_amplitudes(
-    sea: Sea, grid: Grid, *, seed: int = 0, loop: float | None = None, draw: Draw = "gaussian", band: Band = WHOLE
+    sea: Sea,
+    grid: Grid,
+    *,
+    seed: int = 0,
+    loop: float | None = None,
+    draw: Draw = "gaussian",
+    band: Band = WHOLE,
 ) -> Amplitudes:
     """
     Realise a sea on a grid:  h0 = 1/2 (xi_r + i xi_i) sqrt(E_k).
@@ -116,14 +144,16 @@ def seed_amplitudes(
         grid: the tile.
         seed: which of all the seas that it could be.
         loop: period after which the tile repeats [s].
-        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from draw to draw; "fixed" for random
-            phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over the waves is the same in every draw.
-        band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever the band; one whose cell is cut
-            by an edge keeps its phase, and carries the energy of its part (see `share_below`).
+        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from draw to
+            draw; "fixed" for random phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over
+            the waves is the same in every draw.
+        band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever
+            the band; one whose cell is cut by an edge keeps its phase, and carries the energy of
+            its part (see `share_below`).
 
     Raises:
-        ParameterError: a value out of range, a sea whose density is not finite and >= 0, or waves that do not hold the variance that
-            the sea has at their wavenumbers.
+        ParameterError: a value out of range, a sea whose density is not finite and >= 0, or waves
+            that do not hold the variance that the sea has at their wavenumbers.
 
     Source: Tessendorf 2001, with the factor of DESIGN: E[a^2/2] = 2 E|h0|^2 = E_k.
     """
@@ -135,9 +165,16 @@ def seed_amplitudes(
     forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
     reach_x, reach_y = grid.reach
-    at_a_time = max(1, _BLOCK // (reach_y + 1))  # columns: what is made on the way is several times as much as what is kept
+    at_a_time = max(
+        1, _BLOCK // (reach_y + 1)
+    )  # columns: what is made on the way is several times as much as what is kept
     for first in range(0, reach_x + 1, at_a_time):
-        ax, ay = (a.ravel() for a in np.meshgrid(grid.mx[first : min(first + at_a_time, reach_x + 1)], np.arange(reach_y + 1)))
+        ax, ay = (
+            a.ravel()
+            for a in np.meshgrid(
+                grid.mx[first : min(first + at_a_time, reach_x + 1)], np.arange(reach_y + 1)
+            )
+        )
         nearest, farthest = cells.distances(ax, ay)
         touched = (farthest > band[0]) & (nearest < band[1]) & ((ax > 0) | (ay > 0))
         ax, ay = ax[touched], ay[touched]
@@ -147,27 +184,49 @@ def seed_amplitudes(
             if band != WHOLE:
                 low, high = (cells.share_below(edge, mx, my) for edge in band)
                 variance *= np.maximum(high - low, 0.0)
-            chance = noise.complex_normals(seed, mx, my) if draw == "gaussian" else np.sqrt(2.0) * noise.unit_phasors(seed, mx, my)
+            chance = (
+                noise.complex_normals(seed, mx, my)
+                if draw == "gaussian"
+                else np.sqrt(2.0) * noise.unit_phasors(seed, mx, my)
+            )
             h0 = 0.5 * np.sqrt(variance) * chance
             if sx > 0:
                 variance_forward[my, mx], forward[my, mx] = variance, h0
             else:
                 variance_backward[-my, -mx], backward[-my, -mx] = variance, np.conj(h0)
-    made = Amplitudes(grid, sea.depth, sea.surface_tension, loop, forward, backward, variance_forward, variance_backward, draw, band)
+    made = Amplitudes(
+        grid,
+        sea.depth,
+        sea.surface_tension,
+        loop,
+        forward,
+        backward,
+        variance_forward,
+        variance_backward,
+        draw,
+        band,
+    )
     cells.require_energy(made.variance, grid, band)
     return made
 
 
 def place_modes(
-    waves: Iterable[tuple[int, int, float, float]], grid: Grid, *, depth: float, surface_tension: float = 0.0, loop: float | None = None
+    waves: Iterable[tuple[int, int, float, float]],
+    grid: Grid,
+    *,
+    depth: float,
+    surface_tension: float = 0.0,
+    loop: float | None = None,
 ) -> Amplitudes:
     """
-    Build a sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x - omega t - phase).
+    Build a sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x - omega
+    t - phase).
 
     Waves on the same (mx, my) add up.
 
     Raises:
-        ParameterError: a wave the grid cannot hold (k = 0, or at or beyond the Nyquist index), or a value out of range.
+        ParameterError: a wave the grid cannot hold (k = 0, or at or beyond the Nyquist index), or a
+            value out of range.
     """
     DEPTH.check("depth", depth)
     reach_x, reach_y = grid.reach
@@ -176,8 +235,16 @@ def place_modes(
         try:
             mx, my, amplitude, phase = wave
         except (TypeError, ValueError) as error:
-            raise ParameterError(f"a wave must be (mx, my, amplitude, phase), got {wave!r}") from error
-        if not (mx == int(mx) and my == int(my) and (mx or my) and abs(mx) <= reach_x and abs(my) <= reach_y):
+            raise ParameterError(
+                f"a wave must be (mx, my, amplitude, phase), got {wave!r}"
+            ) from error
+        if not (
+            mx == int(mx)
+            and my == int(my)
+            and (mx or my)
+            and abs(mx) <= reach_x
+            and abs(my) <= reach_y
+        ):
             raise ParameterError(
                 f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, not both 0, got ({mx}, {my})"
             )
@@ -188,7 +255,9 @@ def place_modes(
         if mx <= 0:
             backward[-my, -mx] += np.conj(h0)
     energy, energy_opposite = 2.0 * np.abs(forward) ** 2, 2.0 * np.abs(backward) ** 2
-    return Amplitudes(grid, depth, surface_tension, loop, forward, backward, energy, energy_opposite, "given")
+    return Amplitudes(
+        grid, depth, surface_tension, loop, forward, backward, energy, energy_opposite, "given"
+    )
 
 
 def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:
@@ -209,17 +278,25 @@ def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) ->
         ParameterError: the sea's density is negative or not finite somewhere.
     """
     quadrant = np.where(mx >= 0, np.where(my >= 0, 0, 1), np.where(my >= 0, 3, 2))
-    variance: Real = Cells(sea, dkx, dky).variances(np.abs(mx), np.abs(my))[quadrant, np.arange(mx.size)]
+    variance: Real = Cells(sea, dkx, dky).variances(np.abs(mx), np.abs(my))[
+        quadrant, np.arange(mx.size)
+    ]
     return variance
 
 
 def share_below(edge: float, sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:
-    """Return the share of the variance in the cells around (mx dkx, my dky) that lies below |k| = edge; see `Cells.share_below`."""
+    """
+    Return the share of the variance in the cells around (mx dkx, my dky) that lies below |k| =
+    edge; see `Cells.share_below`.
+    """
     return Cells(sea, dkx, dky).share_below(edge, mx, my)
 
 
 def wavenumber_density(sea: Sea, system: WaveSystem, kx: Real, ky: Real) -> Real:
-    """Return S(omega) D(omega, theta) (d omega/dk) / k, the density in the plane of wavenumbers, k > 0 [m^2 / (rad/m)^2]."""
+    """
+    Return S(omega) D(omega, theta) (d omega/dk) / k, the density in the plane of wavenumbers, k > 0
+    [m^2 / (rad/m)^2].
+    """
     k = np.hypot(kx, ky)
     omega = dispersion.angular_frequency(k, sea.depth, sea.surface_tension)
     d_omega = omega / k * dispersion.group_to_phase_speed(k, sea.depth, sea.surface_tension)

@@ -22,7 +22,10 @@ Integer = npt.NDArray[np.int64]
 RealLike = npt.ArrayLike
 """What `np.asarray(..., float)` takes: a number, a list, an array."""
 
-COMPLEX_OF: dict[str, np.dtype[Any]] = {"float32": np.dtype(np.complex64), "float64": np.dtype(np.complex128)}
+COMPLEX_OF: dict[str, np.dtype[Any]] = {
+    "float32": np.dtype(np.complex64),
+    "float64": np.dtype(np.complex128),
+}
 """The complex type whose parts have the named real type."""
 
 
@@ -40,7 +43,10 @@ def precision_of(dtype: Any) -> str:
 
 
 def available_memory() -> float:
-    """Bytes that this process could still get: the machine's free memory or the control group's, whichever is less; inf if unknown."""
+    """
+    Bytes that this process could still get: the machine's free memory or the control group's,
+    whichever is less; inf if unknown.
+    """
     candidates = [float("inf")]
     try:
         for line in Path("/proc/meminfo").read_text().splitlines():
@@ -52,7 +58,9 @@ def available_memory() -> float:
     try:
         limit = Path("/sys/fs/cgroup/memory.max").read_text().strip()
         if limit != "max":
-            candidates.append(float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text()))
+            candidates.append(
+                float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text())
+            )
     except (OSError, ValueError):
         pass
     return min(candidates)
@@ -68,7 +76,9 @@ def require_memory(what: str, needed: float) -> None:
     available = available_memory()
     if needed > available:
         free = max(available, 0.0) / 2**30
-        raise ParameterError(f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free")
+        raise ParameterError(
+            f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free"
+        )
 
 
 SHOWN = 280
@@ -76,7 +86,10 @@ SHOWN = 280
 
 
 def brief(value: Any) -> str:
-    """Return a short text for a value within another: an array by its shape and type, a mapping by its keys."""
+    """
+    Return a short text for a value within another: an array by its shape and type, a mapping by its
+    keys.
+    """
     if isinstance(value, np.ndarray):
         if value.size > 3:
             return f"<{' x '.join(map(str, value.shape))} {value.dtype}>"
@@ -89,9 +102,16 @@ def brief(value: Any) -> str:
 
 
 def brief_repr(value: Any) -> str:
-    """Return the `repr` of a dataclass or named tuple that holds arrays: its fields, each `brief`, cut at `SHOWN` characters."""
-    names = [f.name for f in fields(value) if f.repr] if is_dataclass(value) else list(value._fields)
-    return shortened(f"{type(value).__name__}({', '.join(f'{name}={brief(getattr(value, name))}' for name in names)})")
+    """
+    Return the `repr` of a dataclass or named tuple that holds arrays: its fields, each `brief`, cut
+    at `SHOWN` characters.
+    """
+    names = (
+        [f.name for f in fields(value) if f.repr] if is_dataclass(value) else list(value._fields)
+    )
+    return shortened(
+        f"{type(value).__name__}({', '.join(f'{name}={brief(getattr(value, name))}' for name in names)})"
+    )
 
 
 def shortened(text: str) -> str:

@@ -1,4 +1,7 @@
-"""One sea over several tiles: each a size and a band of wavenumbers of its own, so that no wave is missing and none is there twice."""
+"""
+One sea over several tiles: each a size and a band of wavenumbers of its own, so that no wave is
+missing and none is there twice.
+"""
 
 import math
 import struct
@@ -27,31 +30,37 @@ Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
 
 class Cascade:
     """
-    Several periodic tiles that add up to one sea: long waves on a large tile, ripples on small ones.
+    Several periodic tiles that add up to one sea: long waves on a large tile, ripples on small
+    ones.
 
-    The water at parameters (x0, y0) is the sum over the tiles: height = sum of heights, and the surface is at
-    (x0, y0) + choppiness sum of displacements. Each wavenumber |k| belongs to one tile; a cell that an edge between two bands cuts
-    is shared out by energy. Where nothing is given, the edge between two tiles is the geometric mean of the finest that the large
-    one and the coarsest that the small one can hold: as many samples to the shortest wave of the one as waves across the other,
-    within a factor 3.
+    The water at parameters (x0, y0) is the sum over the tiles: height = sum of heights, and the
+    surface is at (x0, y0) + choppiness sum of displacements. Each wavenumber |k| belongs to one
+    tile; a cell that an edge between two bands cuts is shared out by energy. Where nothing is
+    given, the edge between two tiles is the geometric mean of the finest that the large one and the
+    coarsest that the small one can hold: as many samples to the shortest wave of the one as waves
+    across the other, within a factor 3.
 
-    Chance: the largest tile has `seed` itself, so it shows the waves of the `Ocean` that has its n, size and seed; each further one has
-    a seed of its own, made of `seed` and its size (`cascade.oceans[i].seed`). So a tile's waves depend neither on the other tiles
-    below the first, nor on n, nor on where the bands are cut.
+    Chance: the largest tile has `seed` itself, so it shows the waves of the `Ocean` that has its n,
+        size and seed; each further one has
+    a seed of its own, made of `seed` and its size (`cascade.oceans[i].seed`). So a tile's waves
+    depend neither on the other tiles below the first, nor on n, nor on where the bands are cut.
 
     Args:
         sea: what is ordered.
-        tiles: (n, size) of each, as in `Ocean`, from the largest to the smallest. Sizes that are no multiples of one another repeat
-            together only after a very long way.
-        bands: (lowest, highest) |k| of each tile [rad/m], each starting where the one before ends; None for automatic ones.
+        tiles: (n, size) of each, as in `Ocean`, from the largest to the smallest. Sizes that are no
+            multiples of one another repeat together only after a very long way.
+        bands: (lowest, highest) |k| of each tile [rad/m], each starting where the one before ends;
+            None for automatic ones.
         seed: which of all the seas that it could be.
-        loop: the period after which all tiles repeat [s], or one for each; None lets the water run free.
+        loop: the period after which all tiles repeat [s], or one for each; None lets the water run
+            free.
         choppiness, dtype, amplitudes, backend, planning, threads: as in `Ocean`.
 
     Threads may share a cascade as they may share an `Ocean`.
 
     Raises:
-        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers out or are beyond their tile.
+        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers
+            out or are beyond their tile.
     """
 
     def __init__(
@@ -76,10 +85,14 @@ class Cascade:
         loops = _loops(loop, len(grids))
         seed = SEED.check_whole("seed", seed)
         name = precision_of(dtype)
-        require_memory(f"a cascade of {len(grids)} tiles", sum(memory_needed(grid, name) for grid in grids))
+        require_memory(
+            f"a cascade of {len(grids)} tiles", sum(memory_needed(grid, name) for grid in grids)
+        )
         _warn_of_short_loops(sea, shared, loops)
         oceans = []
-        for grid, own, band, period in zip(grids, tile_seeds(seed, grids), shared, loops, strict=True):
+        for grid, own, band, period in zip(
+            grids, tile_seeds(seed, grids), shared, loops, strict=True
+        ):
             drawn = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
             oceans.append(remade(sea, own, drawn, choppiness, name, backend, planning, threads))
         self._set_up(sea, seed, tuple(oceans))
@@ -198,14 +211,20 @@ def assembled(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
 
 
 def reach_of(grid: Grid) -> tuple[float, float]:
-    """Between which |k| a tile has every wave, whatever its direction [rad/m]: around its missing cell at k = 0, within its rectangle."""
+    """
+    Between which |k| a tile has every wave, whatever its direction [rad/m]: around its missing cell
+    at k = 0, within its rectangle.
+    """
     reach_x, reach_y = grid.reach
-    return 0.5 * math.hypot(grid.dkx, grid.dky), min((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky)
+    return 0.5 * math.hypot(grid.dkx, grid.dky), min(
+        (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky
+    )
 
 
 def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
     """
-    Return the band of each tile: from 0 to inf, cut between each two at the geometric mean of what both can hold.
+    Return the band of each tile: from 0 to inf, cut between each two at the geometric mean of what
+    both can hold.
 
     Raises:
         ParameterError: between two tiles lie wavenumbers that neither can hold.
@@ -221,13 +240,16 @@ def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
         cuts.append(math.sqrt(coarsest * finest))
     for i, (low, high) in enumerate(pairwise(cuts)):
         if not low < high:
-            raise ParameterError(f"tile {i + 1} must be finer than tile {i} and coarser than tile {i + 2}: nothing is left for it to hold")
+            raise ParameterError(
+                f"tile {i + 1} must be finer than tile {i} and coarser than tile {i + 2}: nothing is left for it to hold"
+            )
     return tuple(pairwise([WHOLE[0], *cuts, WHOLE[1]]))
 
 
 def tile_jobs(tiles: Iterable[Tile], seed: int) -> list[tuple[Grid, int, Band]]:
     """
-    Return the grid, the seed and the automatic band of each tile of a cascade: an `Ocean` of these is the tile.
+    Return the grid, the seed and the automatic band of each tile of a cascade: an `Ocean` of these
+    is the tile.
 
     Raises:
         ParameterError: as `Cascade`.
@@ -242,9 +264,16 @@ def tile_seeds(seed: int, grids: Sequence[Grid]) -> list[int]:
 
 
 def tile_seed(seed: int, lx: float, ly: float) -> int:
-    """The seed of a smaller tile: a hash of the cascade's and of the tile's size, by the generator that draws the waves."""
-    counter = tuple(np.array(word, dtype=np.uint64) for word in struct.unpack("<4I", struct.pack("<2d", lx, ly)))
-    first, second, *_ = philox((counter[0], counter[1], counter[2], counter[3]), (seed & 0xFFFFFFFF, seed >> 32))
+    """
+    The seed of a smaller tile: a hash of the cascade's and of the tile's size, by the generator
+    that draws the waves.
+    """
+    counter = tuple(
+        np.array(word, dtype=np.uint64) for word in struct.unpack("<4I", struct.pack("<2d", lx, ly))
+    )
+    first, second, *_ = philox(
+        (counter[0], counter[1], counter[2], counter[3]), (seed & 0xFFFFFFFF, seed >> 32)
+    )
     return int(first) << 32 | int(second)
 
 
@@ -275,24 +304,39 @@ def _grids(tiles: Iterable[Tile]) -> list[Grid]:
 
 
 def _checked_bands(bands: Sequence[Band], grids: Sequence[Grid]) -> tuple[Band, ...]:
-    """Check given bands: each goes on where the last ended, and lies where its tile has every wave."""
+    """
+    Check given bands: each goes on where the last ended, and lies where its tile has every wave.
+    """
     try:
         pairs = [(low, high) for low, high in bands]
     except (TypeError, ValueError) as error:
-        raise ParameterError(f"bands must be a list of (lowest, highest) wavenumber, got {bands!r:.80}") from error
+        raise ParameterError(
+            f"bands must be a list of (lowest, highest) wavenumber, got {bands!r:.80}"
+        ) from error
     if len(pairs) != len(grids):
-        raise ParameterError(f"bands must be one for each of the {len(grids)} tiles, got {len(pairs)}")
-    checked = [(BAND_EDGE.check("a band's lowest |k|", low), BAND_EDGE.check("a band's highest |k|", high)) for low, high in pairs]
+        raise ParameterError(
+            f"bands must be one for each of the {len(grids)} tiles, got {len(pairs)}"
+        )
+    checked = [
+        (BAND_EDGE.check("a band's lowest |k|", low), BAND_EDGE.check("a band's highest |k|", high))
+        for low, high in pairs
+    ]
     for i, (low, high) in enumerate(checked):
         coarsest, finest = reach_of(grids[i])
         if not low < high:
             raise ParameterError(f"bands must rise, got {low:g} to {high:g} rad/m for tile {i}")
         if i > 0 and low != checked[i - 1][1]:
-            raise ParameterError(f"bands must adjoin: tile {i - 1} ends at {checked[i - 1][1]!r} rad/m, tile {i} starts at {low!r}")
+            raise ParameterError(
+                f"bands must adjoin: tile {i - 1} ends at {checked[i - 1][1]!r} rad/m, tile {i} starts at {low!r}"
+            )
         if i > 0 and low < coarsest:
-            raise ParameterError(f"the band of tile {i} must start at {coarsest:.4g} rad/m, its longest waves, or above, got {low:g}")
+            raise ParameterError(
+                f"the band of tile {i} must start at {coarsest:.4g} rad/m, its longest waves, or above, got {low:g}"
+            )
         if i < len(grids) - 1 and high > finest:
-            raise ParameterError(f"the band of tile {i} must end at {finest:.4g} rad/m, its shortest waves, or below, got {high:g}")
+            raise ParameterError(
+                f"the band of tile {i} must end at {finest:.4g} rad/m, its shortest waves, or below, got {high:g}"
+            )
     return tuple(checked)
 
 
@@ -301,12 +345,17 @@ def _loops(loop: float | Sequence[float] | None, count: int) -> list[float | Non
     if not isinstance(loop, (tuple, list)):
         return [None if loop is None else LOOP.check("loop", loop)] * count
     if len(loop) != count:
-        raise ParameterError(f"loop must be one period, or one for each of the {count} tiles, got {len(loop)}")
+        raise ParameterError(
+            f"loop must be one period, or one for each of the {count} tiles, got {len(loop)}"
+        )
     return [None if period is None else LOOP.check("loop", period) for period in loop]
 
 
 def _warn_of_short_loops(sea: Sea, bands: Sequence[Band], loops: Sequence[float | None]) -> None:
-    """A loop should hold four periods of the waves that matter in its band: the sea's peak, or the longest there if they are shorter."""
+    """
+    A loop should hold four periods of the waves that matter in its band: the sea's peak, or the
+    longest there if they are shorter.
+    """
     for i, (band, loop) in enumerate(zip(bands, loops, strict=True)):
         if loop is not None and loop < 4.0 * (period := longest_period(sea, band)):
             warnings.warn(

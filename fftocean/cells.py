@@ -1,14 +1,16 @@
 """
 Variance of a sea in the cells of a tile's wavenumber plane.
 
-The wave (mx, my) of a tile stands for the rectangle of wavenumbers half a step around it. In polar coordinates its variance is
+The wave (mx, my) of a tile stands for the rectangle of wavenumbers half a step around it. In polar
+coordinates its variance is
 
     E_k = integral of S(omega(k)) (d omega/dk) D(omega(k), theta) dk d theta,
 
-and there the features of a sea lie along the axes: those of S at some k, those of D at some theta, however narrow. A cell that is
-small beside the panels of `physics.panels` in which it lies is integrated by 1 to 4 x 4 Gauss points. Any other is covered by rays
-from k = 0: Gauss points in theta, between its corners and the edges of the direction panels, and on each ray Gauss points in k between
-the points where the ray enters, crosses the edges of the frequency panels, and leaves.
+and there the features of a sea lie along the axes: those of S at some k, those of D at some theta,
+however narrow. A cell that is small beside the panels of `physics.panels` in which it lies is
+integrated by 1 to 4 x 4 Gauss points. Any other is covered by rays from k = 0: Gauss points in
+theta, between its corners and the edges of the direction panels, and on each ray Gauss points in k
+between the points where the ray enters, crosses the edges of the frequency panels, and leaves.
 """
 
 import math
@@ -49,7 +51,13 @@ TOLERANCE = 1e-3
 """Of a sea's variance: by how much the cells and the continuous integral may differ."""
 
 _POINTS = (1, 2, 3, 4, 6)  # Gauss points a side ...
-_ACROSS = (0.16, 0.8, 1.6, 2.6, 4.5)  # ... that give 1e-3 to 1e-4 of a bell's top in cells up to so many quarters of a panel
+_ACROSS = (
+    0.16,
+    0.8,
+    1.6,
+    2.6,
+    4.5,
+)  # ... that give 1e-3 to 1e-4 of a bell's top in cells up to so many quarters of a panel
 _TAIL = 0.22  # the scale on which k^-4 changes, as a share of k: 1/sqrt(20)
 _BLOCK = 2**15  # evaluations of a density at a time: what stays in cache
 _CELLS = 256  # cells covered by rays at a time
@@ -61,17 +69,23 @@ class Cells:
     """
     The cells of one tile, dkx by dky [rad/m] each, and a sea's variance in them.
 
-    What a cell holds depends on the sea and the cell alone: a finer grid of the same size has the same waves to the bit.
+    What a cell holds depends on the sea and the cell alone: a finer grid of the same size has the
+    same waves to the bit.
     """
 
     def __init__(self, sea: Sea, dkx: float, dky: float) -> None:
         self.sea, self.dkx, self.dky = sea, dkx, dky
         fine = _toward_axes(dkx, dky)
-        self.parts = [Part(share, system, sea, fine) for whole in sea.systems for share, system in parts_of(whole)]
+        self.parts = [
+            Part(share, system, sea, fine)
+            for whole in sea.systems
+            for share, system in parts_of(whole)
+        ]
 
     def variances(self, ax: Integer, ay: Integer) -> Real:
         """
-        Return E_k at (sx ax, sy ay) for the signs of `QUADRANTS`, (4, m) [m^2]; they share their frequencies.
+        Return E_k at (sx ax, sy ay) for the signs of `QUADRANTS`, (4, m) [m^2]; they share their
+        frequencies.
 
         Args:
             ax, ay: integer wavenumbers >= 0, (m,), never both 0.
@@ -85,32 +99,42 @@ class Cells:
             for part in self.parts:
                 total[:, block] += part.share * self._variances_of(part, ax[block], ay[block])
         if not np.all((total >= 0.0) & (total < np.inf)):
-            raise ParameterError("the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not")
+            raise ParameterError(
+                "the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not"
+            )
         return total
 
     def share_below(self, edge: float, mx: Integer, my: Integer) -> Real:
         """
-        Return the share of the variance in the cells (mx, my) that lies below |k| = edge, (m,), from 0 to 1.
+        Return the share of the variance in the cells (mx, my) that lies below |k| = edge, (m,),
+        from 0 to 1.
 
-        A band holds the share below its upper edge less that below its lower one: bands that adjoin share out a cell without
-        remainder. Where a sea has no energy in a cell, the whole cell belongs to the side on which its centre lies.
+        A band holds the share below its upper edge less that below its lower one: bands that adjoin
+        share out a cell without remainder. Where a sea has no energy in a cell, the whole cell
+        belongs to the side on which its centre lies.
         """
         nearest, farthest = self.distances(mx, my)
         share = (farthest <= edge).astype(np.float64)
         cut = np.flatnonzero((nearest < edge) & (edge < farthest))
         x, y = mx[cut], my[cut]
         below, above = (
-            sum((part.share * self._by_rays(part, x, y, band) for part in self.parts), np.zeros(cut.size))
+            sum(
+                (part.share * self._by_rays(part, x, y, band) for part in self.parts),
+                np.zeros(cut.size),
+            )
             for band in ((0.0, edge), (edge, math.inf))
         )
         total = below + above
         at_centre = np.hypot(x * self.dkx, y * self.dky) < edge
-        share[cut] = np.divide(below, total, out=at_centre.astype(np.float64), where=(total > 0.0) & (total < np.inf))
+        share[cut] = np.divide(
+            below, total, out=at_centre.astype(np.float64), where=(total > 0.0) & (total < np.inf)
+        )
         return share
 
     def inside(self, half_x: float, half_y: float, band: Band = WHOLE) -> float:
         """
-        Return the sea's variance with |kx| < half_x, |ky| < half_y and |k| in a band [m^2]: one integral, without cells.
+        Return the sea's variance with |kx| < half_x, |ky| < half_y and |k| in a band [m^2]: one
+        integral, without cells.
 
         Along each ray from k = 0 the energy is summed up to the edge of the rectangle.
         """
@@ -119,24 +143,34 @@ class Cells:
         total = 0.0
         for part, theta, weight, edge in self.rays(half_x, half_y, band):
             last = np.maximum(np.minimum(np.minimum(edge, band[1]), part.k[-1]), band[0])
-            total += part.share * float(np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last)))
+            total += part.share * float(
+                np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last))
+            )
         return total
 
-    def rays(self, half_x: float, half_y: float, band: Band = WHOLE) -> Iterator[tuple["Part", Real, Real, Real]]:
+    def rays(
+        self, half_x: float, half_y: float, band: Band = WHOLE
+    ) -> Iterator[tuple["Part", Real, Real, Real]]:
         """
-        Cover the plane with rays from k = 0, on which integrals up to a rectangle's edge, or from there on, are smooth in theta.
+        Cover the plane with rays from k = 0, on which integrals up to a rectangle's edge, or from
+        there on, are smooth in theta.
 
         Yields:
-            Each part of the sea with the directions [rad] and weights of its rays, and |k| where each leaves the rectangle [rad/m].
+            Each part of the sea with the directions [rad] and weights of its rays, and |k| where
+            each leaves the rectangle [rad/m].
         """
         corner = math.atan2(half_y, half_x)
         corners = np.array([0.0, corner, 0.5 * np.pi, np.pi - corner])
-        circles = np.array([a for edge in band if 0.0 < edge < math.inf for a in _crossings(half_x, half_y, edge)])
+        circles = np.array(
+            [a for edge in band if 0.0 < edge < math.inf for a in _crossings(half_x, half_y, edge)]
+        )
         # k = half_x / cos(theta) turns fast beside the axes of a long rectangle
         near = np.concatenate([a + s * np.array([-1.0, 1.0])[:, None] * (2.0 ** np.arange(-2.0, 40.0)) for a, s in
                                ((0.0, corner), (0.5 * np.pi, 0.5 * np.pi - corner))], axis=None)  # fmt: skip
         near = near[(np.abs(near) < 0.5 * np.pi) | (np.abs(near - 0.5 * np.pi) < 0.5 * np.pi)]
-        edges = np.remainder(np.concatenate([corners, corners + np.pi, circles, near, near + np.pi]), 2.0 * np.pi)
+        edges = np.remainder(
+            np.concatenate([corners, corners + np.pi, circles, near, near + np.pi]), 2.0 * np.pi
+        )
         edges = np.unique(np.concatenate([edges, [0.0, 2.0 * np.pi]]))
         for part in self.parts:
             if part.long_crested:
@@ -144,8 +178,15 @@ class Cells:
             else:
                 _, low, high = split(edges[:-1], edges[1:], part.theta)
                 theta, weight = (a.ravel() for a in gauss(low, high))
-            with np.errstate(divide="ignore", over="ignore"):  # along an axis the other edge is never met
-                yield part, theta, weight, np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta)))
+            with np.errstate(
+                divide="ignore", over="ignore"
+            ):  # along an axis the other edge is never met
+                yield (
+                    part,
+                    theta,
+                    weight,
+                    np.minimum(half_x / np.abs(np.cos(theta)), half_y / np.abs(np.sin(theta))),
+                )
 
     @property
     def specified(self) -> float:
@@ -157,7 +198,8 @@ class Cells:
         Refuse a tile whose cells hold another variance than the sea has there.
 
         Raises:
-            ParameterError: they differ by more than `TOLERANCE` of the sea's variance, or a spreading does not integrate to 1.
+            ParameterError: they differ by more than `TOLERANCE` of the sea's variance, or a
+                spreading does not integrate to 1.
         """
         for part in self.parts:
             if abs(part.unity - 1.0) > TOLERANCE:
@@ -179,7 +221,9 @@ class Cells:
     def distances(self, mx: Integer, my: Integer) -> tuple[Real, Real]:
         """Return |k| of the nearest and of the farthest point of each cell [rad/m]."""
         ax, ay = np.abs(mx), np.abs(my)
-        nearest = np.hypot(np.maximum(ax - 0.5, 0.0) * self.dkx, np.maximum(ay - 0.5, 0.0) * self.dky)
+        nearest = np.hypot(
+            np.maximum(ax - 0.5, 0.0) * self.dkx, np.maximum(ay - 0.5, 0.0) * self.dky
+        )
         return nearest, np.hypot((ax + 0.5) * self.dkx, (ay + 0.5) * self.dky)
 
     def _variances_of(self, part: "Part", ax: Integer, ay: Integer) -> Real:
@@ -193,12 +237,16 @@ class Cells:
             rays = self._on_ray(part.direction, kx, ky)
         else:
             # half the angle in which a cell is seen, or more
-            half = np.minimum((0.5 * self.dkx * ky + 0.5 * self.dky * kx) / (k * nearest), 0.5 * np.pi)
+            half = np.minimum(
+                (0.5 * self.dkx * ky + 0.5 * self.dky * kx) / (k * nearest), 0.5 * np.pi
+            )
             radial, rough = part.radially(nearest, farthest)
             angular, broken = part.angularly(theta, half)
             rays = rough | broken | (np.maximum(radial, angular) > _ACROSS[-1])
             across = np.maximum(radial, np.max(np.where(rays, 0.0, angular), axis=0))
-            levels = np.where(np.all(rays, axis=0), len(_POINTS), np.searchsorted(_ACROSS[:-1], across))
+            levels = np.where(
+                np.all(rays, axis=0), len(_POINTS), np.searchsorted(_ACROSS[:-1], across)
+            )
             for level, p in enumerate(_POINTS):
                 cells = np.flatnonzero(levels == level)
                 at_a_time = max(1, _BLOCK // (4 * p * p))
@@ -211,7 +259,9 @@ class Cells:
             out *= self.dkx * self.dky
         quadrant, cell = np.nonzero(rays)
         signs = np.array(QUADRANTS)[quadrant]
-        out[quadrant, cell] = self._by_rays(part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell], WHOLE)
+        out[quadrant, cell] = self._by_rays(
+            part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell], WHOLE
+        )
         return out
 
     def _by_points(self, part: "Part", kx: Real, ky: Real, p: int) -> Real:
@@ -249,13 +299,18 @@ class Cells:
                 ends = low_x[cell] / c, high_x[cell] / c, low_y[cell] / s, high_y[cell] / s
             first = np.maximum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
             last = np.minimum(np.maximum(ends[0], ends[1]), np.maximum(ends[2], ends[3]))
-            first, last = np.maximum(first, band[0]), np.minimum(np.minimum(last, band[1]), part.k[-1])
+            first, last = (
+                np.maximum(first, band[0]),
+                np.minimum(np.minimum(last, band[1]), part.k[-1]),
+            )
             chosen = np.flatnonzero(last > first)
             energy = part.along_rays(theta[chosen], weight[chosen], first[chosen], last[chosen])
             out[some] = np.bincount(cell[chosen], energy, low_x.size)
         return out
 
-    def _rays(self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band) -> tuple[Index, Real, Real]:
+    def _rays(
+        self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band
+    ) -> tuple[Index, Real, Real]:
         """Cover cells with rays from k = 0: the cell, direction and weight of each."""
         low_x, high_x, low_y, high_y = sides
         heading = np.arctan2(low_y + high_y, low_x + high_x)
@@ -268,15 +323,28 @@ class Cells:
             from_heading = np.remainder(part.direction - heading + np.pi, 2.0 * np.pi) - np.pi
             cell = np.flatnonzero((corners[0] <= from_heading) & (from_heading <= corners[3]))
             return cell, np.full(cell.size, part.direction), np.ones(cell.size)
-        nearest = np.hypot(*(np.maximum(np.maximum(low, -high), 0.0) for low, high in ((low_x, high_x), (low_y, high_y))))
+        nearest = np.hypot(
+            *(
+                np.maximum(np.maximum(low, -high), 0.0)
+                for low, high in ((low_x, high_x), (low_y, high_y))
+            )
+        )
         farthest = np.hypot(np.maximum(-low_x, high_x), np.maximum(-low_y, high_y))
         breaks = [*corners]
         for edge in {*band, *part.rings(0.15 * min(self.dkx, self.dky))}:
             met = (nearest < edge) & (edge < farthest)
             if np.any(met):  # where the circle |k| = edge meets the lines through the sides
                 across = [np.sqrt(np.maximum(edge**2 - side**2, 0.0)) for side in sides]
-                points = [(x, sign * y) for x, y in zip(sides[:2], across[:2], strict=True) for sign in (-1.0, 1.0)]
-                points += [(sign * x, y) for x, y in zip(across[2:], sides[2:], strict=True) for sign in (-1.0, 1.0)]
+                points = [
+                    (x, sign * y)
+                    for x, y in zip(sides[:2], across[:2], strict=True)
+                    for sign in (-1.0, 1.0)
+                ]
+                points += [
+                    (sign * x, y)
+                    for x, y in zip(across[2:], sides[2:], strict=True)
+                    for sign in (-1.0, 1.0)
+                ]
                 breaks += [np.where(met, turned(x, y), corners[0]) for x, y in points]
         ends: Real = np.sort(np.clip(breaks, corners[0], corners[3]), axis=0) + heading
         low, high = ends[:-1].T.ravel(), ends[1:].T.ravel()
@@ -315,12 +383,20 @@ class Part:
     theta_fine: Real  # the same with those that long cells need
 
     def __init__(self, share: float, system: WaveSystem, sea: Sea, fine: Real) -> None:
-        self.share, self.system, self.depth, self.tension = share, system, sea.depth, sea.surface_tension
+        self.share, self.system, self.depth, self.tension = (
+            share,
+            system,
+            sea.depth,
+            sea.surface_tension,
+        )
         self.direction = math.radians(system.direction % 360.0)
         self.long_crested = isinstance(system.spreading, LongCrested)
         spectrum = system.spectrum
         water = getattr(spectrum, "depth", None), getattr(spectrum, "surface_tension", 0.0)
-        self.knows_waves = hasattr(spectrum, "at_waves") and water == (sea.depth, sea.surface_tension)
+        self.knows_waves = hasattr(spectrum, "at_waves") and water == (
+            sea.depth,
+            sea.surface_tension,
+        )
         omega = frequency_panels(system)
         self.k = dispersion.wavenumber(omega.edges, self.depth, self.tension)
         self.k_jumps = dispersion.wavenumber(omega.jumps, self.depth, self.tension)
@@ -337,8 +413,12 @@ class Part:
             self.theta_fine = np.unique(np.concatenate([self.theta, fine]))
             points, weights = gauss(panels.edges[:-1], panels.edges[1:])
             density = system.spreading(some[:, None], points.ravel(), float(system.spectrum.peak))
-            unity = np.sum(np.broadcast_to(density, (some.size, points.size)) * weights.ravel(), axis=1)
-            self.unity = float(unity[np.argmax(np.abs(unity - 1.0))]) if self.variance > 0.0 else 1.0
+            unity = np.sum(
+                np.broadcast_to(density, (some.size, points.size)) * weights.ravel(), axis=1
+            )
+            self.unity = (
+                float(unity[np.argmax(np.abs(unity - 1.0))]) if self.variance > 0.0 else 1.0
+            )
 
     def radial(self, k: Real) -> tuple[Real, Real]:
         """Return omega and S d omega/dk at k > 0."""
@@ -349,19 +429,28 @@ class Part:
         return omega, self.system.spectrum(omega) * slope
 
     def density(self, k: Real, theta: Real) -> Real:
-        """Return S D d omega/dk [m^3], D not for a long-crested part, k (...,) and theta (..., ...)."""
+        """
+        Return S D d omega/dk [m^3], D not for a long-crested part, k (...,) and theta (..., ...).
+        """
         omega, s = self.radial(k)
         if self.long_crested:
             return s
-        return s * self.system.spreading(omega, theta - self.direction, float(self.system.spectrum.peak))
+        return s * self.system.spreading(
+            omega, theta - self.direction, float(self.system.spectrum.peak)
+        )
 
     def along_rays(self, theta: Real, weight: Real, first: Real, last: Real) -> Real:
-        """Return the variance along rays, from `first` to `last` [rad/m] on each, times its weight, (rays,)."""
+        """
+        Return the variance along rays, from `first` to `last` [rad/m] on each, times its weight,
+        (rays,).
+        """
         out = np.zeros(theta.size)
         for start in range(0, theta.size, _RAYS):
             some = slice(start, start + _RAYS)
             ray, low, high = split(first[some], last[some], self.k)
-            panel = np.clip(np.searchsorted(self.k, 0.5 * (low + high)) - 1, 0, self.energy.size - 1)
+            panel = np.clip(
+                np.searchsorted(self.k, 0.5 * (low + high)) - 1, 0, self.energy.size - 1
+            )
             short = high - low <= _SHORT * (self.k[panel + 1] - self.k[panel])
             for order, these in ((4, short), (8, ~short)):
                 pieces = np.flatnonzero(these & (self.energy[panel] > 0.0))
@@ -374,13 +463,21 @@ class Part:
         return out
 
     def rings(self, narrow: float) -> list[float]:
-        """The edges of the frequency panels narrower than `narrow`, and the jumps: a cell's energy bends where they cross its sides."""
+        """
+        The edges of the frequency panels narrower than `narrow`, and the jumps: a cell's energy
+        bends where they cross its sides.
+        """
         narrow_panels = np.flatnonzero(np.diff(self.k) < narrow)
         narrow_panels = narrow_panels[self.energy[narrow_panels] > 1e-6 * self.variance]
-        return np.unique(np.concatenate([self.k[narrow_panels], self.k[narrow_panels + 1], self.k_jumps])).tolist()  # type: ignore[no-any-return]
+        ends = [self.k[narrow_panels], self.k[narrow_panels + 1], self.k_jumps]
+        edges: list[float] = np.unique(np.concatenate(ends)).tolist()
+        return edges
 
     def radially(self, nearest: Real, farthest: Real) -> tuple[Real, Flags]:
-        """How large cells are beside their frequency panels, in quarters of one, and which of them one or two panels do not hold."""
+        """
+        How large cells are beside their frequency panels, in quarters of one, and which of them one
+        or two panels do not hold.
+        """
         return _beside(self.k, self.k_jumps, nearest, farthest, _TAIL * nearest)
 
     def angularly(self, theta: Real, half: Real) -> tuple[Real, Flags]:
@@ -388,7 +485,9 @@ class Part:
         return _beside(self.theta, self.theta_jumps, theta - half, theta + half, np.inf)
 
 
-def _beside(edges: Real, jumps: Real, low: Real, high: Real, most: Real | float) -> tuple[Real, Flags]:
+def _beside(
+    edges: Real, jumps: Real, low: Real, high: Real, most: Real | float
+) -> tuple[Real, Flags]:
     lengths = np.concatenate([[np.inf], np.diff(edges), [np.inf]])
     first, last = np.searchsorted(edges, low, "right"), np.searchsorted(edges, high, "right")
     scale = np.minimum(0.25 * np.minimum(lengths[first], lengths[last]), most)
@@ -400,7 +499,9 @@ def _beside(edges: Real, jumps: Real, low: Real, high: Real, most: Real | float)
 
 def _length_around(edges: Real, low: Real, high: Real) -> Real:
     """The lengths of the intervals between edges in which some shorter ones lie; inf outside."""
-    lengths: Real = np.concatenate([[np.inf], np.diff(edges), [np.inf]])[np.searchsorted(edges, 0.5 * (low + high))]
+    lengths: Real = np.concatenate([[np.inf], np.diff(edges), [np.inf]])[
+        np.searchsorted(edges, 0.5 * (low + high))
+    ]
     return lengths
 
 
@@ -412,10 +513,15 @@ def _crossings(half_x: float, half_y: float, edge: float) -> list[float]:
 
 
 def _toward_axes(dkx: float, dky: float) -> Real:
-    """Directions that narrow by halves toward the axis along which a long cell stretches; none for cells up to twice as long as wide."""
+    """
+    Directions that narrow by halves toward the axis along which a long cell stretches; none for
+    cells up to twice as long as wide.
+    """
     ratio = max(dkx, dky) / min(dkx, dky)
     if ratio <= 2.0:
         return np.zeros(0)
     steps = 0.25 * np.pi * 0.5 ** np.arange(math.ceil(math.log2(ratio)) + 3)
     axes = np.pi * np.arange(-2.0, 3.0) + (0.0 if dkx > dky else 0.5 * np.pi)
-    return np.unique(np.concatenate([axes, (axes[:, None] + steps).ravel(), (axes[:, None] - steps).ravel()]))
+    return np.unique(
+        np.concatenate([axes, (axes[:, None] + steps).ravel(), (axes[:, None] - steps).ravel()])
+    )

@@ -22,9 +22,9 @@ from fftocean.errors import FFTOceanError, OutputError, SeaWarning
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from fftocean.bake.check import Finding
-    from fftocean.bake.estimate import Estimate
-    from fftocean.bake.job import Job
+    from fftocean.baking.estimate import Estimate
+    from fftocean.baking.finished.check import Finding
+    from fftocean.job.job import Job
 
 EPILOG = """\
 exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity, 6 folder in use, 130 interrupted
@@ -79,8 +79,10 @@ def _nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 
 def _key_of(flag: str) -> str:
-    """Return a suggestion for a flag that is a key of a job without a flag of its own, or nothing."""
-    from fftocean.bake.parameters import PARAMETERS
+    """
+    Return a suggestion for a flag that is a key of a job without a flag of its own, or nothing.
+    """
+    from fftocean.job.parameters import PARAMETERS
 
     word = flag.lstrip("-").replace("-", "_")
     keys = [p.key for p in PARAMETERS if word and word in p.key.split(".")]
@@ -113,12 +115,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except OSError as error:
         _drop_stdout()
-        return _fail(f"{error.filename or 'output'}: {error.strerror or error}", OutputError.exit_code)
+        return _fail(
+            f"{error.filename or 'output'}: {error.strerror or error}", OutputError.exit_code
+        )
 
 
 @contextlib.contextmanager
 def _sigterm_leaves() -> Iterator[None]:
-    """Let SIGTERM leave as Ctrl-C does, past all that cleans up; only a main thread can, and it gives the signal back."""
+    """
+    Let SIGTERM leave as Ctrl-C does, past all that cleans up; only a main thread can, and it gives
+    the signal back.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -135,8 +142,12 @@ def _terminated(*_: object) -> NoReturn:
 
 
 def _drop_stdout() -> None:
-    """Let what is still to be printed go nowhere, so that leaving does not fail for it a second time."""
-    with contextlib.suppress(OSError, ValueError, AttributeError):  # a stdout without a file, or none
+    """
+    Let what is still to be printed go nowhere, so that leaving does not fail for it a second time.
+    """
+    with contextlib.suppress(
+        OSError, ValueError, AttributeError
+    ):  # a stdout without a file, or none
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
         os.close(nowhere)
@@ -152,7 +163,10 @@ def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
 
 
 def _plain(text: object) -> str:
-    """Text on one line, with nothing in it that a terminal would obey or could not show: names of files may hold anything."""
+    """
+    Text on one line, with nothing in it that a terminal would obey or could not show: names of
+    files may hold anything.
+    """
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))
 
 
@@ -169,9 +183,27 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"fftocean {fftocean.__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, run, given, summary, add_flags in (
-        ("bake", _bake, "[JOB.toml] [-o DIR]", "write a looping sequence of maps, a manifest and previews", _add_bake_flags),
-        ("check", _check, "DIR", "find files of a bake that are missing or changed, and maps that fail physical checks", _add_check_flags),
-        ("info", _info, "[JOB.toml] [--tiles N:SIZE,...]", "describe a job: sea, tile, loop, files, memory, time", _add_info_flags),
+        (
+            "bake",
+            _bake,
+            "[JOB.toml] [-o DIR]",
+            "write a looping sequence of maps, a manifest and previews",
+            _add_bake_flags,
+        ),
+        (
+            "check",
+            _check,
+            "DIR",
+            "find files of a bake that are missing or changed, and maps that fail physical checks",
+            _add_check_flags,
+        ),
+        (
+            "info",
+            _info,
+            "[JOB.toml] [--tiles N:SIZE,...]",
+            "describe a job: sea, tile, loop, files, memory, time",
+            _add_info_flags,
+        ),
         (
             "verify",
             _verify,
@@ -186,7 +218,13 @@ def _parser() -> argparse.ArgumentParser:
             "measure the cost of a frame here, beside a textbook FFT and the direct sum (two minutes)",
             _add_bench_flags,
         ),
-        ("plot", _plot, "[JOB.toml] [-o FILE]", "plot the specified sea and what the tile realises of it", _add_plot_flags),
+        (
+            "plot",
+            _plot,
+            "[JOB.toml] [-o FILE]",
+            "plot the specified sea and what the tile realises of it",
+            _add_plot_flags,
+        ),
         (
             "presets",
             _presets,
@@ -211,8 +249,19 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_bake_flags(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", type=_path, default=Path("out"), metavar="DIR", help="folder to write to (default: out)")
-    command.add_argument("--overwrite", action="store_true", help="replace a folder that holds another job (resuming needs no flag)")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=_path,
+        default=Path("out"),
+        metavar="DIR",
+        help="folder to write to (default: out)",
+    )
+    command.add_argument(
+        "--overwrite",
+        action="store_true",
+        help="replace a folder that holds another job (resuming needs no flag)",
+    )
     command.add_argument(
         "--downsample",
         type=_whole,
@@ -221,9 +270,17 @@ def _add_bake_flags(command: argparse.ArgumentParser) -> None:
         help="bake 1/K of the samples a side; waves too short for it are dropped",
     )
     _add_tiles_flag(command)
-    command.add_argument("--dry-run", action="store_true", help="print what would be written; refuse what a bake would refuse")
+    command.add_argument(
+        "--dry-run",
+        action="store_true",
+        help="print what would be written; refuse what a bake would refuse",
+    )
     _add_work_flags(command)
-    command.add_argument("--json", action="store_true", help="print events as lines of JSON: start, survey, frame, done, error")
+    command.add_argument(
+        "--json",
+        action="store_true",
+        help="print events as lines of JSON: start, survey, frame, done, error",
+    )
     command.add_argument("--quiet", action="store_true", help="no progress bar and no summary")
     _add_job_flags(command)
 
@@ -244,30 +301,76 @@ def _add_tiles_flag(command: argparse.ArgumentParser) -> None:
 
 def _add_check_flags(command: argparse.ArgumentParser) -> None:
     command.add_argument("folder", metavar="DIR", type=_path, help="folder of a bake")
-    command.add_argument("--repair", action="store_true", help="write wrong files again, with the same bytes")
-    command.add_argument("--job", metavar="JOB.toml", type=_path, help="job file; measured spectra are looked up next to it")
+    command.add_argument(
+        "--repair", action="store_true", help="write wrong files again, with the same bytes"
+    )
+    command.add_argument(
+        "--job",
+        metavar="JOB.toml",
+        type=_path,
+        help="job file; measured spectra are looked up next to it",
+    )
     _add_work_flags(command)
-    command.add_argument("--json", action="store_true", help="print findings as lines of JSON: finding, frame, done, error")
-    command.add_argument("--quiet", action="store_true", help="no progress bar; print nothing if there is no problem")
+    command.add_argument(
+        "--json",
+        action="store_true",
+        help="print findings as lines of JSON: finding, frame, done, error",
+    )
+    command.add_argument(
+        "--quiet", action="store_true", help="no progress bar; print nothing if there is no problem"
+    )
 
 
 def _add_work_flags(command: argparse.ArgumentParser) -> None:
     help_ = "serial, processes, dask, a scheduler's tcp://..., or auto: processes where that is faster (default: auto)"
     command.add_argument("--executor", default="auto", metavar="NAME", help=help_)
-    command.add_argument("--workers", type=_whole, metavar="N", help="number of workers (default: one for each processor)")
+    command.add_argument(
+        "--workers",
+        type=_whole,
+        metavar="N",
+        help="number of workers (default: one for each processor)",
+    )
 
 
 def _add_verify_flags(command: argparse.ArgumentParser) -> None:
     _add_job_flags(command)
-    command.add_argument("--t", type=float, default=3.7, metavar="T", help="time of the frame to verify [s] (default: 3.7)")
-    command.add_argument("--dtype", choices=("float32", "float64"), default="float64", help="precision (default: float64)")
+    command.add_argument(
+        "--t",
+        type=float,
+        default=3.7,
+        metavar="T",
+        help="time of the frame to verify [s] (default: 3.7)",
+    )
+    command.add_argument(
+        "--dtype",
+        choices=("float32", "float64"),
+        default="float64",
+        help="precision (default: float64)",
+    )
 
 
 def _add_bench_flags(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--seconds", type=float, default=120.0, metavar="S", help="approximate time to take [s] (default: 120)")
-    command.add_argument("--n", type=int, nargs="+", metavar="N", help="samples a side to measure (default: 128 256 512 1024)")
     command.add_argument(
-        "-o", "--output", type=_path, default=Path("bench.png"), metavar="FILE", help="picture to write (default: bench.png)"
+        "--seconds",
+        type=float,
+        default=120.0,
+        metavar="S",
+        help="approximate time to take [s] (default: 120)",
+    )
+    command.add_argument(
+        "--n",
+        type=int,
+        nargs="+",
+        metavar="N",
+        help="samples a side to measure (default: 128 256 512 1024)",
+    )
+    command.add_argument(
+        "-o",
+        "--output",
+        type=_path,
+        default=Path("bench.png"),
+        metavar="FILE",
+        help="picture to write (default: bench.png)",
     )
     command.add_argument("--no-picture", action="store_true", help="write no picture")
     command.add_argument("--json", type=_path, metavar="FILE", help="write the figures as JSON")
@@ -277,7 +380,9 @@ def _add_bench_flags(command: argparse.ArgumentParser) -> None:
 def _add_plot_flags(command: argparse.ArgumentParser) -> None:
     _add_job_flags(command)
     help_ = "picture to write, .png, .svg or .pdf (default: sea.png)"
-    command.add_argument("-o", "--output", type=_path, default=Path("sea.png"), metavar="FILE", help=help_)
+    command.add_argument(
+        "-o", "--output", type=_path, default=Path("sea.png"), metavar="FILE", help=help_
+    )
 
 
 def _whole(text: str) -> int:
@@ -288,7 +393,10 @@ def _whole(text: str) -> int:
 
 
 def _path(text: str) -> Path:
-    """A path that was really given: an empty one is nearly always a shell variable that is not set, and would be the current folder."""
+    """
+    A path that was really given: an empty one is nearly always a shell variable that is not set,
+    and would be the current folder.
+    """
     if not text:
         raise argparse.ArgumentTypeError("must not be empty")
     return Path(text)
@@ -296,32 +404,54 @@ def _path(text: str) -> Path:
 
 def _add_job_flags(command: argparse.ArgumentParser) -> None:
     """Add the job file, flags for the keys that have one, and --set for all."""
-    from fftocean.bake.parameters import PARAMETERS
+    from fftocean.job.parameters import PARAMETERS
 
-    command.add_argument("job", nargs="?", metavar="JOB.toml", type=Path, help="a job file; without one, the embedded default sea")
+    command.add_argument(
+        "job",
+        nargs="?",
+        metavar="JOB.toml",
+        type=Path,
+        help="a job file; without one, the embedded default sea",
+    )
     group = command.add_argument_group("keys of the job (flags override the file)")
     for p in PARAMETERS:
         if p.flag and p.switch:
             group.add_argument(
-                f"--{p.flag}", action=argparse.BooleanOptionalAction, help=f"{p.help} (default: {'yes' if p.default else 'no'})"
+                f"--{p.flag}",
+                action=argparse.BooleanOptionalAction,
+                help=f"{p.help} (default: {'yes' if p.default else 'no'})",
             )
         elif p.flag:
             unit = f" [{p.unit}]" if p.unit else ""
-            default = ",".join(p.default) if p.many else f"{p.default:g}" if isinstance(p.default, float) else p.default
+            default = (
+                ",".join(p.default)
+                if p.many
+                else f"{p.default:g}"
+                if isinstance(p.default, float)
+                else p.default
+            )
             choices = f": {', '.join(p.choices)}" if p.choices else ""
             group.add_argument(
-                f"--{p.flag}", metavar=p.flag.upper(), help=f"{p.help}{choices}{unit} (default: {default})".replace("%", "%%")
+                f"--{p.flag}",
+                metavar=p.flag.upper(),
+                help=f"{p.help}{choices}{unit} (default: {default})".replace("%", "%%"),
             )
         if p.key == "bake.frames":
             help_ = "frames a second, instead of --frames: loop times rate must be a whole number"
             group.add_argument("--fps", type=float, metavar="RATE", help=help_)
-    group.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="any key of a job file, such as sea.wind.speed=12")
+    group.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="any key of a job file, such as sea.wind.speed=12",
+    )
 
 
 def _job(options: argparse.Namespace) -> "Job":
     """The job of a command: file or default, then --set, then flags."""
-    from fftocean.bake.job import Job, parse_setting, parse_value
-    from fftocean.bake.parameters import BY_KEY, PARAMETERS
+    from fftocean.job.job import Job, parse_setting, parse_value
+    from fftocean.job.parameters import BY_KEY, PARAMETERS
 
     job = Job.default() if options.job is None else Job.read(options.job)
     changes = dict(parse_setting(text) for text in options.set)
@@ -355,7 +485,7 @@ def _at_rate(job: "Job", rate: float, changes: dict[str, Any]) -> "Job":
 
 
 def _bake(options: argparse.Namespace) -> int:
-    from fftocean.bake.lock import require_free
+    from fftocean.baking.folder.lock import require_free
 
     require_free(options.output)  # before anything is loaded that takes time
     subset = None
@@ -370,16 +500,23 @@ def _bake(options: argparse.Namespace) -> int:
         return _bake_job(options, job, subset, tell)
 
 
-def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell: "Callable[[dict[str, Any]], None] | None") -> int:
+def _bake_job(
+    options: argparse.Namespace,
+    job: "Job",
+    subset: str | None,
+    tell: "Callable[[dict[str, Any]], None] | None",
+) -> int:
     """Bake, with a bar that shows how far it is and a summary of what it made."""
-    from fftocean.bake.baker import bake
+    from fftocean.baking.bake import bake
 
     start = time.perf_counter()
     with _bar("baking", "frames", shown=not (options.quiet or options.json)) as show:
         at = {"done": 0, "frames": 0, "kept": 0}
 
         def listen(event: dict[str, Any]) -> None:
-            at.update(done=event.get("kept", event.get("done", 0)), frames=event["frames"]) if event["event"] in (
+            at.update(
+                done=event.get("kept", event.get("done", 0)), frames=event["frames"]
+            ) if event["event"] in (
                 "start",
                 "frame",
             ) else None
@@ -413,10 +550,15 @@ def _bake_job(options: argparse.Namespace, job: "Job", subset: str | None, tell:
     return 0
 
 
-def _bake_cascade(options: argparse.Namespace, job: "Job", subset: str | None, tell: "Callable[[dict[str, Any]], None] | None") -> int:
+def _bake_cascade(
+    options: argparse.Namespace,
+    job: "Job",
+    subset: str | None,
+    tell: "Callable[[dict[str, Any]], None] | None",
+) -> int:
     """Bake one sea on several tiles, one after the other."""
-    from fftocean.bake.layout import CASCADE_FILE
-    from fftocean.bake.tiles import bake_tiles, summary
+    from fftocean.baking.cascade import bake_tiles, summary
+    from fftocean.baking.folder.layout import CASCADE_FILE
 
     if options.dry_run:
         return _dry_run(options, job, subset)
@@ -425,14 +567,22 @@ def _bake_cascade(options: argparse.Namespace, job: "Job", subset: str | None, t
 
         def listen(event: dict[str, Any]) -> None:
             if event["event"] in ("start", "frame"):
-                at.update(done=event.get("kept", event.get("done")), **{key: event[key] for key in ("frames", "tile", "tiles")})
+                at.update(
+                    done=event.get("kept", event.get("done")),
+                    **{key: event[key] for key in ("frames", "tile", "tiles")},
+                )
                 show(at["done"], at["frames"], f"baking tile {at['tile'] + 1} of {at['tiles']}")
             if tell:
                 tell(event)
 
-        work = {name: getattr(options, name) for name in ("overwrite", "downsample", "executor", "workers")}
+        work = {
+            name: getattr(options, name)
+            for name in ("overwrite", "downsample", "executor", "workers")
+        }
         try:
-            listed = bake_tiles(job, options.tiles, options.output, frames=subset, listen=listen, **work)
+            listed = bake_tiles(
+                job, options.tiles, options.output, frames=subset, listen=listen, **work
+            )
         except (KeyboardInterrupt, SystemExit):
             if at:
                 finished = f"{at['done']} of {at['frames']} frames of tile {at['tile'] + 1} of {at['tiles']} are finished"
@@ -455,12 +605,16 @@ def _tiles(text: str) -> list[tuple[int, float]]:
     try:
         return [(int(n), float(size)) for n, size in (tile.split(":") for tile in text.split(","))]
     except ValueError:
-        raise argparse.ArgumentTypeError(f"must be n:size,n:size such as 512:500,512:71,256:9.3, got {text!r:.80}") from None
+        raise argparse.ArgumentTypeError(
+            f"must be n:size,n:size such as 512:500,512:71,256:9.3, got {text!r:.80}"
+        ) from None
 
 
-def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: float, kept: int) -> None:
+def _sum_up(
+    options: argparse.Namespace, manifest: dict[str, Any], seconds: float, kept: int
+) -> None:
     """Print what was made, in three lines, and what to look at."""
-    from fftocean.bake.layout import SHEET
+    from fftocean.baking.folder.layout import SHEET
 
     statistics = manifest["statistics"]
     _advise(statistics)
@@ -471,7 +625,9 @@ def _sum_up(options: argparse.Namespace, manifest: dict[str, Any], seconds: floa
     nx, ny = manifest["ocean"]["n"]
     frames = len(manifest["frames"])
     if kept == frames:
-        print(f"nothing to bake: all {maps} maps of {nx} x {ny} were there: {_plain(options.output)}")
+        print(
+            f"nothing to bake: all {maps} maps of {nx} x {ny} were there: {_plain(options.output)}"
+        )
     else:
         again = f", {kept} of {frames} frames were there" if kept else ""
         print(f"{maps} maps of {nx} x {ny} in {seconds:.1f} s{again}: {_plain(options.output)}")
@@ -494,7 +650,11 @@ def _blending(blend: dict[str, Any]) -> str:
     """What players that blend two frames lose, in a line."""
     rate, enough = blend["frames_per_second"], blend["enough"]
     kept = f"{100.0 * blend['height']:.0f} % of the waves' height, {100.0 * blend['slopes']:.0f} % of their slopes"
-    more = f"; {enough['slopes']['frames']} frames would keep 97 %" if blend["slopes"] < enough["amplitude"] else ""
+    more = (
+        f"; {enough['slopes']['frames']} frames would keep 97 %"
+        if blend["slopes"] < enough["amplitude"]
+        else ""
+    )
     return f"blending frames at {rate:.3g} a second keeps {kept}{more}"
 
 
@@ -502,28 +662,35 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int
     """Print what a bake would write; refuse what it would refuse."""
     from dataclasses import asdict
 
-    from fftocean.bake.baker import scene_for
-    from fftocean.bake.claim import header_of, require_possible
-    from fftocean.bake.crews import check_executor
-    from fftocean.bake.estimate import estimate
-    from fftocean.bake.order import frames_of
-    from fftocean.bake.tiles import estimate_tiles
+    from fftocean.baking.bake import scene_for
+    from fftocean.baking.cascade import estimate_tiles
+    from fftocean.baking.estimate import estimate
+    from fftocean.baking.folder.identity import header_of, require_possible
+    from fftocean.baking.folder.plan import frames_of
+    from fftocean.baking.workers.choice import check_executor
 
     options.executor = check_executor(options.executor, options.workers)
-    work = {"frames": subset, **{name: getattr(options, name) for name in ("downsample", "executor", "workers")}}
+    work = {
+        "frames": subset,
+        **{name: getattr(options, name) for name in ("downsample", "executor", "workers")},
+    }
     if options.tiles:
         e = estimate_tiles(job, options.tiles, **work)
     else:
         chosen = frames_of(subset, job.frames)
         scene = scene_for(job, options.downsample, len(chosen))
-        header = header_of(job, frames=chosen, downsample=options.downsample, backend=scene.ocean.backend)
+        header = header_of(
+            job, frames=chosen, downsample=options.downsample, backend=scene.ocean.backend
+        )
         require_possible(options.output, header, overwrite=options.overwrite)
         e = estimate(job, **work)
     if options.json:
         _print_event({"event": "estimate", "folder": str(options.output), **asdict(e)})
         return 0
     who = f"{e.workers} {e.executor}" if e.executor != "serial" else "one process"
-    print(f"would write {e.files} files, about {e.bytes / 1e6:.3g} MB, for {e.frames} frames to {_plain(options.output)}")
+    print(
+        f"would write {e.files} files, about {e.bytes / 1e6:.3g} MB, for {e.frames} frames to {_plain(options.output)}"
+    )
     print(f"about {e.seconds:.0f} s here, by {who}")
     print(f"memory: {_memory(e)}")
     print(f"video memory of the maps in an engine: {_video(e)}")
@@ -548,18 +715,20 @@ def _mebibytes(size: float) -> str:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from fftocean.bake.check import check
-    from fftocean.bake.job import Job
-    from fftocean.bake.layout import is_cascade
-    from fftocean.bake.listing import read_listing
-    from fftocean.bake.manifest import read_manifest
+    from fftocean.baking.finished.check import check
+    from fftocean.baking.finished.manifest import read_manifest
+    from fftocean.baking.folder.layout import is_cascade
+    from fftocean.baking.folder.listing import read_listing
+    from fftocean.job.job import Job
 
     with _events(options.json) as tell:
         with _bar("checking", "maps", shown=not (options.quiet or options.json)) as show:
-            findings = check(options.folder, progress=lambda done, total: show(done, total, "checking"))
+            findings = check(
+                options.folder, progress=lambda done, total: show(done, total, "checking")
+            )
         _report(findings, options, tell)
         if findings and options.repair:
-            from fftocean.bake.repair import repair
+            from fftocean.baking.repair import repair
 
             again: list[int] = []
 
@@ -570,7 +739,13 @@ def _check(options: argparse.Namespace) -> int:
                     tell(event)
 
             job = None if options.job is None else Job.read(options.job)
-            repair(options.folder, job, executor=options.executor, workers=options.workers, listen=listen)
+            repair(
+                options.folder,
+                job,
+                executor=options.executor,
+                workers=options.workers,
+                listen=listen,
+            )
             if not options.json:
                 print(f"repaired: {len(again)} frames were written again")
             findings = check(options.folder)
@@ -583,7 +758,11 @@ def _check(options: argparse.Namespace) -> int:
     return 5 if findings else 0
 
 
-def _report(findings: "Sequence[Finding]", options: argparse.Namespace, tell: "Callable[[dict[str, Any]], None] | None") -> None:
+def _report(
+    findings: "Sequence[Finding]",
+    options: argparse.Namespace,
+    tell: "Callable[[dict[str, Any]], None] | None",
+) -> None:
     """What was found, for people or for programs."""
     if tell:
         from dataclasses import asdict
@@ -600,9 +779,16 @@ def _report(findings: "Sequence[Finding]", options: argparse.Namespace, tell: "C
 
     table = Table(box=None, pad_edge=False)
     for heading in ("what", "file", "frame", ""):
-        table.add_column(heading, justify="right" if heading == "frame" else "left", overflow="fold")
+        table.add_column(
+            heading, justify="right" if heading == "frame" else "left", overflow="fold"
+        )
     for f in findings:
-        table.add_row(f.kind, Text(_plain(f.path)), "" if f.frame is None else str(f.frame), Text(_plain(f.detail)))
+        table.add_row(
+            f.kind,
+            Text(_plain(f.path)),
+            "" if f.frame is None else str(f.frame),
+            Text(_plain(f.detail)),
+        )
     _console().print(table)
     print(f"{len(findings)} problem{'s' * (len(findings) != 1)}: {_plain(options.folder)}")
 
@@ -614,14 +800,22 @@ def _bench(options: argparse.Namespace) -> int:
     shown = status.is_terminal and sys.stderr.isatty() and not options.quiet
     picture = None if options.no_picture else options.output
     code: int = bench(
-        _console(), seconds=options.seconds, sizes=options.n or None, picture=picture, json=options.json, status=status if shown else None
+        _console(),
+        seconds=options.seconds,
+        sizes=options.n or None,
+        picture=picture,
+        json=options.json,
+        status=status if shown else None,
     )
     return code
 
 
 @contextlib.contextmanager
 def _events(wanted: bool) -> "Iterator[Callable[[dict[str, Any]], None] | None]":
-    """Lines of JSON on stdout, the last of them the error where there is one; None where people are to read it."""
+    """
+    Lines of JSON on stdout, the last of them the error where there is one; None where people are to
+    read it.
+    """
     if not wanted:
         yield None
         return
@@ -644,15 +838,34 @@ def _print_event(event: dict[str, Any]) -> None:
 
 @contextlib.contextmanager
 def _bar(title: str, things: str, *, shown: bool) -> "Iterator[Callable[[int, int, str], None]]":
-    """A progress bar with its ETA on a terminal, and nothing anywhere else; called with (done, total, what)."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    """
+    A progress bar with its ETA on a terminal, and nothing anywhere else; called with (done, total,
+    what).
+    """
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
 
     console = _console(stderr=True)
-    shown = shown and console.is_terminal and sys.stderr.isatty()  # colours may be forced on a file, a bar may not
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn(things), TimeRemainingColumn())
+    shown = (
+        shown and console.is_terminal and sys.stderr.isatty()
+    )  # colours may be forced on a file, a bar may not
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn(things),
+        TimeRemainingColumn(),
+    )
     with Progress(*columns, console=console, disable=not shown, transient=True) as bar:
         task = bar.add_task(title, total=None)
-        yield lambda done, total, what: bar.update(task, completed=done, total=total, description=what)
+        yield lambda done, total, what: bar.update(
+            task, completed=done, total=total, description=what
+        )
 
 
 def _advise(statistics: dict[str, Any]) -> None:
@@ -675,11 +888,11 @@ def _info(options: argparse.Namespace) -> int:
     from rich.table import Table
     from rich.text import Text
 
+    from fftocean import blend_loss as blend
     from fftocean import dispersion
-    from fftocean.bake import blend
-    from fftocean.bake.baker import scene_for
-    from fftocean.bake.estimate import estimate
-    from fftocean.bake.parameters import PARAMETERS
+    from fftocean.baking.bake import scene_for
+    from fftocean.baking.estimate import estimate
+    from fftocean.job.parameters import PARAMETERS
     from fftocean.statistics import measure
 
     job = _job(options)
@@ -689,7 +902,13 @@ def _info(options: argparse.Namespace) -> int:
     ocean = scene.ocean
     statistics, grid = measure(ocean, frames=min(job.frames, 8)), ocean.grid
     console = _console()
-    table = Table(title=Text(f"Job: {_plain(job.source)}"), title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = Table(
+        title=Text(f"Job: {_plain(job.source)}"),
+        title_justify="left",
+        show_header=False,
+        box=None,
+        pad_edge=False,
+    )
     units = {p.key: p.unit for p in PARAMETERS}
     for key, value in job.describe().items():
         if key == "sea.systems":
@@ -707,22 +926,57 @@ def _info(options: argparse.Namespace) -> int:
     for heading in ("", "specified", "realised", "expected scatter (1 sigma)"):
         table.add_column(heading, justify="left" if not heading else "right", no_wrap=not heading)
     scatter = 0.5 * statistics.sampling_error * statistics.hs
-    table.add_row("significant wave height Hs", f"{ordered.hs:.3f} m", f"{statistics.hs:.3f} m", f"{scatter:.3f} m")
+    table.add_row(
+        "significant wave height Hs",
+        f"{ordered.hs:.3f} m",
+        f"{statistics.hs:.3f} m",
+        f"{scatter:.3f} m",
+    )
     table.add_row("peak period Tp", f"{ordered.tp:.2f} s", f"{statistics.tp:.2f} s")
-    table.add_row("mean direction, toward", f"{ordered.mean_direction:.1f} deg", f"{statistics.mean_direction:.1f} deg")
+    table.add_row(
+        "mean direction, toward",
+        f"{ordered.mean_direction:.1f} deg",
+        f"{statistics.mean_direction:.1f} deg",
+    )
     table.add_row("directional spread", f"{ordered.spread:.1f} deg", f"{statistics.spread:.1f} deg")
     console.print(table)
     table = Table(title="\nTile", title_justify="left", show_header=False, box=None, pad_edge=False)
     if ordered.m0 > 0.0:
-        length = 2.0 * math.pi / float(dispersion.wavenumber(2.0 * math.pi / ordered.tp, ocean.depth, ocean.amplitudes.surface_tension))
-        table.add_row("peak wavelength", f"{length:.3g} m: {min(grid.lx, grid.ly) / length:.1f} of them across the tile")
-    table.add_row("smallest wave", f"{2.0 * max(grid.lx / grid.nx, grid.ly / grid.ny):.3g} m, two samples")
-    lost = (statistics.energy_below / ordered.m0, statistics.energy_above / ordered.m0) if ordered.m0 else (0.0, 0.0)
-    table.add_row("energy it cannot hold", f"{100 * lost[0]:.2f} % in longer waves, {100 * lost[1]:.2f} % in shorter ones")
+        length = (
+            2.0
+            * math.pi
+            / float(
+                dispersion.wavenumber(
+                    2.0 * math.pi / ordered.tp, ocean.depth, ocean.amplitudes.surface_tension
+                )
+            )
+        )
+        table.add_row(
+            "peak wavelength",
+            f"{length:.3g} m: {min(grid.lx, grid.ly) / length:.1f} of them across the tile",
+        )
+    table.add_row(
+        "smallest wave", f"{2.0 * max(grid.lx / grid.nx, grid.ly / grid.ny):.3g} m, two samples"
+    )
+    lost = (
+        (statistics.energy_below / ordered.m0, statistics.energy_above / ordered.m0)
+        if ordered.m0
+        else (0.0, 0.0)
+    )
+    table.add_row(
+        "energy it cannot hold",
+        f"{100 * lost[0]:.2f} % in longer waves, {100 * lost[1]:.2f} % in shorter ones",
+    )
     if statistics.loop:
         e = statistics.loop
-        better = f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %" if e.better_period != e.period else ""
-        table.add_row("loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}")
+        better = (
+            f"; {e.better_period:g} s would have {100 * e.better_rms:.1f} %"
+            if e.better_period != e.period
+            else ""
+        )
+        table.add_row(
+            "loop frequency error", f"{100 * e.rms:.1f} % rms, {100 * e.bias:+.1f} % bias{better}"
+        )
     table.add_row("folds", str(statistics.folding))
     assert ocean.sea is not None  # a job has a sea
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
@@ -730,7 +984,9 @@ def _info(options: argparse.Namespace) -> int:
             table.add_row("water stated by", part)
     table.add_row("FFT library", ocean.backend)
     cost = estimate(job, scene=scene)
-    table.add_row("files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB")
+    table.add_row(
+        "files", f"{cost.files} files of {len(job.maps)} maps, about {cost.bytes / 1e6:.0f} MB"
+    )
     table.add_row("memory", _memory(cost))
     table.add_row("video memory", f"{_video(cost)}, as textures in an engine")
     table.add_row("time to bake", f"about {cost.seconds:.0f} s here")
@@ -745,8 +1001,8 @@ def _info_of_tiles(options: argparse.Namespace, job: "Job") -> int:
     from rich.table import Table
     from rich.text import Text
 
-    from fftocean.bake.tiles import water_estimate
-    from fftocean.bake.water import prepare
+    from fftocean.baking.cascade import water_estimate
+    from fftocean.baking.cascade_setup import prepare
 
     water = prepare(job, options.tiles)
     cost = water_estimate(water)
@@ -755,7 +1011,10 @@ def _info_of_tiles(options: argparse.Namespace, job: "Job") -> int:
     for name, text in water.rows():
         table.add_row(name, Text(text))
     table.add_row("files", f"{cost.files} files, about {cost.bytes / 1e6:.0f} MB")
-    table.add_row("memory", f"about {cost.memory / 2**20:.0f} MiB for the largest tile, in each of {cost.workers} at work")
+    table.add_row(
+        "memory",
+        f"about {cost.memory / 2**20:.0f} MiB for the largest tile, in each of {cost.workers} at work",
+    )
     table.add_row("time to bake", f"about {cost.seconds:.0f} s here")
     _console().print(table)
     return 0
@@ -778,14 +1037,19 @@ def _verify(options: argparse.Namespace) -> int:
     wide = console.width >= 100  # the reasons are what a narrow terminal can do without
     for heading in ("quantity", "against", "error", "tolerance", *(["reason"] if wide else []), ""):
         number = heading in ("error", "tolerance")
-        table.add_column(heading, justify="right" if number else "left", no_wrap=number or not heading)
+        table.add_column(
+            heading, justify="right" if number else "left", no_wrap=number or not heading
+        )
     for c in checks:
         verdict = "[green]ok[/]" if c.passed else "[bold red]FAILED[/]"
         reason = [c.reason] if wide else []
         table.add_row(c.name, c.against, f"{c.figure:.1e}", f"{c.bound:.1e}", *reason, verdict)
     console.print(table)
     failed = [c.name for c in checks if not c.passed]
-    print(f"{len(checks) - len(failed)} of {len(checks)} checks passed" + (f"; failed: {', '.join(failed)}" if failed else ""))
+    print(
+        f"{len(checks) - len(failed)} of {len(checks)} checks passed"
+        + (f"; failed: {', '.join(failed)}" if failed else "")
+    )
     return 5 if failed else 0
 
 
@@ -804,15 +1068,29 @@ def _presets(_: argparse.Namespace) -> int:
 
     console = _console()
     for title, call, rows in (
-        ("Beaufort scale: U10, and the probable wave height of the open sea", "Sea.beaufort", presets.beaufort_table()),
-        ("Sea states, WMO code table 3700: middle of the range, fully developed", "Sea.sea_state", presets.sea_state_table()),
+        (
+            "Beaufort scale: U10, and the probable wave height of the open sea",
+            "Sea.beaufort",
+            presets.beaufort_table(),
+        ),
+        (
+            "Sea states, WMO code table 3700: middle of the range, fully developed",
+            "Sea.sea_state",
+            presets.sea_state_table(),
+        ),
     ):
         table = Table(title=title, title_justify="left", box=None, pad_edge=False)
         for heading in ("call", "name", "U10 m/s", "knots", "Hs m", "computed m", "Tp s"):
             words = heading in ("call", "name")
             table.add_column(heading, justify="left" if words else "right", no_wrap=True)
         for row in rows:
-            numbers = (f"{row.wind:.1f}", f"{row.wind_knots:.0f}", f"{row.hs:.3f}", f"{row.measured_hs:.7f}", f"{row.tp:.1f}")
+            numbers = (
+                f"{row.wind:.1f}",
+                f"{row.wind_knots:.0f}",
+                f"{row.hs:.3f}",
+                f"{row.measured_hs:.7f}",
+                f"{row.tp:.1f}",
+            )
             table.add_row(f"{call}({row.number})", row.name, *numbers)
         console.print(table)
         console.print()

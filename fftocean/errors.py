@@ -65,7 +65,9 @@ class CacheWarning(UserWarning):
 
 
 def described(value: object) -> str:
-    """Return what a wrong argument is, for a message: its type, and its value where that is short."""
+    """
+    Return what a wrong argument is, for a message: its type, and its value where that is short.
+    """
     if isinstance(value, type):
         return f"the class {value.__name__}"
     kind = type(value).__name__

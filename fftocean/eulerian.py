@@ -1,14 +1,16 @@
 """
 The water at places instead of the places of the water: fields resampled to a grid of world x and y.
 
-A frame tells, for each undisplaced position x0, where its water is: at x0 + c D(x0). Here that is turned round. For each world
-position x of the grid the x0 is found whose water is there, and the fields are taken at x0. What comes out is the same surface as
-a plain height field: an `EulerianFrame`.
+A frame tells, for each undisplaced position x0, where its water is: at x0 + c D(x0). Here that is
+turned round. For each world position x of the grid the x0 is found whose water is there, and the
+fields are taken at x0. What comes out is the same surface as a plain height field: an
+`EulerianFrame`.
 
-Between samples the fields are quintic B-splines on a grid twice as fine. Their coefficients need no solving: they are the frame of
-a sea whose waves are divided by the spline's own response to each wavenumber (Unser 1999), and that sea is an `Ocean`, too. On a
-wave of wavenumber k sampled h apart the spline errs by (k h)^6/30240: 5e-4 at the shortest wave of the tile, 8e-6 at twice its
-length, so on a sea some hundredth of a millimetre.
+Between samples the fields are quintic B-splines on a grid twice as fine. Their coefficients need no
+solving: they are the frame of a sea whose waves are divided by the spline's own response to each
+wavenumber (Unser 1999), and that sea is an `Ocean`, too. On a wave of wavenumber k sampled h apart
+the spline errs by (k h)^6/30240: 5e-4 at the shortest wave of the tile, 8e-6 at twice its length,
+so on a sea some hundredth of a millimetre.
 """
 
 import math
@@ -28,7 +30,9 @@ from fftocean.grid import Grid
 from fftocean.kernels import interpolate, resample, surface
 from fftocean.ocean import Ocean, memory_needed, named, remade
 
-EXACT = 5e-6  # [m], what splines may miss of the height, as a standard deviation; the most of a tile is about 13 times that
+# [m], what splines may miss of the height, as a standard deviation; the most of a tile is about 13
+# times that
+EXACT = 5e-6
 FINEST = 8  # samples of the splines to one of the ocean, at most
 STEEPEST = 1e3
 """The largest slope that is returned; only the rim of a fold is steeper."""
@@ -48,13 +52,16 @@ _MADE_OF = {
 
 class Eulerian:
     """
-    An ocean seen from fixed places. `frame` and `loop_frame` are those of `Ocean`, but sample [iy, ix] is the water AT x, y.
+    An ocean seen from fixed places. `frame` and `loop_frame` are those of `Ocean`, but sample [iy,
+    ix] is the water AT x, y.
 
-    Of an `EulerianFrame`, in world coordinates: height; slope_x, slope_y, dz/dx and dz/dy of the surface (cut at 1000, which only
-    the rim of a fold exceeds); normal, the surface's own. And of the water that is there just now: jacobian, and velocity_*,
-    before choppiness as ever. A height field has neither displacement nor stretch: to ask for one is an error.
+    Of an `EulerianFrame`, in world coordinates: height; slope_x, slope_y, dz/dx and dz/dy of the
+    surface (cut at 1000, which only the rim of a fold exceeds); normal, the surface's own. And of
+    the water that is there just now: jacobian, and velocity_*, before choppiness as ever. A height
+    field has neither displacement nor stretch: to ask for one is an error.
 
-    Where the surface is folded over a place, the highest of its sheets is taken; `folded` tells where, of the last frame.
+    Where the surface is folded over a place, the highest of its sheets is taken; `folded` tells
+    where, of the last frame.
 
     It keeps the last frame's positions, for `resample`: one thread at a time.
 
@@ -71,10 +78,15 @@ class Eulerian:
         self._ocean = ocean
         self._finer = finer_by = _fineness(ocean)
         finer = replace(grid, nx=finer_by * grid.nx, ny=finer_by * grid.ny)
-        require_memory(f"an eulerian frame of n = {grid.nx} x {grid.ny}", 2.0 * memory_needed(finer, ocean.dtype))
+        require_memory(
+            f"an eulerian frame of n = {grid.nx} x {grid.ny}",
+            2.0 * memory_needed(finer, ocean.dtype),
+        )
         self._splines = _spline_ocean(ocean, finer)
         self._cells = np.array([finer.nx / grid.lx, finer.ny / grid.ly])  # [1/m]
-        v, u = np.meshgrid(finer_by * np.arange(grid.ny), finer_by * np.arange(grid.nx), indexing="ij")
+        v, u = np.meshgrid(
+            finer_by * np.arange(grid.ny), finer_by * np.arange(grid.nx), indexing="ij"
+        )
         self._x, self._y = (np.ascontiguousarray(p, dtype=np.float64).ravel() for p in (u, v))
         self._u, self._v, self._residual = self._x.copy(), self._y.copy(), np.zeros(u.size)
         self._folded = np.zeros(grid.shape, dtype=np.bool_)
@@ -101,39 +113,63 @@ class Eulerian:
             ParameterError: as `Ocean.loop_frame`.
         """
         fields, needs = _needed(fields)
-        return self._resample(self._splines.loop_frame(j, count, needs, out=self._reusable(needs)), fields)
+        return self._resample(
+            self._splines.loop_frame(j, count, needs, out=self._reusable(needs)), fields
+        )
 
     @property
     def folded(self) -> npt.NDArray[np.bool_]:
-        """Where several sheets of the last frame's surface lie over one place, (ny, nx); their number is `folded.sum()`."""
+        """
+        Where several sheets of the last frame's surface lie over one place, (ny, nx); their number
+        is `folded.sum()`.
+        """
         return self._folded
 
     @property
     def residual(self) -> float:
-        """How far the water taken is from its place, at most, in the last frame [m]; above 1e-6 m only beside folds."""
+        """
+        How far the water taken is from its place, at most, in the last frame [m]; above 1e-6 m only
+        beside folds.
+        """
         return float(np.max(self._residual)) / float(np.min(self._cells))
 
     @property
     def positions(self) -> tuple[Real, Real]:
-        """Where the water at each place of the last frame would be at rest: x0, y0, each (ny, nx) [m]."""
-        return (self._u / self._cells[0]).reshape(self.grid.shape), (self._v / self._cells[1]).reshape(self.grid.shape)
+        """
+        Where the water at each place of the last frame would be at rest: x0, y0, each (ny, nx) [m].
+        """
+        return (self._u / self._cells[0]).reshape(self.grid.shape), (
+            self._v / self._cells[1]
+        ).reshape(self.grid.shape)
 
     def resample(self, field: Real) -> Real:
         """
-        Return another field of the last frame's moment, such as foam, by place: (ny, nx), bilinear between its samples.
+        Return another field of the last frame's moment, such as foam, by place: (ny, nx), bilinear
+        between its samples.
 
         Raises:
             ParameterError: the field has another shape than the tile.
         """
         if field.shape != self.grid.shape:
-            raise ParameterError(f"field must have the tile's shape {self.grid.shape}, got {field.shape}")
+            raise ParameterError(
+                f"field must have the tile's shape {self.grid.shape}, got {field.shape}"
+            )
         out = np.zeros((self._u.size, 1))
-        interpolate.bilinear(np.ascontiguousarray(field)[..., None], self._u / self._finer, self._v / self._finer, out)
+        interpolate.bilinear(
+            np.ascontiguousarray(field)[..., None],
+            self._u / self._finer,
+            self._v / self._finer,
+            out,
+        )
         resampled: Real = out.reshape(self.grid.shape).astype(field.dtype)
         return resampled
 
     def _reusable(self, needs: tuple[str, ...]) -> Frame | None:
-        return self._frame if self._frame is not None and set(needs) <= set(self._frame.fields) else None
+        return (
+            self._frame
+            if self._frame is not None and set(needs) <= set(self._frame.fields)
+            else None
+        )
 
     def _resample(self, splines: Frame, fields: tuple[str, ...]) -> EulerianFrame:
         """Find the water at each place, and take the fields there."""
@@ -153,21 +189,35 @@ class Eulerian:
             jacobian = np.empty(shape)
             surface.jacobian(xx, xy, yy, c, jacobian)
             values["jacobian"] = jacobian
-        return EulerianFrame(splines.t, self.grid, c, {name: values[name].astype(self._ocean.dtype) for name in fields})
+        return EulerianFrame(
+            splines.t,
+            self.grid,
+            c,
+            {name: values[name].astype(self._ocean.dtype) for name in fields},
+        )
 
     def _find(self, splines: Frame) -> None:
-        """Set `_u`, `_v` to the undisplaced positions of the water at each place, in samples of the splines."""
+        """
+        Set `_u`, `_v` to the undisplaced positions of the water at each place, in samples of the
+        splines.
+        """
         fine = splines.grid
         c = splines.choppiness
-        shift = np.stack([splines.displace_x, splines.displace_y], axis=-1) * (c * self._cells).astype(splines.height.dtype)
+        shift = np.stack([splines.displace_x, splines.displace_y], axis=-1) * (
+            c * self._cells
+        ).astype(splines.height.dtype)
         at_nodes = _at_nodes(np.stack([shift[..., 0], shift[..., 1], splines.height]))
         top = np.full(self.grid.shape, -np.inf)
         self._folded = np.zeros(self.grid.shape, dtype=np.bool_)
         self._u[:], self._v[:] = self._x, self._y
         u, v = self._u.reshape(self.grid.shape), self._v.reshape(self.grid.shape)
         along, up = np.arange(fine.nx)[None, :], np.arange(fine.ny)[:, None]
-        resample.uncover(at_nodes[0] + along, at_nodes[1] + up, at_nodes[2], self._finer, u, v, top, self._folded)
-        tolerance = 1e-6 if splines.height.dtype == np.float32 else 1e-12  # of a sample: what the fields' own roundings allow
+        resample.uncover(
+            at_nodes[0] + along, at_nodes[1] + up, at_nodes[2], self._finer, u, v, top, self._folded
+        )
+        tolerance = (
+            1e-6 if splines.height.dtype == np.float32 else 1e-12
+        )  # of a sample: what the fields' own roundings allow
         resample.invert(shift, self._x, self._y, 8, tolerance, self._u, self._v, self._residual)
 
     def _sampled(self, splines: Frame, names: tuple[str, ...]) -> dict[str, Real]:
@@ -176,11 +226,17 @@ class Eulerian:
             return {}
         out = np.empty((self._u.size, len(names)))
         resample.sample(np.stack([splines[name] for name in names], axis=-1), self._u, self._v, out)
-        return {name: np.ascontiguousarray(out[:, i]).reshape(self.grid.shape) for i, name in enumerate(names)}
+        return {
+            name: np.ascontiguousarray(out[:, i]).reshape(self.grid.shape)
+            for i, name in enumerate(names)
+        }
 
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The fields asked for, and those to ask of the splines: displacement and height to find the water, and what the fields are made of."""
+    """
+    The fields asked for, and those to ask of the splines: displacement and height to find the
+    water, and what the fields are made of.
+    """
     if isinstance(fields, Iterable):
         fields = (fields,) if isinstance(fields, str) else tuple(fields)
     for name in fields if isinstance(fields, tuple) else ():
@@ -193,16 +249,19 @@ def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 def _fineness(ocean: Ocean) -> int:
     """
-    Return how many samples of the splines to one of the ocean keep the height to `EXACT`: 2 for most seas, more for storms on few samples.
+    Return how many samples of the splines to one of the ocean keep the height to `EXACT`: 2 for
+    most seas, more for storms on few samples.
 
-    A quintic spline through samples h apart misses a wave of wavenumber k by (k h)^6 / 30240 of its amplitude (Fourier's error kernel of
-    the cardinal spline, to leading order), along each axis.
+    A quintic spline through samples h apart misses a wave of wavenumber k by (k h)^6 / 30240 of its
+    amplitude (Fourier's error kernel of the cardinal spline, to leading order), along each axis.
     """
     a, grid = ocean.amplitudes, ocean.grid
     energy = 2.0 * a.squares  # a^2/2 of the two waves of an entry
     finer = 2
     while finer < FINEST:
-        missed = (grid.kx[None, :] * grid.lx / (grid.nx * finer)) ** 6 + (grid.ky[:, None] * grid.ly / (grid.ny * finer)) ** 6
+        missed = (grid.kx[None, :] * grid.lx / (grid.nx * finer)) ** 6 + (
+            grid.ky[:, None] * grid.ly / (grid.ny * finer)
+        ) ** 6
         if float(np.sqrt(np.sum(energy * (missed / 30240.0) ** 2))) <= EXACT:
             break
         finer *= 2
@@ -210,7 +269,10 @@ def _fineness(ocean: Ocean) -> int:
 
 
 def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
-    """The ocean whose frames are the quintic spline coefficients of this one's fields, on a finer grid."""
+    """
+    The ocean whose frames are the quintic spline coefficients of this one's fields, on a finer
+    grid.
+    """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(grid.active)
     rows_there = grid.my[rows]  # negative ones count from the end there, too
@@ -234,17 +296,24 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
 
 
 def _response(cycles: Real) -> Real:
-    """What the quintic B-spline at whole numbers makes of a wave of so many cycles a sample: its discrete Fourier transform."""
+    """
+    What the quintic B-spline at whole numbers makes of a wave of so many cycles a sample: its
+    discrete Fourier transform.
+    """
     angle = 2.0 * math.pi * cycles
     response: Real = (66.0 + 52.0 * np.cos(angle) + 2.0 * np.cos(2.0 * angle)) / 120.0
     return response
 
 
 def _at_nodes(coefficients: Real) -> Real:
-    """The splines at their own nodes, (fields, my, mx): each axis filtered by 1, 26, 66, 26, 1 in 120."""
+    """
+    The splines at their own nodes, (fields, my, mx): each axis filtered by 1, 26, 66, 26, 1 in 120.
+    """
     for axis in (-2, -1):
         total = 66.0 * coefficients
         for step, weight in ((1, 26.0), (2, 1.0)):
-            total += weight * (np.roll(coefficients, step, axis) + np.roll(coefficients, -step, axis))
+            total += weight * (
+                np.roll(coefficients, step, axis) + np.roll(coefficients, -step, axis)
+            )
         coefficients = total / 120.0
     return coefficients

@@ -1,13 +1,15 @@
 """
 Every linear field of the sea, as one line of signs.
 
-All of them are derivatives of two functions of (x, y, t): the height h, and the displacement potential chi, whose gradient
-is the horizontal displacement D of the water at the surface. In wavenumber space
+All of them are derivatives of two functions of (x, y, t): the height h, and the displacement
+potential chi, whose gradient is the horizontal displacement D of the water at the surface. In
+wavenumber space
 
     chi(k) = h(k) / (|k| tanh(|k| depth)),      d/dx = i kx,      d/dy = i ky,
 
-so D = grad chi = sum (+i k/|k|) / tanh(|k| depth) h(k) e^{i k.x}: +i draws water toward the crests and sharpens them.
-The time derivative turns h(k) = forward e^{-i omega t} + backward e^{+i omega t} by -i omega and +i omega.
+so D = grad chi = sum (+i k/|k|) / tanh(|k| depth) h(k) e^{i k.x}: +i draws water toward the crests
+and sharpens them. The time derivative turns h(k) = forward e^{-i omega t} + backward e^{+i omega t}
+by -i omega and +i omega.
 """
 
 from dataclasses import dataclass
@@ -50,7 +52,10 @@ EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
 
 
 def potential_factor(k: Real, depth: float) -> Real:
-    """1 / (k tanh(k h)) [m], the factor from height to displacement potential; 0 at k = 0, where there is no wave."""
+    """
+    1 / (k tanh(k h)) [m], the factor from height to displacement potential; 0 at k = 0, where there
+    is no wave.
+    """
     k = np.asarray(k, dtype=np.float64)
     with np.errstate(over="ignore"):
         steepening = k * (1.0 if np.isinf(depth) else np.tanh(k * depth))

@@ -54,7 +54,9 @@ class Foam:
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
-    threshold: float = 0.72  # of the squeeze, below which water foams: 1 is still water, 0 folded [-]
+    threshold: float = (
+        0.72  # of the squeeze, below which water foams: 1 is still water, 0 folded [-]
+    )
     strength: float = 60.0  # foam made per second and unit of squeeze below the threshold [1/s]
 
     def __post_init__(self) -> None:
@@ -107,7 +109,10 @@ class Foam:
             made: the `response` of each span of `spans_of(count)`, in order.
         """
         assert ocean.loop is not None  # else there were no responses
-        kept = [math.exp(-(stop - first) * ocean.loop / count / self.tau) for first, stop in spans_of(count)]
+        kept = [
+            math.exp(-(stop - first) * ocean.loop / count / self.tau)
+            for first, stop in spans_of(count)
+        ]
         turn = np.zeros(ocean.grid.shape)
         for decay, new in zip(kept, made, strict=True):
             turn = decay * turn + new
@@ -117,7 +122,9 @@ class Foam:
             states[i] = kept[i - 1] * states[i - 1] + made[i - 1]
         return states
 
-    def states(self, ocean: Ocean | Window, count: int, start: Real, first: int, stop: int) -> Iterator[tuple[int, Real]]:
+    def states(
+        self, ocean: Ocean | Window, count: int, start: Real, first: int, stop: int
+    ) -> Iterator[tuple[int, Real]]:
         """
         Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`;
         each is good until the next.
@@ -129,15 +136,23 @@ class Foam:
         for j in self._run(ocean, count, state, first, stop - 1):
             yield j, state
 
-    def _run(self, ocean: Ocean | Window, count: int, state: Real, first: int, last: int) -> Iterator[int]:
+    def _run(
+        self, ocean: Ocean | Window, count: int, state: Real, first: int, last: int
+    ) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
         if ocean.loop is None:
-            raise ParameterError("foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without")
+            raise ParameterError(
+                "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without"
+            )
         count = FRAMES.check_whole("count", count)
         parts = max(1, math.ceil(ocean.loop / count / longest_step(ocean)))
         stepper = _Stepper(self, ocean.loop / (count * parts))
         watch = _Watch(ocean)
-        window = [watch.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)] if last > first else []
+        window = (
+            [watch.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)]
+            if last > first
+            else []
+        )
         for j in range(first, last):
             for i in range(parts):
                 window.append(watch.in_loop(j * parts + i + 2, count * parts))
@@ -177,7 +192,9 @@ class LiveFoam:
         """
         t = TIME.check("t", t)
         if t < self._last:
-            raise ParameterError(f"foam remembers and cannot go back: t must be at least {self._last!r}, got {t!r}; start another `live`")
+            raise ParameterError(
+                f"foam remembers and cannot go back: t must be at least {self._last!r}, got {t!r}; start another `live`"
+            )
         self._last = t
         place = (t - self._start) / self._step
         tick = math.floor(place)
@@ -278,7 +295,11 @@ class _Watch:
         self._spare.append(array)
 
     def _squeeze(self, frame: Frame) -> Real:
-        out = self._spare.pop() if self._spare else np.empty(frame.grid.shape, dtype=frame.stretch_xx.dtype)
+        out = (
+            self._spare.pop()
+            if self._spare
+            else np.empty(frame.grid.shape, dtype=frame.stretch_xx.dtype)
+        )
         c: Any = frame.stretch_xx.dtype.type(frame.choppiness)
         surface.minimum_eigenvalue(frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, c, out)
         return out
@@ -294,10 +315,17 @@ class _Stepper:
         self._threshold = settings.threshold
         self._decay = math.exp(-step / settings.tau)
         u = np.linspace(0.0, 1.0, 5)
-        lagrange = [-u * (u - 1) * (u - 2) / 6, (u + 1) * (u - 1) * (u - 2) / 2, -u * (u + 1) * (u - 2) / 2, u * (u + 1) * (u - 1) / 6]
+        lagrange = [
+            -u * (u - 1) * (u - 2) / 6,
+            (u + 1) * (u - 1) * (u - 2) / 2,
+            -u * (u + 1) * (u - 2) / 2,
+            u * (u + 1) * (u - 1) / 6,
+        ]
         self._cubic = np.ascontiguousarray(np.stack(lagrange, axis=1))
         early, late = _exponential_weights(0.25 * step / settings.tau)
-        left = np.exp(-(1.0 - u) * step / settings.tau)  # of what is there at each quarter, at the end
+        left = np.exp(
+            -(1.0 - u) * step / settings.tau
+        )  # of what is there at each quarter, at the end
         self._weights = np.zeros(5)
         self._weights[:-1] += early * left[1:]
         self._weights[1:] += late * left[1:]
@@ -306,7 +334,17 @@ class _Stepper:
     def advance(self, window: Sequence[Real], state: Real) -> None:
         """Move a state on; `window` is the squeeze before, at the start, at the end, and after."""
         before, now, then, after = window
-        kernel.advance(before, now, then, after, self._cubic, self._weights, self._threshold, self._decay, state)
+        kernel.advance(
+            before,
+            now,
+            then,
+            after,
+            self._cubic,
+            self._weights,
+            self._threshold,
+            self._decay,
+            state,
+        )
 
 
 def _exponential_weights(x: float) -> tuple[float, float]:
@@ -318,6 +356,8 @@ def _exponential_weights(x: float) -> tuple[float, float]:
     differences of near equals.
     """
     if x < 1e-3:
-        return x * (1 / 2 - x * (1 / 3 - x * (1 / 8 - x * (1 / 30)))), x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120))))
+        return x * (1 / 2 - x * (1 / 3 - x * (1 / 8 - x * (1 / 30)))), x * (
+            1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120)))
+        )
     mean = -math.expm1(-x) / x
     return mean - math.exp(-x), 1.0 - mean

@@ -1,11 +1,13 @@
 """
 Forks while other threads compute.
 
-A forked child has only the thread that forked. What another thread was in the middle of stays as it was for ever: a plan half made, a
-lock held by nobody. So a fork waits until no thread makes an ocean or computes a frame, and takes the locks of the libraries that
-plan and compile; then the child can make oceans and frames of its own. It waits for `PATIENCE` seconds at most, so a fork never
-hangs, and what a child may do after a longer wait is not promised. Nor is a fork during an import in another thread, which Python
-itself does not survive: import the package and make a first ocean before.
+A forked child has only the thread that forked. What another thread was in the middle of stays as it
+was for ever: a plan half made, a lock held by nobody. So a fork waits until no thread makes an
+ocean or computes a frame, and takes the locks of the libraries that plan and compile; then the
+child can make oceans and frames of its own. It waits for `PATIENCE` seconds at most, so a fork
+never hangs, and what a child may do after a longer wait is not promised. Nor is a fork during an
+import in another thread, which Python itself does not survive: import the package and make a first
+ocean before.
 """
 
 import contextlib
@@ -51,7 +53,9 @@ def guard(lock: Lock) -> None:
 
 @contextlib.contextmanager
 def no_fork() -> Iterator[None]:
-    """Keep forks of other threads waiting while the block runs; a block within a block is no other."""
+    """
+    Keep forks of other threads waiting while the block runs; a block within a block is no other.
+    """
     gate = _gate
     depth = getattr(gate.own, "depth", 0)
     if not depth:

@@ -11,7 +11,10 @@ Own = TypeVar("Own", bound="_Arrays")
 
 
 class _Arrays:
-    """The moment, the grid and the named arrays that all frames have, and the fields that mean the same in all of them."""
+    """
+    The moment, the grid and the named arrays that all frames have, and the fields that mean the
+    same in all of them.
+    """
 
     __slots__ = ("_arrays", "choppiness", "grid", "t")
 
@@ -40,12 +43,20 @@ class _Arrays:
 
     def _missing(self, name: str) -> str:
         """The reason why a field is not here, and the way to it."""
-        made = {"normal": ", or take fo.normals(frame)", "jacobian": ", or take fo.jacobian(frame)"}.get(name, "")
+        made = {
+            "normal": ", or take fo.normals(frame)",
+            "jacobian": ", or take fo.jacobian(frame)",
+        }.get(name, "")
         return f"this frame has {', '.join(self._arrays)}; for {name} ask frame(t, fields=({name!r}, ...)){made}"
 
     def _become(self: Own, other: Own) -> None:
         """Take over another frame's moment and arrays."""
-        self.t, self.grid, self.choppiness, self._arrays = other.t, other.grid, other.choppiness, other._arrays
+        self.t, self.grid, self.choppiness, self._arrays = (
+            other.t,
+            other.grid,
+            other.choppiness,
+            other._arrays,
+        )
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}(t={self.t}, {self.grid.nx} x {self.grid.ny}, {', '.join(self._arrays)})"
@@ -87,7 +98,10 @@ class _Arrays:
 
     @property
     def jacobian(self) -> Real:
-        """Area of displaced over still surface [-], of the water that the sample is about; below 0 it is folded."""
+        """
+        Area of displaced over still surface [-], of the water that the sample is about; below 0 it
+        is folded.
+        """
         return self["jacobian"]
 
 
@@ -95,10 +109,10 @@ class Frame(_Arrays):
     """
     The water at one moment: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
 
-    Sample [iy, ix] is the water that is at rest at x, y. Only the fields that were asked for are there; the others raise
-    `FieldError`. Displacements, stretches and horizontal velocities are those of linear wave theory: the surface is at
-    (x + c displace_x, y + c displace_y, height), where c is `choppiness`, and moves with (c velocity_x, c velocity_y,
-    velocity_z).
+    Sample [iy, ix] is the water that is at rest at x, y. Only the fields that were asked for are
+    there; the others raise `FieldError`. Displacements, stretches and horizontal velocities are
+    those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height),
+    where c is `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
     """
 
     __slots__ = ()
@@ -129,7 +143,16 @@ class Frame(_Arrays):
         return self["stretch_yy"]
 
 
-BY_PLACE = ("height", "slope_x", "slope_y", "velocity_x", "velocity_y", "velocity_z", "normal", "jacobian")
+BY_PLACE = (
+    "height",
+    "slope_x",
+    "slope_y",
+    "velocity_x",
+    "velocity_y",
+    "velocity_z",
+    "normal",
+    "jacobian",
+)
 """The fields of an `EulerianFrame`."""
 
 NOT_BY_PLACE = "a height field over places has no displacement, nor the stretch of one"
@@ -142,17 +165,23 @@ def _absent(name: str) -> property:
 
 class EulerianFrame(_Arrays):
     """
-    The water at places: named arrays, (ny, nx), indexed [iy, ix]; sample [iy, ix] is the water that is now at x, y.
+    The water at places: named arrays, (ny, nx), indexed [iy, ix]; sample [iy, ix] is the water that
+    is now at x, y.
 
-    The surface is at (x, y, height): height, slope_x, slope_y and normal are those of a height field over world x and y.
-    jacobian and velocity_* are those of the water that is there just now; horizontal velocities are before `choppiness`, as
-    ever. There are no displacements and no stretches, and nothing that is made of them.
+    The surface is at (x, y, height): height, slope_x, slope_y and normal are those of a height
+    field over world x and y. jacobian and velocity_* are those of the water that is there just now;
+    horizontal velocities are before `choppiness`, as ever. There are no displacements and no
+    stretches, and nothing that is made of them.
     """
 
     __slots__ = ()
 
     displace_x, displace_y = _absent("displace_x"), _absent("displace_y")
-    stretch_xx, stretch_xy, stretch_yy = _absent("stretch_xx"), _absent("stretch_xy"), _absent("stretch_yy")
+    stretch_xx, stretch_xy, stretch_yy = (
+        _absent("stretch_xx"),
+        _absent("stretch_xy"),
+        _absent("stretch_yy"),
+    )
 
     def _missing(self, name: str) -> str:
         if name in BY_PLACE:

@@ -16,9 +16,9 @@ class Grid:
     """
     nx x ny samples over lx x ly metres, both periodic.
 
-    Sample [iy, ix] sits at x = ix lx/nx, y = iy ly/ny. A wave has integer wavenumbers (mx, my): k = 2 pi (mx/lx, my/ly).
-    Spectra are stored as the half plane mx >= 0, indexed [my, mx], my in the order of `np.fft.fftfreq`: the other half is its
-    complex conjugate, as the surface is real.
+    Sample [iy, ix] sits at x = ix lx/nx, y = iy ly/ny. A wave has integer wavenumbers (mx, my): k =
+    2 pi (mx/lx, my/ly). Spectra are stored as the half plane mx >= 0, indexed [my, mx], my in the
+    order of `np.fft.fftfreq`: the other half is its complex conjugate, as the surface is real.
     """
 
     nx: int
@@ -38,7 +38,8 @@ class Grid:
         Make a grid from one number a side, or (nx, ny) and (lx, ly).
 
         Raises:
-            ParameterError: `n` is not one or two whole numbers in range, `size` not one or two lengths in range.
+            ParameterError: `n` is not one or two whole numbers in range, `size` not one or two
+                lengths in range.
         """
         nx, ny = (SAMPLES.check_whole("n", v) for v in _pair("n", n))
         lx, ly = (SIZE.check("size", v) for v in _pair("size", size))
@@ -101,14 +102,21 @@ class Grid:
 
     @property
     def reach(self) -> tuple[int, int]:
-        """The largest |mx| and |my| that a wave may have: below the Nyquist index, whose row and column cannot tell k from -k."""
+        """
+        The largest |mx| and |my| that a wave may have: below the Nyquist index, whose row and
+        column cannot tell k from -k.
+        """
         return (self.nx - 1) // 2, (self.ny - 1) // 2
 
     @property
     def active(self) -> npt.NDArray[np.bool_]:
-        """Which entries of the half plane hold a wave: all but k = 0 and the Nyquist row and column."""
+        """
+        Which entries of the half plane hold a wave: all but k = 0 and the Nyquist row and column.
+        """
         reach_x, reach_y = self.reach
-        mask: npt.NDArray[np.bool_] = (self.mx <= reach_x)[None, :] & (np.abs(self.my) <= reach_y)[:, None]
+        mask: npt.NDArray[np.bool_] = (self.mx <= reach_x)[None, :] & (np.abs(self.my) <= reach_y)[
+            :, None
+        ]
         mask[0, 0] = False
         return mask
 

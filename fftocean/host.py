@@ -9,8 +9,13 @@ from pathlib import Path
 
 
 def cores() -> int:
-    """On how many cores this process may run: those it is bound to, and no more than its control group pays for."""
-    count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    """
+    On how many cores this process may run: those it is bound to, and no more than its control group
+    pays for.
+    """
+    count = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
     quota, _, period = read("/sys/fs/cgroup/cpu.max").partition(" ")
     if quota.strip().isdigit() and period.strip().isdigit():
         count = min(count, max(1, int(quota) // int(period)))
@@ -24,7 +29,12 @@ def processor() -> str:
             return line.partition(":")[2].strip()
     if sys.platform == "darwin":
         with contextlib.suppress(OSError, subprocess.SubprocessError):
-            asked = subprocess.run(["/usr/sbin/sysctl", "-n", "machdep.cpu.brand_string"], capture_output=True, text=True, timeout=10)
+            asked = subprocess.run(
+                ["/usr/sbin/sysctl", "-n", "machdep.cpu.brand_string"],
+                capture_output=True,
+                text=True,
+                timeout=10,
+            )
             if asked.stdout.strip():
                 return asked.stdout.strip()
     return platform.processor() or platform.machine()

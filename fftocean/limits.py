@@ -1,8 +1,9 @@
 """
 What each physical quantity may be: its unit, its range, and the words for it.
 
-The ranges are generous: they admit every sea on Earth and most laboratory tanks, and they shut out what can only be a
-mistake (a wind in knots times a thousand, a depth of 1e-308 m). Inside them, every field is finite.
+The ranges are generous: they admit every sea on Earth and most laboratory tanks, and they shut out
+what can only be a mistake (a wind in knots times a thousand, a depth of 1e-308 m). Inside them,
+every field is finite.
 """
 
 import math
@@ -34,10 +35,15 @@ class Quantity:
         Return `value` as a float.
 
         Raises:
-            ParameterError: `value` is not a real number (bool and str are not), is NaN, or is out of range.
+            ParameterError: `value` is not a real number (bool and str are not), is NaN, or is out
+                of range.
         """
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):  # numpy's bool is no Real
-            raise ParameterError(f"{name} must be a number {self.rule}, got {value!r:.60} ({type(value).__name__})")
+        if isinstance(value, bool) or not isinstance(
+            value, numbers.Real
+        ):  # numpy's bool is no Real
+            raise ParameterError(
+                f"{name} must be a number {self.rule}, got {value!r:.60} ({type(value).__name__})"
+            )
         try:
             number = float(value)
         except OverflowError:
@@ -59,7 +65,9 @@ class Count(Quantity):
             ParameterError: `value` is not a whole number in range.
         """
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-            raise ParameterError(f"{name} must be a whole number {self.rule}, got {value!r:.60} ({type(value).__name__})")
+            raise ParameterError(
+                f"{name} must be a whole number {self.rule}, got {value!r:.60} ({type(value).__name__})"
+            )
         if not self.low <= int(value) <= self.high:
             raise ParameterError(f"{name} must be a whole number {self.rule}, got {int(value)}")
         return int(value)
@@ -76,7 +84,9 @@ def keep_checked(model: object, **quantities: Quantity) -> None:
         object.__setattr__(model, name, quantity.check(name, getattr(model, name)))
 
 
-WIND_SPEED = Quantity("m/s", 0.0, 150.0)  # the fastest gust on record is 113 m/s (Barrow Island 1996)
+WIND_SPEED = Quantity(
+    "m/s", 0.0, 150.0
+)  # the fastest gust on record is 113 m/s (Barrow Island 1996)
 FETCH = Quantity("m", 1.0, 5e7)  # the Earth's girth is 4e7 m
 DEPTH = Quantity("m", 1e-6, math.inf)
 SIGNIFICANT_WAVE_HEIGHT = Quantity("m", 0.0, 100.0)

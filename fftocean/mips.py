@@ -1,9 +1,10 @@
 """
 Mip chains: each level the box means of the one before, for any number of samples, down to one.
 
-Level l has max(1, n >> l) samples a side, as GPUs count them. Means are kept on every level: of a height, of foam. What a mean loses
-is kept beside it: the covariance of the slopes within each texel, so that distant water, whose waves are smaller than a texel,
-keeps its roughness (LEAN mapping: Olano & Baker 2010). Over any level
+Level l has max(1, n >> l) samples a side, as GPUs count them. Means are kept on every level: of a
+height, of foam. What a mean loses is kept beside it: the covariance of the slopes within each
+texel, so that distant water, whose waves are smaller than a texel, keeps its roughness (LEAN
+mapping: Olano & Baker 2010). Over any level
 
     variance of the mean slopes + mean of the covariances = variance of all slopes.
 """
@@ -19,23 +20,31 @@ from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea
 
 SHORTEST = 0.0173
-"""Where gravity waves end: the wave of least speed, of 363 rad/m in clean water [m]  (Lamb 1932, art. 267)."""
+"""
+Where gravity waves end: the wave of least speed, of 363 rad/m in clean water [m]  (Lamb 1932, art.
+267).
+"""
 
 
 def chain(texels: Real) -> list[Real]:
-    """Return the levels of a picture (ny, nx, channels), itself the first; float64 inside, each in the picture's own precision."""
+    """
+    Return the levels of a picture (ny, nx, channels), itself the first; float64 inside, each in the
+    picture's own precision.
+    """
     return [texels, *(level.astype(texels.dtype) for level in _chain(texels)[1:])]
 
 
 def slope_covariances(slope_x: Real, slope_y: Real, unresolved: Real | None = None) -> list[Real]:
     """
-    Return the covariance of the slopes within each texel of each level, (rows, columns, 3): xx, xy, yy [-].
+    Return the covariance of the slopes within each texel of each level, (rows, columns, 3): xx, xy,
+    yy [-].
 
     A texel of level 0 is one sample: what it holds within are the waves that the tile does not.
 
     Args:
         slope_x, slope_y: (ny, nx) each.
-        unresolved: the covariance of the slopes of waves that are not in the tile, (3,), the same everywhere; None for none.
+        unresolved: the covariance of the slopes of waves that are not in the tile, (3,), the same
+            everywhere; None for none.
     """
     x: Real = slope_x.astype(np.float64)
     y: Real = slope_y.astype(np.float64)
@@ -45,18 +54,24 @@ def slope_covariances(slope_x: Real, slope_y: Real, unresolved: Real | None = No
     for level in levels:
         x, y = np.moveaxis(level[..., :2], -1, 0)
         covariance = level[..., 2:] - np.stack([x * x, x * y, y * y], axis=-1)
-        covariance[..., ::2] = np.maximum(covariance[..., ::2], 0.0)  # where all slopes are equal, roundings are left
+        covariance[..., ::2] = np.maximum(
+            covariance[..., ::2], 0.0
+        )  # where all slopes are equal, roundings are left
         within.append((covariance + beyond).astype(slope_x.dtype))
     return within
 
 
-def normals(normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppiness: float) -> list[Real]:
+def normals(
+    normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppiness: float
+) -> list[Real]:
     """
-    Return the levels of a normal map, (rows, columns, 3): the normal of the mean plane of the water in each texel.
+    Return the levels of a normal map, (rows, columns, 3): the normal of the mean plane of the water
+    in each texel.
 
-    Not the mean of the normals, which are of length 1 each, but that of the cross products of the tangents, whose length is the
-    area: what they add up to is square to the rim of the patch, and its slope is the mean slope, weighted with the area seen from
-    above. The last level of a periodic tile is up.
+    Not the mean of the normals, which are of length 1 each, but that of the cross products of the
+    tangents, whose length is the area: what they add up to is square to the rim of the patch, and
+    its slope is the mean slope, weighted with the area seen from above. The last level of a
+    periodic tile is up.
 
     Args:
         normal: level 0, which is returned as it is.
@@ -71,11 +86,13 @@ def normals(normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppin
 
 def unresolved_slopes(ocean: Ocean | Cascade, shortest: float = SHORTEST) -> Real:
     """
-    Return the slope covariance of the waves of an ocean's sea that are too short for its tile: (3,), xx, xy, yy [-].
+    Return the slope covariance of the waves of an ocean's sea that are too short for its tile:
+    (3,), xx, xy, yy [-].
 
-    They are those beyond the tile's rectangle of wavenumbers, down to `shortest` [m]: the tail of the sea's own spectrum, which
-    for the spectra here falls as k^-3, so that each octave of waves is as rough as the next. An ocean of given waves has none; nor
-    has a tile of a cascade whose band ends, as the next tile holds them. Of a cascade it is that of its last tile.
+    They are those beyond the tile's rectangle of wavenumbers, down to `shortest` [m]: the tail of
+    the sea's own spectrum, which for the spectra here falls as k^-3, so that each octave of waves
+    is as rough as the next. An ocean of given waves has none; nor has a tile of a cascade whose
+    band ends, as the next tile holds them. Of a cascade it is that of its last tile.
     """
     if isinstance(ocean, Cascade):
         ocean = ocean.oceans[-1]
@@ -85,14 +102,23 @@ def unresolved_slopes(ocean: Ocean | Cascade, shortest: float = SHORTEST) -> Rea
 
 
 def beyond(sea: Sea, grid: Grid, shortest: float) -> Real:
-    """The integral of (kx kx, kx ky, ky ky) S(k) over wavenumbers beyond a tile's, up to 2 pi / shortest: rays of Simpson's rule."""
+    """
+    The integral of (kx kx, kx ky, ky ky) S(k) over wavenumbers beyond a tile's, up to 2 pi /
+    shortest: rays of Simpson's rule.
+    """
     highest = 2.0 * np.pi / shortest
     reach_x, reach_y = grid.reach
     total = np.zeros(3)
-    for part, theta, weight, edge in Cells(sea, grid.dkx, grid.dky).rays((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky):
+    for part, theta, weight, edge in Cells(sea, grid.dkx, grid.dky).rays(
+        (reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky
+    ):
         octaves = np.log(np.maximum(highest / edge, 1.0))
         k = edge[:, None] * np.exp(octaves[:, None] * np.linspace(0.0, 1.0, _STEPS + 1))
-        steps = np.array([1.0, *[4.0, 2.0] * (_STEPS // 2 - 1), 4.0, 1.0]) * octaves[:, None] / (3.0 * _STEPS)
+        steps = (
+            np.array([1.0, *[4.0, 2.0] * (_STEPS // 2 - 1), 4.0, 1.0])
+            * octaves[:, None]
+            / (3.0 * _STEPS)
+        )
         # k^2 dk = k^3 d ln k
         rough = part.share * weight * np.sum(steps * k**3 * part.density(k, theta[:, None]), axis=1)
         cosine, sine = np.cos(theta), np.sin(theta)
@@ -117,5 +143,7 @@ def _chain(texels: Real) -> list[Real]:
 def _unit(vectors: Real) -> Real:
     """The same vectors at length 1; up where there is none."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    unit: Real = np.where(length > 0.0, vectors / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])
+    unit: Real = np.where(
+        length > 0.0, vectors / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0]
+    )
     return unit

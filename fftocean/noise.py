@@ -1,8 +1,10 @@
 """
-Chance, as a function of (seed, mx, my): no generator to advance, so no order of drawing to get wrong.
+Chance, as a function of (seed, mx, my): no generator to advance, so no order of drawing to get
+wrong.
 
-A wave's random numbers depend on its own integer wavenumbers alone: a finer grid, another thread count or another machine
-sees the same waves. The generator is Philox-4x32-10, a keyed bijection of counters (Salmon, Moraes, Dror & Shaw 2011).
+A wave's random numbers depend on its own integer wavenumbers alone: a finer grid, another thread
+count or another machine sees the same waves. The generator is Philox-4x32-10, a keyed bijection of
+counters (Salmon, Moraes, Dror & Shaw 2011).
 """
 
 import numpy as np
@@ -17,7 +19,9 @@ _ELEVEN = np.uint64(11)
 _BLOCK = 2**13  # waves at a time: what stays in cache
 
 
-def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> tuple[Words, Words, Words, Words]:
+def philox(
+    counter: tuple[Words, Words, Words, Words], key: tuple[int, int]
+) -> tuple[Words, Words, Words, Words]:
     """
     Return four random 32-bit words for each four-word counter, under a two-word key.
 
@@ -30,21 +34,32 @@ def philox(counter: tuple[Words, Words, Words, Words], key: tuple[int, int]) -> 
     k0, k1 = key
     for _ in range(10):
         p0, p1 = np.uint64(0xD2511F53) * c0, np.uint64(0xCD9E8D57) * c2
-        c0, c1, c2, c3 = (p1 >> _HALF) ^ c1 ^ np.uint64(k0), p1 & _LOW, (p0 >> _HALF) ^ c3 ^ np.uint64(k1), p0 & _LOW
+        c0, c1, c2, c3 = (
+            (p1 >> _HALF) ^ c1 ^ np.uint64(k0),
+            p1 & _LOW,
+            (p0 >> _HALF) ^ c3 ^ np.uint64(k1),
+            p0 & _LOW,
+        )
         k0, k1 = (k0 + 0x9E3779B9) & 0xFFFFFFFF, (k1 + 0xBB67AE85) & 0xFFFFFFFF
     return c0, c1, c2, c3
 
 
 def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
-    """Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1)."""
+    """
+    Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1).
+    """
     mx, my = np.broadcast_arrays(mx, my)
     first, second = np.empty(mx.shape), np.empty(mx.shape)
     waves = mx.ravel(), my.ravel()
     for start in range(0, mx.size, _BLOCK):
         block = slice(start, start + _BLOCK)
         x, y = (m[block].astype(np.uint64) & _LOW for m in waves)
-        a, b, c, d = philox((x, y, np.zeros_like(x), np.zeros_like(x)), (seed & 0xFFFFFFFF, seed >> 32))
-        first.reshape(-1)[block] = ((((a << _HALF) | b) >> _ELEVEN).astype(np.float64) + 1.0) * 2.0**-53
+        a, b, c, d = philox(
+            (x, y, np.zeros_like(x), np.zeros_like(x)), (seed & 0xFFFFFFFF, seed >> 32)
+        )
+        first.reshape(-1)[block] = (
+            (((a << _HALF) | b) >> _ELEVEN).astype(np.float64) + 1.0
+        ) * 2.0**-53
         second.reshape(-1)[block] = (((c << _HALF) | d) >> _ELEVEN).astype(np.float64) * 2.0**-53
     return first, second
 
@@ -57,6 +72,9 @@ def complex_normals(seed: int, mx: Integer, my: Integer) -> Complex:
 
 
 def unit_phasors(seed: int, mx: Integer, my: Integer) -> Complex:
-    """Return e^{i phi} with phi uniform, one for each wave: the phase of `complex_normals`, its modulus fixed at 1."""
+    """
+    Return e^{i phi} with phi uniform, one for each wave: the phase of `complex_normals`, its
+    modulus fixed at 1.
+    """
     result: Complex = np.exp(2j * np.pi * _uniforms(seed, mx, my)[1])
     return result

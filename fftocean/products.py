@@ -1,4 +1,7 @@
-"""Pointwise products of a frame: normals, Jacobian, smallest eigenvalue, folds. Nothing by finite differences."""
+"""
+Pointwise products of a frame: normals, Jacobian, smallest eigenvalue, folds. Nothing by finite
+differences.
+"""
 
 import math
 from collections.abc import Iterable
@@ -17,14 +20,16 @@ def normals(frame: Frame | EulerianFrame) -> Real:
     """
     Return the unit normals of the displaced surface, (ny, nx, 3), z up.
 
-    n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the Jacobian. A frame of `Eulerian` is a
-    height field, whose normals are (-sx, -sy, 1) brought to length 1.
+    n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the
+    Jacobian. A frame of `Eulerian` is a height field, whose normals are (-sx, -sy, 1) brought to
+    length 1.
 
     Raises:
         FieldError: the frame lacks slopes or stretches.
         ParameterError: not a frame.
 
-    Pinned by tests/test_products.py: the closed form on one wave, and the surface's own tangents; tests/test_eulerian.py.
+    Pinned by tests/test_products.py: the closed form on one wave, and the surface's own tangents;
+    tests/test_eulerian.py.
     """
     _require_frame(frame)
     out = np.empty((*frame.grid.shape, 3), dtype=frame.slope_x.dtype)
@@ -39,9 +44,11 @@ def normals(frame: Frame | EulerianFrame) -> Real:
 
 def jacobian(frame: Frame | EulerianFrame) -> Real:
     """
-    Return (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2, (ny, nx): area of displaced over still surface; below 0 it is folded.
+    Return (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2, (ny, nx): area of displaced over still surface; below
+    0 it is folded.
 
-    Of a frame of `Eulerian` it is that of the water which is now at each place, which the frame has where it was asked for.
+    Of a frame of `Eulerian` it is that of the water which is now at each place, which the frame has
+    where it was asked for.
 
     Raises:
         FieldError: the frame lacks stretches; a frame of `Eulerian`, its Jacobian.
@@ -57,9 +64,11 @@ def jacobian(frame: Frame | EulerianFrame) -> Real:
 
 def minimum_eigenvalue(frame: Frame) -> Real:
     """
-    Return the smaller eigenvalue of the deformation [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]], (ny, nx).
+    Return the smaller eigenvalue of the deformation [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]], (ny,
+    nx).
 
-    It passes through 0 where a crest folds, earlier than the Jacobian of a surface stretched along the crest (Tessendorf 2001).
+    It passes through 0 where a crest folds, earlier than the Jacobian of a surface stretched along
+    the crest (Tessendorf 2001).
 
     Raises:
         FieldError: the frame lacks stretches, as any of `Eulerian` does.
@@ -67,15 +76,22 @@ def minimum_eigenvalue(frame: Frame) -> Real:
     """
     _require_frame(frame)
     out = np.empty(frame.grid.shape, dtype=frame.stretch_xx.dtype)
-    surface.minimum_eigenvalue(frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, frame.choppiness, out)
+    surface.minimum_eigenvalue(
+        frame.stretch_xx, frame.stretch_xy, frame.stretch_yy, frame.choppiness, out
+    )
     return out
 
 
 @dataclass(frozen=True, slots=True)
 class Folding:
-    """The folds of some samples of water: how many there are, and the choppiness below which there are none."""
+    """
+    The folds of some samples of water: how many there are, and the choppiness below which there are
+    none.
+    """
 
-    share: float  # of the samples, those whose water is folded: the smaller eigenvalue of the deformation is below 0 [-]
+    # of the samples, those whose water is folded: the smaller eigenvalue of the deformation is
+    # below 0 [-]
+    share: float
     min_jacobian: float  # the smallest area of displaced over still surface [-]
     largest_choppiness: float  # at which none of the samples is folded [-]; inf where none ever is
     samples: int  # that were looked at
@@ -95,10 +111,20 @@ class Folding:
 
 
 def folding_sentence(share: float, min_jacobian: float, largest_choppiness: float | None) -> str:
-    """Return in words how much of the water is folded; None or inf is water that no choppiness folds."""
+    """
+    Return in words how much of the water is folded; None or inf is water that no choppiness folds.
+    """
     never = largest_choppiness is None or math.isinf(largest_choppiness)
-    up_to = "no choppiness folds it" if never else f"choppiness up to {_cut(largest_choppiness or 0.0):g} does not fold it"
-    folded = f"{100.0 * share:.2g} % of the water is folded" if share > 0.0 else "none of the water is folded"
+    up_to = (
+        "no choppiness folds it"
+        if never
+        else f"choppiness up to {_cut(largest_choppiness or 0.0):g} does not fold it"
+    )
+    folded = (
+        f"{100.0 * share:.2g} % of the water is folded"
+        if share > 0.0
+        else "none of the water is folded"
+    )
     return f"{folded}, smallest Jacobian {min_jacobian:.3g}; {up_to}"
 
 
@@ -110,11 +136,13 @@ def _cut(value: float) -> float:
 
 def folding(frames: Frame | Iterable[Frame], choppiness: float | None = None) -> Folding:
     """
-    Return how much of the water is folded in a frame, or in several together, such as `ocean.loop_frames(64)`.
+    Return how much of the water is folded in a frame, or in several together, such as
+    `ocean.loop_frames(64)`.
 
-    With the eigenvalues a <= b of the displacement gradient [[Dxx, Dxy], [Dxy, Dyy]], those of the deformation are 1 + c a and
-    1 + c b. A sample is folded where 1 + c a < 0, the Jacobian is (1 + c a)(1 + c b), and the largest choppiness at which no
-    sample is folded is -1 / min(a), in closed form.
+    With the eigenvalues a <= b of the displacement gradient [[Dxx, Dxy], [Dxy, Dyy]], those of the
+    deformation are 1 + c a and 1 + c b. A sample is folded where 1 + c a < 0, the Jacobian is (1 +
+    c a)(1 + c b), and the largest choppiness at which no sample is folded is -1 / min(a), in closed
+    form.
 
     Args:
         frames: one or more, with their stretches.
@@ -141,7 +169,10 @@ def folding(frames: Frame | Iterable[Frame], choppiness: float | None = None) ->
 
 
 def folding_of(xx: Real, xy: Real, yy: Real, choppiness: float) -> Folding:
-    """Return the folds of samples by their displacement gradients, three arrays of one shape (rows, columns)."""
+    """
+    Return the folds of samples by their displacement gradients, three arrays of one shape (rows,
+    columns).
+    """
     found = np.empty(3)
     surface.folds(xx, xy, yy, choppiness, found)
     folded, min_jacobian, lowest = found.tolist()
@@ -152,4 +183,6 @@ def folding_of(xx: Real, xy: Real, yy: Real, choppiness: float) -> Folding:
 def _require_frame(frame: object) -> None:
     """Refuse what is not a frame by name."""
     if not isinstance(frame, (Frame, EulerianFrame)):
-        raise ParameterError(f"frame must be a Frame, such as ocean.frame(t), got {described(frame)}")
+        raise ParameterError(
+            f"frame must be a Frame, such as ocean.frame(t), got {described(frame)}"
+        )

@@ -1,9 +1,10 @@
 """
-The sea as labelled data: frames as an xarray.Dataset with CF attributes, its realised spectrum in wavespectra's layout, and their files.
+The sea as labelled data: frames as an xarray.Dataset with CF attributes, its realised spectrum in
+wavespectra's layout, and their files.
 
-Attributes are plain numbers, strings and lists of numbers, in SI; directions and spreads are in degrees. What a netCDF or JSON
-attribute cannot hold is left out (None) or spelt as a word (`inf`, which `float` reads back): Zarr keeps attributes as JSON, and that
-has no infinity.
+Attributes are plain numbers, strings and lists of numbers, in SI; directions and spreads are in
+degrees. What a netCDF or JSON attribute cannot hold is left out (None) or spelt as a word (`inf`,
+which `float` reads back): Zarr keeps attributes as JSON, and that has no infinity.
 """
 
 import importlib
@@ -22,10 +23,10 @@ import numpy as np
 
 from fftocean import __version__
 from fftocean.arrays import Real, RealLike, require_memory
-from fftocean.bake.files import write_whole
 from fftocean.cascade import Cascade
 from fftocean.errors import OutputError, ParameterError, SeaWarning, described, how_to_install
 from fftocean.fields import FIELDS
+from fftocean.files import write_whole
 from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import measure
@@ -42,7 +43,10 @@ STANDARD_NAMES: Final = {
     "velocity_y": "surface_sea_water_y_velocity",
     "velocity_z": "upward_sea_water_velocity",
 }
-"""The standard names that CF has for our fields (table 93): none for slopes, displacements and what follows from them."""
+"""
+The standard names that CF has for our fields (table 93): none for slopes, displacements and what
+follows from them.
+"""
 
 MAPS: Final = {
     **{name: (field.unit, field.caption) for name, field in FIELDS.items()},
@@ -60,7 +64,9 @@ _LAGRANGIAN: Final = (
 )
 
 
-def to_xarray(ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str] = ("height",)) -> "Dataset":
+def to_xarray(
+    ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str] = ("height",)
+) -> "Dataset":
     """
     Compute frames as a dataset with CF-1.11 attributes.
 
@@ -70,15 +76,18 @@ def to_xarray(ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str]
         maps: which to compute, of `MAPS`: the names of `fields.FIELDS`, "normal", "jacobian".
 
     Returns:
-        An xarray.Dataset in the ocean's own dtype: each map (time, y, x), row 0 south; `normal` (time, y, x, component), whose
-        components 0, 1, 2 are x, y, z. Every number is that of `ocean.frame(t)`, to the bit. Attributes hold the ocean's parameters,
-        its sea, what was ordered and what is delivered (`measure`).
+        An xarray.Dataset in the ocean's own dtype: each map (time, y, x), row 0 south; `normal`
+        (time, y, x, component), whose components 0, 1, 2 are x, y, z. Every number is that of
+        `ocean.frame(t)`, to the bit. Attributes hold the ocean's parameters, its sea, what was
+        ordered and what is delivered (`measure`).
 
-        `time` [s] is time on the ocean's own clock. It has neither `axis` nor `standard_name`: to CF these, and units with `since`,
-        mean a date on a calendar (section 4.4), which no sea has. The unit is spelt `s`, as xarray takes `seconds` for a timedelta.
+        `time` [s] is time on the ocean's own clock. It has neither `axis` nor `standard_name`: to
+        CF these, and units with `since`, mean a date on a calendar (section 4.4), which no sea has.
+        The unit is spelt `s`, as xarray takes `seconds` for a timedelta.
 
     Raises:
-        ParameterError: a time or map that cannot be, more memory than there is, or xarray is not installed.
+        ParameterError: a time or map that cannot be, more memory than there is, or xarray is not
+            installed.
     """
     xr = _require("xarray")
     if not isinstance(ocean, Window):
@@ -89,8 +98,12 @@ def to_xarray(ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str]
     shapes = {name: (t.size, *g.shape, *((3,) if name == "normal" else ())) for name in names}
     itemsize = np.dtype(ocean.dtype).itemsize
     whole = itemsize * sum(math.prod(shape) for shape in shapes.values())
-    one_frame = 7 * itemsize * g.nx * g.ny + whole / t.size  # a normal is made of five fields, and a Jacobian of three of those
-    require_memory(f"{t.size} times of {g.nx} x {g.ny} samples of {', '.join(names)}", whole + one_frame)
+    one_frame = (
+        7 * itemsize * g.nx * g.ny + whole / t.size
+    )  # a normal is made of five fields, and a Jacobian of three of those
+    require_memory(
+        f"{t.size} times of {g.nx} x {g.ny} samples of {', '.join(names)}", whole + one_frame
+    )
     attributes = _attributes(ocean)
 
     data = {name: np.empty(shape, ocean.dtype) for name, shape in shapes.items()}
@@ -108,35 +121,56 @@ def to_xarray(ocean: Ocean | Window, times: Iterable[float], maps: Sequence[str]
     }
     if "normal" in names:
         index = np.arange(3, dtype=np.int8)
-        flags = {"long_name": "component of a vector", "flag_values": index, "flag_meanings": "x y z"}
+        flags = {
+            "long_name": "component of a vector",
+            "flag_values": index,
+            "flag_meanings": "x y z",
+        }
         coordinates["component"] = ("component", index, flags)
-    variables = {name: (("time", "y", "x", "component")[: values.ndim], values, _described(name)) for name, values in data.items()}
-    title, place = ("a window", _SUMMED) if isinstance(ocean, Window) else ("a periodic tile", _PERIODIC)
-    head = {"Conventions": CONVENTIONS, "title": f"Sea surface of {title}", "comment": place + _LAGRANGIAN + _UNITS}
+    variables = {
+        name: (("time", "y", "x", "component")[: values.ndim], values, _described(name))
+        for name, values in data.items()
+    }
+    title, place = (
+        ("a window", _SUMMED) if isinstance(ocean, Window) else ("a periodic tile", _PERIODIC)
+    )
+    head = {
+        "Conventions": CONVENTIONS,
+        "title": f"Sea surface of {title}",
+        "comment": place + _LAGRANGIAN + _UNITS,
+    }
     made: Dataset = xr.Dataset(variables, coordinates, {**head, **attributes})
     return made
 
 
-def realised_spectrum(ocean: Ocean, *, freq: RealLike | None = None, dir: RealLike | None = None) -> "Dataset":
+def realised_spectrum(
+    ocean: Ocean, *, freq: RealLike | None = None, dir: RealLike | None = None
+) -> "Dataset":
     """
-    Return the 2-D spectrum of the waves that an ocean really has, in the layout of the wavespectra package.
+    Return the 2-D spectrum of the waves that an ocean really has, in the layout of the wavespectra
+    package.
 
-    Each wave's energy a^2/2 is shared out between the two frequencies and the two directions around it. In frequency the shares are
-    linear: hat functions, whose integrals are the very widths `np.gradient(freq)` with which wavespectra sums, so that its m0 and
-    m1 are those of the waves to round-off, and white noise comes out white. In direction the shares are those whose resultant points
-    along the wave, sin(b) : sin(a) for a wave at angles a and b from its two bins. No share is negative, so bins of h radians widen the
-    spread: by about h^2/6 in its square, which makes 16.1 degrees of 16 with bins of 5.
+    Each wave's energy a^2/2 is shared out between the two frequencies and the two directions around
+    it. In frequency the shares are linear: hat functions, whose integrals are the very widths
+    `np.gradient(freq)` with which wavespectra sums, so that its m0 and m1 are those of the waves to
+    round-off, and white noise comes out white. In direction the shares are those whose resultant
+    points along the wave, sin(b) : sin(a) for a wave at angles a and b from its two bins. No share
+    is negative, so bins of h radians widen the spread: by about h^2/6 in its square, which makes
+    16.1 degrees of 16 with bins of 5.
 
     Args:
         ocean: any ocean.
-        freq: two or more frequencies [Hz], ascending. By default the powers of 1.05 that cover all waves of the tile, the same for
-            every sea on it, with an empty one at either end, so that wavespectra's `hs()` adds no tail of its own.
-        dir: where waves come FROM, clockwise from north [degrees], evenly spaced round the circle; by default every 5 degrees.
+        freq: two or more frequencies [Hz], ascending. By default the powers of 1.05 that cover all
+            waves of the tile, the same for every sea on it, with an empty one at either end, so
+            that wavespectra's `hs()` adds no tail of its own.
+        dir: where waves come FROM, clockwise from north [degrees], evenly spaced round the circle;
+            by default every 5 degrees.
 
     Returns:
-        An xarray.Dataset: `efth` (freq, dir) [m2/Hz/degree], float64; `dpt`, the depth [m], where it is finite. Frequencies are those
-        at which the waves run: on a loop, whole turns in its period. Attributes are those of `to_xarray`, with `m0_outside` [m^2]: the
-        energy of waves beyond the outermost bands of `freq`, which is left out, as a wave buoy does.
+        An xarray.Dataset: `efth` (freq, dir) [m2/Hz/degree], float64; `dpt`, the depth [m], where
+        it is finite. Frequencies are those at which the waves run: on a loop, whole turns in its
+        period. Attributes are those of `to_xarray`, with `m0_outside` [m^2]: the energy of waves
+        beyond the outermost bands of `freq`, which is left out, as a wave buoy does.
 
     Raises:
         ParameterError: frequencies or directions that cannot be, or xarray is not installed.
@@ -151,7 +185,10 @@ def realised_spectrum(ocean: Ocean, *, freq: RealLike | None = None, dir: RealLi
     f = _powers(ocean) if freq is None else _frequencies(freq)
     bearing = np.arange(0.0, 360.0, 5.0) if dir is None else _bearings(dir)
     width, step = np.gradient(f), float(bearing[1] - bearing[0])
-    require_memory(f"a spectrum of {f.size} frequencies by {bearing.size} directions", 4.0 * 8 * f.size * bearing.size)
+    require_memory(
+        f"a spectrum of {f.size} frequencies by {bearing.size} directions",
+        4.0 * 8 * f.size * bearing.size,
+    )
 
     waves = ocean.modes()
     energy, hertz = 0.5 * waves.amplitude**2, waves.omega / (2.0 * np.pi)
@@ -162,26 +199,55 @@ def realised_spectrum(ocean: Ocean, *, freq: RealLike | None = None, dir: RealLi
         warnings.warn(message, SeaWarning, stacklevel=2)
 
     coming_from = 270.0 - np.degrees(np.arctan2(waves.ky[inside], waves.kx[inside]))
-    binned = _shared_out(energy[inside], np.clip(hertz[inside], f[0], f[-1]), coming_from, f, bearing)
+    binned = _shared_out(
+        energy[inside], np.clip(hertz[inside], f[0], f[-1]), coming_from, f, bearing
+    )
 
-    name = {"standard_name": "sea_surface_wave_directional_variance_spectral_density", "units": "m2 s degree-1"}
+    name = {
+        "standard_name": "sea_surface_wave_directional_variance_spectral_density",
+        "units": "m2 s degree-1",
+    }
     variables: dict[str, Any] = {
-        "efth": (("freq", "dir"), binned / (width[:, None] * step), {**name, "long_name": "variance density of the waves in the tile"})
+        "efth": (
+            ("freq", "dir"),
+            binned / (width[:, None] * step),
+            {**name, "long_name": "variance density of the waves in the tile"},
+        )
     }
     if math.isfinite(ocean.depth):
-        variables["dpt"] = ((), ocean.depth, {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m", "long_name": "depth"})
+        variables["dpt"] = (
+            (),
+            ocean.depth,
+            {
+                "standard_name": "sea_floor_depth_below_sea_surface",
+                "units": "m",
+                "long_name": "depth",
+            },
+        )
     from_north = {"units": "degree", "long_name": "where waves come from, clockwise from north"}
     coordinates = {
-        "freq": ("freq", f, {"standard_name": "wave_frequency", "units": "Hz", "long_name": "frequency"}),
+        "freq": (
+            "freq",
+            f,
+            {"standard_name": "wave_frequency", "units": "Hz", "long_name": "frequency"},
+        ),
         "dir": ("dir", bearing, {"standard_name": "sea_surface_wave_from_direction", **from_north}),
     }
-    head = {"Conventions": CONVENTIONS, "title": "Realised spectrum of a periodic tile", "comment": _UNITS}
-    made: Dataset = xr.Dataset(variables, coordinates, {**head, **_attributes(ocean), "m0_outside": outside})
+    head = {
+        "Conventions": CONVENTIONS,
+        "title": "Realised spectrum of a periodic tile",
+        "comment": _UNITS,
+    }
+    made: Dataset = xr.Dataset(
+        variables, coordinates, {**head, **_attributes(ocean), "m0_outside": outside}
+    )
     return made
 
 
 def _shared_out(energy: Real, hertz: Real, coming_from: Real, f: Real, bearing: Real) -> Real:
-    """The energy of waves in the bins around them, (f, bearing) [m^2]; `realised_spectrum` says how."""
+    """
+    The energy of waves in the bins around them, (f, bearing) [m^2]; `realised_spectrum` says how.
+    """
     i = np.clip(np.searchsorted(f, hertz, side="right") - 1, 0, f.size - 2)
     u = (hertz - f[i]) / (f[i + 1] - f[i])
     step = bearing[1] - bearing[0]
@@ -192,20 +258,25 @@ def _shared_out(energy: Real, hertz: Real, coming_from: Real, f: Real, bearing: 
     binned = np.zeros(f.size * bearing.size)
     for row, in_row in ((i, 1.0 - u), (i + 1, u)):
         for column, in_column in ((j, 1.0 - v), (j + 1, v)):
-            binned += np.bincount(row * bearing.size + column % bearing.size, energy * in_row * in_column, binned.size)
+            binned += np.bincount(
+                row * bearing.size + column % bearing.size, energy * in_row * in_column, binned.size
+            )
     return binned.reshape(f.size, bearing.size)
 
 
 def write(dataset: "Dataset", path: str | os.PathLike[str]) -> None:
     """
-    Write a dataset of this room so that every bit comes back, and a flipped one is noticed: `.nc` is netCDF 4, `.zarr` is Zarr 3.
+    Write a dataset of this room so that every bit comes back, and a flipped one is noticed: `.nc`
+    is netCDF 4, `.zarr` is Zarr 3.
 
-    Arrays carry checksums (Fletcher-32; CRC-32C), so that reading damaged ones raises an error. A chunk that goes missing from a Zarr
-    store reads as NaN, not as a flat sea. Read with `xarray.open_dataset(path)`.
+    Arrays carry checksums (Fletcher-32; CRC-32C), so that reading damaged ones raises an error. A
+    chunk that goes missing from a Zarr store reads as NaN, not as a flat sea. Read with
+    `xarray.open_dataset(path)`.
 
-    Either the whole is there under its name or nothing is. A netCDF file is encoded in memory and written from there, as HDF5 takes
-    the process down with it when the disk is full; a file of that name is replaced. A Zarr store is a folder, which cannot be
-    replaced in one step: one that is there is left alone.
+    Either the whole is there under its name or nothing is. A netCDF file is encoded in memory and
+    written from there, as HDF5 takes the process down with it when the disk is full; a file of that
+    name is replaced. A Zarr store is a folder, which cannot be replaced in one step: one that is
+    there is left alone.
 
     Args:
         dataset: from `to_xarray` or `realised_spectrum`.
@@ -213,11 +284,14 @@ def write(dataset: "Dataset", path: str | os.PathLike[str]) -> None:
 
     Raises:
         OutputError: the file or store cannot be written, or the store is there already.
-        ParameterError: another suffix, more memory than there is, or h5netcdf or zarr is not installed.
+        ParameterError: another suffix, more memory than there is, or h5netcdf or zarr is not
+            installed.
     """
     path = Path(path)
     if not hasattr(dataset, "data_vars"):
-        raise ParameterError(f"what is written must be an xarray.Dataset, got {type(dataset).__name__}")
+        raise ParameterError(
+            f"what is written must be an xarray.Dataset, got {type(dataset).__name__}"
+        )
     if path.suffix == ".nc":
         _write_netcdf(dataset, path)
     elif path.suffix == ".zarr":
@@ -229,23 +303,34 @@ def write(dataset: "Dataset", path: str | os.PathLike[str]) -> None:
 def _write_netcdf(dataset: "Dataset", path: Path) -> None:
     _require("h5netcdf")
     require_memory(f"encoding {path.name}", 1.1 * dataset.nbytes)
-    encoding = _encoding(dataset, "chunksizes", lambda variable: {"fletcher32": True} if variable.ndim else {})
+    encoding = _encoding(
+        dataset, "chunksizes", lambda variable: {"fletcher32": True} if variable.ndim else {}
+    )
     write_whole(path, dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
 
 
 def _write_zarr(dataset: "Dataset", path: Path) -> None:
     checksum = _require("zarr.codecs").Crc32cCodec()
     if os.path.lexists(path):
-        raise OutputError(f"{path} must not be there yet: a Zarr store is a folder, and cannot be replaced in one step")
-    encoding = _encoding(dataset, "chunks", lambda variable: {"compressors": (checksum,), **_absent(variable.dtype)})
+        raise OutputError(
+            f"{path} must not be there yet: a Zarr store is a folder, and cannot be replaced in one step"
+        )
+    encoding = _encoding(
+        dataset, "chunks", lambda variable: {"compressors": (checksum,), **_absent(variable.dtype)}
+    )
     try:
         private = Path(tempfile.mkdtemp(prefix=f".{path.name}.", dir=path.parent))
         try:
             whole = private / path.name
             with warnings.catch_warnings():
-                # All metadata in one file is not in the specification yet; without it, xarray.open_zarr warns at every reading.
-                warnings.filterwarnings("ignore", message="Consolidated metadata is currently not part")
-                dataset.to_zarr(whole, mode="w-", zarr_format=3, consolidated=True, encoding=encoding)
+                # All metadata in one file is not in the specification yet; without it,
+                # xarray.open_zarr warns at every reading.
+                warnings.filterwarnings(
+                    "ignore", message="Consolidated metadata is currently not part"
+                )
+                dataset.to_zarr(
+                    whole, mode="w-", zarr_format=3, consolidated=True, encoding=encoding
+                )
             for file in whole.rglob("*"):
                 if file.is_file():
                     with file.open("r+b") as opened:
@@ -257,14 +342,23 @@ def _write_zarr(dataset: "Dataset", path: Path) -> None:
         raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
 
 
-def _encoding(dataset: "Dataset", chunks: str, more: Callable[["Variable"], dict[str, Any]]) -> dict[Hashable, dict[str, Any]]:
-    """How to store each variable: frame by frame, at most 64 MiB at a time; coordinates without a fill value, as CF will have it."""
+def _encoding(
+    dataset: "Dataset", chunks: str, more: Callable[["Variable"], dict[str, Any]]
+) -> dict[Hashable, dict[str, Any]]:
+    """
+    How to store each variable: frame by frame, at most 64 MiB at a time; coordinates without a fill
+    value, as CF will have it.
+    """
     encoding: dict[Hashable, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
         encoding[name] = more(variable) | ({"_FillValue": None} if name in dataset.coords else {})
         if variable.ndim:
             row = math.prod(variable.shape[2:]) * variable.dtype.itemsize
-            by_frame = (1, min(variable.shape[1], max(1, 2**26 // row)), *variable.shape[2:]) if variable.ndim > 2 else variable.shape
+            by_frame = (
+                (1, min(variable.shape[1], max(1, 2**26 // row)), *variable.shape[2:])
+                if variable.ndim > 2
+                else variable.shape
+            )
             encoding[name][chunks] = by_frame
     return encoding
 
@@ -296,30 +390,53 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "backend": tiles[0].backend,
     }
     if len(tiles) > 1:
-        found["tiles"] = "; ".join(f"{t.grid.nx} x {t.grid.ny} over {t.grid.lx:g} x {t.grid.ly:g} m" for t in tiles)
+        found["tiles"] = "; ".join(
+            f"{t.grid.nx} x {t.grid.ny} over {t.grid.lx:g} x {t.grid.ly:g} m" for t in tiles
+        )
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
     ordered, loop, folding = (statistics.pop(name) or {} for name in ("ordered", "loop", "folding"))
-    for prefix, numbers in (("ordered", ordered), ("measured", statistics), ("loop", loop), ("folding", folding)):
+    for prefix, numbers in (
+        ("ordered", ordered),
+        ("measured", statistics),
+        ("loop", loop),
+        ("folding", folding),
+    ):
         found |= {f"{prefix}_{name}": value for name, value in numbers.items()}
-    return {name: str(value) if value in (math.inf, -math.inf) else value for name, value in found.items() if value is not None}
+    return {
+        name: str(value) if value in (math.inf, -math.inf) else value
+        for name, value in found.items()
+        if value is not None
+    }
 
 
 def _described(name: str) -> dict[str, str]:
     """A map's attributes."""
     unit, caption = MAPS[name]
-    return {"units": unit, "long_name": caption} | ({"standard_name": STANDARD_NAMES[name]} if name in STANDARD_NAMES else {})
+    return {"units": unit, "long_name": caption} | (
+        {"standard_name": STANDARD_NAMES[name]} if name in STANDARD_NAMES else {}
+    )
 
 
 def _axis(name: str, way: str) -> dict[str, str]:
     """A horizontal coordinate's attributes."""
-    return {"units": "m", "axis": name.upper(), "standard_name": f"projection_{name}_coordinate", "long_name": f"{name}, {way}"}
+    return {
+        "units": "m",
+        "axis": name.upper(),
+        "standard_name": f"projection_{name}_coordinate",
+        "long_name": f"{name}, {way}",
+    }
 
 
 def _powers(ocean: Ocean) -> Real:
-    """The powers of 1.05 [Hz] that cover all the waves that a tile can hold, and one more at either end."""
+    """
+    The powers of 1.05 [Hz] that cover all the waves that a tile can hold, and one more at either
+    end.
+    """
     hertz = ocean.amplitudes.running_omega[ocean.grid.active] / (2.0 * np.pi)
-    low, high = np.log([np.min(hertz), np.max(hertz)] if hertz.size else [1.0, 1.0]) / math.log(1.05)
+    low, high = np.log([np.min(hertz), np.max(hertz)] if hertz.size else [1.0, 1.0]) / math.log(
+        1.05
+    )
     powers: Real = 1.05 ** np.arange(math.floor(low) - 1.0, math.ceil(high) + 2.0)
     return powers
 
@@ -330,7 +447,9 @@ def _seconds(times: Iterable[float]) -> Real:
     step = np.diff(t)
     if not (np.all(step > 0.0) or np.all(step < 0.0)):
         i = int(np.argmax(step * np.sign(t[-1] - t[0]) <= 0.0))
-        raise ParameterError(f"times must ascend or descend without repeats, got {t[i + 1]:g} s after {t[i]:g} s")
+        raise ParameterError(
+            f"times must ascend or descend without repeats, got {t[i + 1]:g} s after {t[i]:g} s"
+        )
     return t
 
 
@@ -361,7 +480,9 @@ def _bearings(dir: RealLike) -> Real:
     bearing = np.sort(np.mod(_numbers("dir", dir, DIRECTION, 4), 360.0))
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.max(np.abs(steps - 360.0 / bearing.size)) > 1e-6:
-        raise ParameterError(f"dir must be evenly spaced round the circle, got steps of {steps.min():g} to {steps.max():g} degrees")
+        raise ParameterError(
+            f"dir must be evenly spaced round the circle, got steps of {steps.min():g} to {steps.max():g} degrees"
+        )
     return bearing
 
 
@@ -370,10 +491,16 @@ def _numbers(name: str, values: Any, quantity: Quantity, least: int) -> Real:
     try:
         items = iter(np.asarray(values).tolist() if hasattr(values, "__array__") else values)
     except TypeError:
-        raise ParameterError(f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}") from None
-    numbers = [quantity.check(f"{name}[{i}]", item) for i, item in enumerate(islice(items, _MOST + 1))]
+        raise ParameterError(
+            f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}"
+        ) from None
+    numbers = [
+        quantity.check(f"{name}[{i}]", item) for i, item in enumerate(islice(items, _MOST + 1))
+    ]
     if not least <= len(numbers) <= _MOST:
-        raise ParameterError(f"{name} must be {least} to {_MOST} numbers, got {len(numbers) if len(numbers) <= _MOST else 'more'}")
+        raise ParameterError(
+            f"{name} must be {least} to {_MOST} numbers, got {len(numbers) if len(numbers) <= _MOST else 'more'}"
+        )
     return np.array(numbers, dtype=np.float64)
 
 
@@ -402,4 +529,6 @@ def _require(name: str) -> Any:
     except ImportError as error:
         package = name.partition(".")[0]
         hint = how_to_install("science")
-        raise ParameterError(f"{package} must be installed for labelled data: {hint} ({error})") from error
+        raise ParameterError(
+            f"{package} must be installed for labelled data: {hint} ({error})"
+        ) from error

@@ -1,4 +1,6 @@
-"""What was ordered, and what was delivered: measured on the water that comes out, not on the recipe."""
+"""
+What was ordered, and what was delivered: measured on the water that comes out, not on the recipe.
+"""
 
 import math
 from dataclasses import dataclass
@@ -15,7 +17,13 @@ from fftocean.kernels import interpolate
 from fftocean.limits import FRAMES, LOOP
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
-from fftocean.physics.panels import direction_panels, energetic_frequencies, frequency_panels, gauss, parts_of
+from fftocean.physics.panels import (
+    direction_panels,
+    energetic_frequencies,
+    frequency_panels,
+    gauss,
+    parts_of,
+)
 from fftocean.physics.sea import Sea
 from fftocean.physics.spreading import LongCrested
 from fftocean.products import Folding, folding_of
@@ -28,7 +36,9 @@ class SeaState:
     m0: float  # variance of the height [m^2]
     hs: float  # significant wave height, 4 sqrt(m0) [m]
     tp: float  # peak period [s]; 0 for a flat sea
-    mean_direction: float  # toward which the energy goes, counter-clockwise from +x, in (-180, 180] [degrees]
+    mean_direction: (
+        float  # toward which the energy goes, counter-clockwise from +x, in (-180, 180] [degrees]
+    )
     spread: float  # circular standard deviation of the directions [degrees]
 
 
@@ -48,8 +58,8 @@ class Statistics:
     """
     What a tile delivers, beside what was ordered.
 
-    m0, hs, mean_direction and spread are those of the waves in this one draw. One snapshot of the same waves scatters further,
-    as waves that cross beat: see `snapshot_error`.
+    m0, hs, mean_direction and spread are those of the waves in this one draw. One snapshot of the
+    same waves scatters further, as waves that cross beat: see `snapshot_error`.
     """
 
     m0: float  # variance, averaged over time [m^2]
@@ -61,7 +71,9 @@ class Statistics:
     resolved: float  # m0 of the part that the tile can hold, averaged over seeds [m^2]
     energy_below: float  # m0 of waves longer than the tile, which it cannot hold [m^2]
     energy_above: float  # m0 of waves shorter than two samples [m^2]
-    sampling_error: float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
+    sampling_error: (
+        float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
+    )
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
     loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
     folding: Folding  # of the water at its choppiness, in the moments that were looked at
@@ -79,12 +91,14 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     """
     Measure what an ocean delivers, or all tiles of a cascade together.
 
-    Height and vertical velocity of the frame at t = 0 go through a forward FFT, which tells the waves along +k from those along
-    -k (f, b = (H +- i H'/omega)/2); their energies give m0, the mean direction and spread, and the spectrum whose peak is Tp.
+    Height and vertical velocity of the frame at t = 0 go through a forward FFT, which tells the
+    waves along +k from those along -k (f, b = (H +- i H'/omega)/2); their energies give m0, the
+    mean direction and spread, and the spectrum whose peak is Tp.
 
     Args:
         ocean: any ocean, or a cascade: its tiles have different waves, so their energies add up.
-        frames: in how many moments to look for folds: equally spaced over the loop, or over ten peak periods.
+        frames: in how many moments to look for folds: equally spaced over the loop, or over ten
+            peak periods.
 
     Returns:
         `Statistics`.
@@ -92,15 +106,22 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     Raises:
         ParameterError: neither an ocean nor a cascade, or a number of frames out of range.
 
-    Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as Young 1995.
+    Source: mean direction and spread as Kuik et al. 1988; Tp = 2 pi (int S^4 / int omega S^4) as
+    Young 1995.
     """
     if not isinstance(ocean, (Ocean, Cascade)):
-        raise ParameterError(f"what is measured must be an Ocean or a Cascade, got {described(ocean)}")
+        raise ParameterError(
+            f"what is measured must be an Ocean or a Cascade, got {described(ocean)}"
+        )
     tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
-    ahead, astern, omega, theta = (np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True))
+    ahead, astern, omega, theta = (
+        np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True)
+    )
     energy = np.concatenate([ahead, astern])
     m0 = float(np.sum(energy))
-    direction, spread = moments.mean_direction_and_spread(energy, np.concatenate([theta, theta + np.pi]))
+    direction, spread = moments.mean_direction_and_spread(
+        energy, np.concatenate([theta, theta + np.pi])
+    )
     sea, first, last = ocean.sea, tiles[0], tiles[-1]
     below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
     above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
@@ -118,7 +139,9 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
         energy_above=above,
         sampling_error=sampling,
         snapshot_error=snapshot,
-        loop=None if len(tiles) > 1 or ocean.loop is None else loop_error(first.amplitudes, ocean.loop),
+        loop=None
+        if len(tiles) > 1 or ocean.loop is None
+        else loop_error(first.amplitudes, ocean.loop),
         folding=_folding(tiles, FRAMES.check_whole("frames", frames), 10.0 * tp),
     )
 
@@ -131,10 +154,12 @@ _PLACES = 2**16
 
 def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     """
-    Return the folds of the water of all tiles together, in `count` moments over the loop, or over `span` [s].
+    Return the folds of the water of all tiles together, in `count` moments over the loop, or over
+    `span` [s].
 
-    One tile is looked at in all its samples. Several are added up at places of the finest one's samples, drawn over many widths
-    of the largest, as they lie beside each other differently in each: the others, whose waves are longer, are interpolated.
+    One tile is looked at in all its samples. Several are added up at places of the finest one's
+    samples, drawn over many widths of the largest, as they lie beside each other differently in
+    each: the others, whose waves are longer, are interpolated.
     """
     period = tiles[0].loop if len({tile.loop for tile in tiles}) == 1 else None
     places = _places(tiles)
@@ -162,11 +187,18 @@ def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
         return []
     large, fine = tiles[0].grid, tiles[-1].grid
     draw = np.random.default_rng(0)  # where to look, which has no part in the sea
-    x = np.floor(draw.uniform(0.0, _WIDTHS * large.lx * fine.nx / fine.lx, _PLACES)) * (fine.lx / fine.nx)
-    y = np.floor(draw.uniform(0.0, _WIDTHS * large.ly * fine.ny / fine.ly, _PLACES)) * (fine.ly / fine.ny)
+    x = np.floor(draw.uniform(0.0, _WIDTHS * large.lx * fine.nx / fine.lx, _PLACES)) * (
+        fine.lx / fine.nx
+    )
+    y = np.floor(draw.uniform(0.0, _WIDTHS * large.ly * fine.ny / fine.ly, _PLACES)) * (
+        fine.ly / fine.ny
+    )
     grids = [tile.grid for tile in tiles]
     scaled = [(x * (g.nx / g.lx) % g.nx, y * (g.ny / g.ly) % g.ny) for g in grids[:-1]]
-    return [*scaled, (np.rint(x * (fine.nx / fine.lx)) % fine.nx, np.rint(y * (fine.ny / fine.ly)) % fine.ny)]
+    return [
+        *scaled,
+        (np.rint(x * (fine.nx / fine.lx)) % fine.nx, np.rint(y * (fine.ny / fine.ly)) % fine.ny),
+    ]
 
 
 def ordered(sea: Sea) -> SeaState:
@@ -174,26 +206,36 @@ def ordered(sea: Sea) -> SeaState:
     variance, theta = _polar(sea)
     direction, spread = moments.mean_direction_and_spread(variance, theta)
     m0 = sea.variance
-    return SeaState(m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread)
+    return SeaState(
+        m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread
+    )
 
 
 def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float]:
     """
-    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its shortest; or what lies beside its band.
+    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its
+    shortest; or what lies beside its band.
 
-    The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every direction the sea's energy is
-    summed along |k| up to the edges of the two rectangles, without cells.
+    The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every
+    direction the sea's energy is summed along |k| up to the edges of the two rectangles, without
+    cells.
     """
     reach_x, reach_y = grid.reach
     cells = Cells(sea, grid.dkx, grid.dky)
-    inner, outer = (0.5 * grid.dkx, 0.5 * grid.dky), ((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky)
-    # what lies below: all up to the lower edge of the band, and what the inner rectangle has of the band
+    inner, outer = (
+        (0.5 * grid.dkx, 0.5 * grid.dky),
+        ((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky),
+    )
+    # what lies below: all up to the lower edge of the band, and what the inner rectangle has of the
+    # band
     below = cells.inside(*outer, (0.0, band[0])) + cells.inside(*inner, band)
     return below, max(sea.variance - cells.inside(*outer, (0.0, band[1])), 0.0)
 
 
 def _polar(sea: Sea) -> tuple[Real, Real]:
-    """Return the sea's variance by direction, with the directions [rad]; two arrays of one shape."""
+    """
+    Return the sea's variance by direction, with the directions [rad]; two arrays of one shape.
+    """
     variance: list[Real] = [np.zeros(0)]
     theta: list[Real] = [np.zeros(0)]
     around: Real
@@ -220,10 +262,15 @@ def _polar(sea: Sea) -> tuple[Real, Real]:
 
 
 def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
-    """Energies a^2/2 of the waves along +k and along -k, their omega and the direction of +k, each wave once."""
+    """
+    Energies a^2/2 of the waves along +k and along -k, their omega and the direction of +k, each
+    wave once.
+    """
     grid = ocean.grid
     frame = ocean.frame(0.0, fields=("height", "velocity_z"))
-    height, rate = (np.fft.rfft2(f.astype(np.float64)) / f.size for f in (frame.height, frame.velocity_z))
+    height, rate = (
+        np.fft.rfft2(f.astype(np.float64)) / f.size for f in (frame.height, frame.velocity_z)
+    )
     once = grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0))
     omega = ocean.amplitudes.running_omega[once]
     ahead = 2.0 * np.abs(0.5 * (height[once] + 1j * rate[once] / omega)) ** 2
@@ -237,7 +284,9 @@ def _peak_period(energy: Real, omega: Real) -> float:
     if not np.any(energy > 0.0):
         return 0.0
     some = energy > 0.0
-    edges = np.exp(np.arange(math.log(np.min(omega[some])) - 0.03, math.log(np.max(omega[some])) + 0.09, 0.06))
+    edges = np.exp(
+        np.arange(math.log(np.min(omega[some])) - 0.03, math.log(np.max(omega[some])) + 0.09, 0.06)
+    )
     total, _ = np.histogram(omega, bins=edges, weights=energy)
     first, _ = np.histogram(omega, bins=edges, weights=energy * omega)
     width = np.diff(edges)
@@ -250,8 +299,9 @@ def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     """
     Relative standard deviations of m0 from draw to draw, and of one frame's variance.
 
-    Gaussian amplitudes make a^2 exponential: var(sum a^2/2) = sum E^2. In one frame the waves at +k and -k share one Fourier
-    coefficient, whose energy is exponential with mean E_k + E_-k; waves of fixed modulus beat there with variance 2 E_k E_-k.
+    Gaussian amplitudes make a^2 exponential: var(sum a^2/2) = sum E^2. In one frame the waves at +k
+    and -k share one Fourier coefficient, whose energy is exponential with mean E_k + E_-k; waves of
+    fixed modulus beat there with variance 2 E_k E_-k.
     """
     pairs = []
     for a in tiles:
@@ -263,11 +313,16 @@ def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
         return 0.0, 0.0
     if tiles[0].draw != "gaussian":
         return 0.0, math.sqrt(2.0 * float(np.sum(ahead * astern))) / total
-    return math.sqrt(float(np.sum(ahead**2) + np.sum(astern**2))) / total, math.sqrt(float(np.sum((ahead + astern) ** 2))) / total
+    return math.sqrt(float(np.sum(ahead**2) + np.sum(astern**2))) / total, math.sqrt(
+        float(np.sum((ahead + astern) ** 2))
+    ) / total
 
 
 def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
-    """Return what a loop of `period` [s] does to the frequencies, and the best period within a tenth of it."""
+    """
+    Return what a loop of `period` [s] does to the frequencies, and the best period within a tenth
+    of it.
+    """
     half = amplitudes.variance_forward.copy()
     half[:, 1:] += amplitudes.variance_backward[:, 1:]  # the column mx = 0 holds both k and -k
     energy, omega = half[amplitudes.grid.active], amplitudes.omega[amplitudes.grid.active]
@@ -276,12 +331,18 @@ def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
     strongest = np.argsort(energy)[-4096:]
 
     def errors(candidate: float, omega: Real, energy: Real) -> tuple[float, float]:
-        relative = dispersion.loop_cycles(omega, candidate) * (2.0 * np.pi / candidate) / omega - 1.0
+        relative = (
+            dispersion.loop_cycles(omega, candidate) * (2.0 * np.pi / candidate) / omega - 1.0
+        )
         weight = energy / np.sum(energy)
         return math.sqrt(float(np.sum(weight * relative**2))), float(np.sum(weight * relative))
 
     candidates = [round(period * (0.9 + 0.001 * i), 2) for i in range(201)]
-    tried = {c: errors(c, omega[strongest], energy[strongest])[0] for c in candidates if LOOP.low <= c <= LOOP.high}
+    tried = {
+        c: errors(c, omega[strongest], energy[strongest])[0]
+        for c in candidates
+        if LOOP.low <= c <= LOOP.high
+    }
     better = min(tried, key=lambda c: (tried[c], abs(c - period))) if tried else period
     rms, bias = errors(period, omega, energy)
     better_rms = errors(better, omega, energy)[0]

@@ -1,7 +1,8 @@
 """
 The only inverse FFT: plans, buffers and libraries.
 
-All compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+2 pi i m j / n},  without 1/n, on one thread.
+All compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+2 pi i m j / n},
+without 1/n, on one thread.
 """
 
 import ctypes
@@ -27,7 +28,9 @@ PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "
 
 ESTIMATE = 64  # FFTW_ESTIMATE in C
 ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
-_planner = threading.RLock()  # FFTW's planner is shared by all plans; a plan may be collected while its thread makes another
+_planner = (
+    threading.RLock()
+)  # FFTW's planner is shared by all plans; a plan may be collected while its thread makes another
 _importing = threading.Lock()
 
 
@@ -55,7 +58,10 @@ if hasattr(os, "register_at_fork"):
 
 
 class InverseRows(Protocol):
-    """A plan for one shape and precision: fill `source`, call, read `result`; `source` is left as it is."""
+    """
+    A plan for one shape and precision: fill `source`, call, read `result`; `source` is left as it
+    is.
+    """
 
     source: Complex  # (count, n), C-contiguous
     result: Complex  # the same
@@ -65,7 +71,9 @@ class InverseRows(Protocol):
         """Transform each row."""
 
 
-def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", planning: str = "estimate") -> InverseRows:
+def inverse_rows(
+    shape: tuple[int, int], dtype: str, *, backend: str = "auto", planning: str = "estimate"
+) -> InverseRows:
     """
     Plan inverse transforms of the rows of a buffer.
 
@@ -73,8 +81,9 @@ def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", p
         shape: (count, n) of the buffer.
         dtype: "float32" or "float64", of its real and imaginary parts.
         backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
-        planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and "patient" time several ways, keep what
-            they find in the user's cache, and give the same bytes as long as it is there.
+        planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and
+            "patient" time several ways, keep what they find in the user's cache, and give the same
+            bytes as long as it is there.
 
     Raises:
         ParameterError: an unknown backend, precision or effort, or a backend that is not installed.
@@ -88,17 +97,26 @@ def inverse_rows(shape: tuple[int, int], dtype: str, *, backend: str = "auto", p
     for name in BACKENDS if backend == "auto" else (backend,):
         if (transform := BACKENDS[name](shape, dtype, planning)) is not None:
             return transform
-    raise ParameterError(f"backend {backend!r} must be installed (pip install {backend}), and is not; 'scipy' always is")
+    raise ParameterError(
+        f"backend {backend!r} must be installed (pip install {backend}), and is not; 'scipy' always is"
+    )
 
 
 @cache
 def library(backend: str) -> str | None:
-    """Name a backend's library and its version, such as "FFTW 3.3.5 (pyfftw 0.15.1)"; None where it is not installed."""
+    """
+    Name a backend's library and its version, such as "FFTW 3.3.5 (pyfftw 0.15.1)"; None where it is
+    not installed.
+    """
     if backend == "mkl":
         return f"MKL {importlib.metadata.version('mkl')}" if _mkl() else None
     if backend == "pyfftw":
         pyfftw = _pyfftw()
-        return f"FFTW {str(pyfftw.fftw_version).removeprefix('fftw-')} (pyfftw {pyfftw.__version__})" if pyfftw else None
+        return (
+            f"FFTW {str(pyfftw.fftw_version).removeprefix('fftw-')} (pyfftw {pyfftw.__version__})"
+            if pyfftw
+            else None
+        )
     return f"pocketfft (scipy {importlib.metadata.version('scipy')})"
 
 
@@ -116,23 +134,43 @@ class _FFTW:
 
     backend = "pyfftw"
 
-    def __init__(self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str) -> None:
+    def __init__(
+        self, pyfftw: ModuleType, shape: tuple[int, int], dtype: str, planning: str
+    ) -> None:
         self.source, self.result = aligned(shape, dtype), aligned(shape, dtype)
 
         def plan() -> Any:
             flag = PLANNING[planning]
-            return pyfftw.FFTW(self.source, self.result, axes=(1,), direction="FFTW_BACKWARD", flags=(flag,), threads=1)
+            return pyfftw.FFTW(
+                self.source,
+                self.result,
+                axes=(1,),
+                direction="FFTW_BACKWARD",
+                flags=(flag,),
+                threads=1,
+            )
 
-        with _planner, wisdom.set_aside(pyfftw):  # an estimate, too, takes what has been measured, and would differ from run to run
-            self._plan = plan() if planning == "estimate" else wisdom.planned(pyfftw, plan, shape, dtype, planning)
+        with (
+            _planner,
+            wisdom.set_aside(pyfftw),
+        ):  # an estimate, too, takes what has been measured, and would differ from run to run
+            self._plan = (
+                plan()
+                if planning == "estimate"
+                else wisdom.planned(pyfftw, plan, shape, dtype, planning)
+            )
         self.source[:] = 0.0  # measuring scribbles over it
 
     def __call__(self) -> None:
         self._plan.execute()
 
     def __del__(self) -> None:
-        if _planner is not None and hasattr(self, "_plan"):  # at the end of the interpreter there may be none
-            with _planner:  # pyfftw takes a lock of its own to destroy a plan, which no fork may find taken
+        if _planner is not None and hasattr(
+            self, "_plan"
+        ):  # at the end of the interpreter there may be none
+            with (
+                _planner
+            ):  # pyfftw takes a lock of its own to destroy a plan, which no fork may find taken
                 del self._plan
 
 
@@ -148,15 +186,22 @@ class _MKL:
         length = ctypes.byref(ctypes.c_int(n))
         many = getattr(mkl, f"{prefix}_plan_many_dft")
         many.restype = ctypes.c_void_p
-        source, result = ctypes.c_void_p(self.source.ctypes.data), ctypes.c_void_p(self.result.ctypes.data)
+        source, result = (
+            ctypes.c_void_p(self.source.ctypes.data),
+            ctypes.c_void_p(self.result.ctypes.data),
+        )
         with _planner:
             getattr(mkl, f"{prefix}_plan_with_nthreads")(1)
-            plan = many(1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(ESTIMATE))
+            plan = many(
+                1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(ESTIMATE)
+            )
         if not plan:
             raise MemoryError(f"MKL could not plan {count} transforms of {n}")
         self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)
         destroy = getattr(mkl, f"{prefix}_destroy_plan")
-        weakref.finalize(self, _destroyed, destroy, self._plan).atexit = False  # daemon threads may be at it then
+        weakref.finalize(
+            self, _destroyed, destroy, self._plan
+        ).atexit = False  # daemon threads may be at it then
 
     def __call__(self) -> None:
         self._execute(self._plan)
@@ -206,24 +251,34 @@ BACKENDS: dict[str, Callable[[tuple[int, int], str, str], InverseRows | None]] =
 
 @cache
 def _mkl() -> ctypes.CDLL | None:
-    """The library that the wheel `mkl` has brought, on one thread unless somebody has set it up otherwise; None without it."""
+    """
+    The library that the wheel `mkl` has brought, on one thread unless somebody has set it up
+    otherwise; None without it.
+    """
     try:
         files = importlib.metadata.files("mkl") or []
     except importlib.metadata.PackageNotFoundError:
         return None
     for file in files:
-        if file.name.startswith(("libmkl_rt.", "mkl_rt.")) and not file.name.endswith((".a", ".lib")):
+        if file.name.startswith(("libmkl_rt.", "mkl_rt.")) and not file.name.endswith(
+            (".a", ".lib")
+        ):
             try:
                 mkl = ctypes.CDLL(str(file.locate()))
             except OSError:
                 continue  # for another machine, or without a library that it needs
-            mkl.MKL_Set_Threading_Layer(1)  # sequential; without effect where this MKL is at work already
+            mkl.MKL_Set_Threading_Layer(
+                1
+            )  # sequential; without effect where this MKL is at work already
             return mkl
     return None
 
 
 def _pyfftw() -> ModuleType | None:
-    """pyfftw if it is there; dask.array, which it would import for an interface that is not used here (6 s), is kept out meanwhile."""
+    """
+    pyfftw if it is there; dask.array, which it would import for an interface that is not used here
+    (6 s), is kept out meanwhile.
+    """
     with _importing:  # one thread must not see what another has imported half
         hide = "pyfftw" not in sys.modules and "dask.array" not in sys.modules
         if hide:

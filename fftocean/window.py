@@ -81,17 +81,34 @@ class Window:
             raise ParameterError(f"source must be a Cascade or an Ocean, got {source!r:.80}")
         self.oceans = source.oceans if isinstance(source, Cascade) else (source,)
         largest = self.oceans[0].grid
-        self.grid = Grid.of((largest.nx, largest.ny) if n is None else n, (largest.lx, largest.ly) if size is None else size)
+        self.grid = Grid.of(
+            (largest.nx, largest.ny) if n is None else n,
+            (largest.lx, largest.ly) if size is None else size,
+        )
         self.x, self.y = PLACE.check("x", x), PLACE.check("y", y)
         self.shortest = WAVELENGTH.check("shortest", shortest)
         self.sea, self.seed = source.sea, source.seed
-        self.choppiness, self.depth, self.dtype, self.loop = source.choppiness, source.depth, source.dtype, source.loop
+        self.choppiness, self.depth, self.dtype, self.loop = (
+            source.choppiness,
+            source.depth,
+            source.dtype,
+            source.loop,
+        )
         fine = [_spline_grid(ocean) for ocean in self.oceans]
         needed = 128.0 * self.grid.nx * self.grid.ny  # positions, sums and a frame
         needed += sum(memory_needed(grid, self.dtype) for grid in fine)
         require_memory(f"a window of n = {self.grid.nx} x {self.grid.ny}", needed)
-        self._splines = [_spline_ocean(ocean, grid, self.shortest) for ocean, grid in zip(self.oceans, fine, strict=True)]
-        self._recipe = {"n": (self.grid.nx, self.grid.ny), "size": (self.grid.lx, self.grid.ly), "x": x, "y": y, "shortest": shortest}
+        self._splines = [
+            _spline_ocean(ocean, grid, self.shortest)
+            for ocean, grid in zip(self.oceans, fine, strict=True)
+        ]
+        self._recipe = {
+            "n": (self.grid.nx, self.grid.ny),
+            "size": (self.grid.lx, self.grid.ly),
+            "x": x,
+            "y": y,
+            "shortest": shortest,
+        }
         self.source = source
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
@@ -115,9 +132,13 @@ class Window:
             ParameterError: as `Ocean.frame`.
         """
         fields, needs = _needed(fields)
-        return self._summed([ocean.frame(t, needs) for ocean in self._splines], float(t), fields, needs, out)
+        return self._summed(
+            [ocean.frame(t, needs) for ocean in self._splines], float(t), fields, needs, out
+        )
 
-    def loop_frame(self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
+    def loop_frame(
+        self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None
+    ) -> Frame:
         """
         Return the j-th of `count` equally spaced frames of the common loop.
 
@@ -125,12 +146,27 @@ class Window:
             ParameterError: the tiles have no period in common, and as `Ocean.loop_frame`.
         """
         if self.loop is None:
-            raise ParameterError("loop_frame needs one period for all tiles: Cascade(..., loop=16.0)")
+            raise ParameterError(
+                "loop_frame needs one period for all tiles: Cascade(..., loop=16.0)"
+            )
         fields, needs = _needed(fields)
         frames = [ocean.loop_frame(j, count, needs) for ocean in self._splines]
-        return self._summed(frames, self.loop * (int(j) % FRAMES.check_whole("count", count)) / count, fields, needs, out)
+        return self._summed(
+            frames,
+            self.loop * (int(j) % FRAMES.check_whole("count", count)) / count,
+            fields,
+            needs,
+            out,
+        )
 
-    def _summed(self, frames: list[Frame], t: float, fields: tuple[str, ...], needs: tuple[str, ...], out: Frame | None) -> Frame:
+    def _summed(
+        self,
+        frames: list[Frame],
+        t: float,
+        fields: tuple[str, ...],
+        needs: tuple[str, ...],
+        out: Frame | None,
+    ) -> Frame:
         """
         Add up splines of the tiles at the samples of the window, and make what follows from the
         sums.
@@ -139,8 +175,13 @@ class Window:
         total = np.zeros((grid.nx * grid.ny, len(needs)))
         for frame in frames:
             u, v = self._texels(frame.grid)
-            interpolate.bicubic(np.stack([frame[name] for name in needs], axis=-1), u, v, True, total)
-        sums = {name: np.ascontiguousarray(total[:, i], dtype=self.dtype).reshape(grid.shape) for i, name in enumerate(needs)}
+            interpolate.bicubic(
+                np.stack([frame[name] for name in needs], axis=-1), u, v, True, total
+            )
+        sums = {
+            name: np.ascontiguousarray(total[:, i], dtype=self.dtype).reshape(grid.shape)
+            for i, name in enumerate(needs)
+        }
         arrays = {name: sums[name] if name in sums else self._made(name, sums) for name in fields}
         if out is None:
             return Frame(t, grid, self.choppiness, arrays)
@@ -184,7 +225,9 @@ def _spline_grid(ocean: Ocean) -> Grid:
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(a.squares > 0.0)
-    short = bool(np.any(8 * grid.mx[columns] > grid.nx) or np.any(8 * np.abs(grid.my[rows]) > grid.ny))
+    short = bool(
+        np.any(8 * grid.mx[columns] > grid.nx) or np.any(8 * np.abs(grid.my[rows]) > grid.ny)
+    )
     factor = OVERSAMPLED if short else 1
     return replace(grid, nx=factor * grid.nx, ny=factor * grid.ny)
 
@@ -197,7 +240,9 @@ def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(grid.active & (grid.k * shortest <= 2.0 * np.pi))
     rows_there = grid.my[rows]  # negative ones count from the end there, too
-    response = interpolate.spline_response(grid.mx[columns] / fine.nx) * interpolate.spline_response(grid.my[rows] / fine.ny)
+    response = interpolate.spline_response(
+        grid.mx[columns] / fine.nx
+    ) * interpolate.spline_response(grid.my[rows] / fine.ny)
 
     def spread(values: npt.NDArray[Any], divisor: Real) -> npt.NDArray[Any]:
         wide = np.zeros(fine.half_shape, dtype=values.dtype, order="F")

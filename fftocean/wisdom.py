@@ -1,8 +1,10 @@
 """
-What FFTW has found out by measuring, kept in the user's cache: one small file for each library, processor and shape.
+What FFTW has found out by measuring, kept in the user's cache: one small file for each library,
+processor and shape.
 
-A file that is cut, bent, or another machine's is replaced, with a note; a folder that cannot be written is done without. The first
-process that has measured a shape decides: others plan by what it found, and so get the same bits.
+A file that is cut, bent, or another machine's is replaced, with a note; a folder that cannot be
+written is done without. The first process that has measured a shape decides: others plan by what it
+found, and so get the same bits.
 """
 
 import base64
@@ -35,9 +37,12 @@ def folder() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "fftocean"
 
 
-def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int], dtype: str, planning: str) -> Any:
+def planned(
+    pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int], dtype: str, planning: str
+) -> Any:
     """
-    Call `plan` with what is known of it, or find it out and keep it. The caller holds FFTW's planner, which knows nothing else.
+    Call `plan` with what is known of it, or find it out and keep it. The caller holds FFTW's
+    planner, which knows nothing else.
 
     Args:
         pyfftw: the library.
@@ -50,7 +55,11 @@ def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int],
         "transform": f"{shape[0]} x {shape[1]} {dtype} {planning}",
     }
     try:
-        path = folder() / "wisdom" / f"{hashlib.sha256(json.dumps(key).encode()).hexdigest()[:24]}.json"
+        path = (
+            folder()
+            / "wisdom"
+            / f"{hashlib.sha256(json.dumps(key).encode()).hexdigest()[:24]}.json"
+        )
     except RuntimeError:  # a user without a home
         return plan()
     with contextlib.suppress(OSError):
@@ -69,7 +78,10 @@ def planned(pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int],
 
 @contextlib.contextmanager
 def set_aside(pyfftw: ModuleType) -> Iterator[None]:
-    """Plan without what this process, or whoever else uses FFTW in it, has measured so far; afterwards it is known again."""
+    """
+    Plan without what this process, or whoever else uses FFTW in it, has measured so far; afterwards
+    it is known again.
+    """
     known = pyfftw.export_wisdom()
     pyfftw.forget_wisdom()
     try:
@@ -89,7 +101,9 @@ def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str], dtype: str) ->
         if not pyfftw.import_wisdom(wise)[("float64", "float32").index(dtype)]:
             raise ValueError("FFTW does not know it")
     except (ValueError, KeyError, TypeError, RecursionError) as error:
-        warnings.warn(f"{path} is no wisdom of this FFTW and is ignored: {error}", CacheWarning, stacklevel=2)
+        warnings.warn(
+            f"{path} is no wisdom of this FFTW and is ignored: {error}", CacheWarning, stacklevel=2
+        )
         return False
     return True
 
@@ -97,7 +111,11 @@ def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str], dtype: str) ->
 def _kept(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
     """Write what FFTW knows, whole or not at all; False where another process was first."""
     wise = pyfftw.export_wisdom()
-    tree = {"key": key, "sha256": _digest(wise), "wisdom": [base64.b64encode(part).decode() for part in wise]}
+    tree = {
+        "key": key,
+        "sha256": _digest(wise),
+        "wisdom": [base64.b64encode(part).decode() for part in wise],
+    }
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent)
     try:

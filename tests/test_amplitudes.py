@@ -16,17 +16,25 @@ pytestmark = pytest.mark.nojit
 
 WIND_SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
 SWELL = fo.Sea(
-    fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.5, tp=14.0, gamma=7.0), spreading=fo.CosinePower(s=25.0), direction=110.0),
+    fo.WaveSystem(
+        spectrum=fo.JONSWAP.from_sea_state(hs=1.5, tp=14.0, gamma=7.0),
+        spreading=fo.CosinePower(s=25.0),
+        direction=110.0,
+    ),
     depth=30.0,
 )
 
 
 def density_by_hand(sea, kx, ky):
-    """S(omega) D(theta) (d omega/dk)/k, with a central difference for d omega/dk, written out again."""
+    """
+    S(omega) D(theta) (d omega/dk)/k, with a central difference for d omega/dk, written out again.
+    """
     k, theta = math.hypot(kx, ky), math.atan2(ky, kx)
 
     def omega(k):
-        return math.sqrt(9.80665 * k * (math.tanh(k * sea.depth) if math.isfinite(sea.depth) else 1.0))
+        return math.sqrt(
+            9.80665 * k * (math.tanh(k * sea.depth) if math.isfinite(sea.depth) else 1.0)
+        )
 
     slope = (omega(k * 1.0001) - omega(k * 0.9999)) / (2e-4 * k)
     return float(sea.density(omega(k), theta)) * slope / k
@@ -36,27 +44,40 @@ def density_by_hand(sea, kx, ky):
 @pytest.mark.parametrize(("mx", "my"), [(1, 0), (2, 1), (-1, 3), (5, 4), (30, 10)])
 def test_cell_variance_is_the_integral_over_the_cell(sea, mx, my):
     """
-    Against adaptive quadrature of the density written out by hand: Gauss points in cells or along rays, 1e-3 of a cell.
+    Against adaptive quadrature of the density written out by hand: Gauss points in cells or along
+    rays, 1e-3 of a cell.
     """
     dk = 2.0 * np.pi / 400.0
     truth = integrate.dblquad(
-        lambda y, x: density_by_hand(sea, x, y), (mx - 0.5) * dk, (mx + 0.5) * dk, (my - 0.5) * dk, (my + 0.5) * dk, epsrel=1e-6
+        lambda y, x: density_by_hand(sea, x, y),
+        (mx - 0.5) * dk,
+        (mx + 0.5) * dk,
+        (my - 0.5) * dk,
+        (my + 0.5) * dk,
+        epsrel=1e-6,
     )[0]
     ours = cell_variance(sea, np.array([mx]), np.array([my]), dk, dk)[0]
     assert ours == pytest.approx(truth, rel=1e-3, abs=1e-6 * sea.variance)
 
 
 @pytest.mark.parametrize("sea", [WIND_SEA, SWELL], ids=["wind", "swell"])
-@pytest.mark.parametrize(("n", "size"), [(64, 200.0), (64, 1000.0), ((128, 64), (400.0, 200.0)), (31, 150.0), (256, 60.0)])
+@pytest.mark.parametrize(
+    ("n", "size"),
+    [(64, 200.0), (64, 1000.0), ((128, 64), (400.0, 200.0)), (31, 150.0), (256, 60.0)],
+)
 def test_a_tile_keeps_the_energy_of_its_band(sea, n, size):
     """Held + lost = ordered: the cells' sum against integrals along rays outside the band."""
     grid = Grid.of(n, size)
     held = seed_amplitudes(sea, grid).variance
-    assert held + sum(outside_band(sea, grid)) == pytest.approx(sea.variance, rel=1e-5)  # panels: 1e-6 each
+    assert held + sum(outside_band(sea, grid)) == pytest.approx(
+        sea.variance, rel=1e-5
+    )  # panels: 1e-6 each
 
 
 def test_finer_grids_keep_every_wave_to_the_bit():
-    """n -> 2n at the same size, and from square to oblong: the same h0 wherever both have the wave."""
+    """
+    n -> 2n at the same size, and from square to oblong: the same h0 wherever both have the wave.
+    """
     coarse = seed_amplitudes(WIND_SEA, Grid.of(32, 200.0), seed=5)
     for n in (64, 33, (64, 48)):
         fine = seed_amplitudes(WIND_SEA, Grid.of(n, 200.0), seed=5)
@@ -68,15 +89,26 @@ def test_finer_grids_keep_every_wave_to_the_bit():
 
 @pytest.mark.parametrize(("n", "size"), [(64, 200.0), (31, 1000.0), ((48, 80), (200.0, 100.0))])
 def test_fixed_amplitudes_hold_their_energy_in_every_draw(n, size):
-    """Sum of a^2/2 over modes() = resolved m0, to 1e-9 as ordered (roundings of a sum of thousands: 1e-13)."""
+    """
+    Sum of a^2/2 over modes() = resolved m0, to 1e-9 as ordered (roundings of a sum of thousands:
+    1e-13).
+    """
     for seed in (0, 1, 2**64 - 1):
         amplitudes = seed_amplitudes(WIND_SEA, Grid.of(n, size), seed=seed, draw="fixed")
-        assert 0.5 * np.sum(amplitudes.modes().amplitude ** 2) == pytest.approx(amplitudes.variance, rel=1e-12)
+        assert 0.5 * np.sum(amplitudes.modes().amplitude ** 2) == pytest.approx(
+            amplitudes.variance, rel=1e-12
+        )
 
 
-@pytest.mark.parametrize(("n", "size"), [(64, 200.0), (64, 1000.0), (256, 200.0), (256, 1000.0), ((128, 64), (400.0, 200.0))])
+@pytest.mark.parametrize(
+    ("n", "size"),
+    [(64, 200.0), (64, 1000.0), (256, 200.0), (256, 1000.0), ((128, 64), (400.0, 200.0))],
+)
 def test_mean_variance_over_seeds_is_m0(n, size):
-    """E[var height]/m0 over 64 seeds within four standard errors of 1; m0 is what an independent polar integral leaves in the band."""
+    """
+    E[var height]/m0 over 64 seeds within four standard errors of 1; m0 is what an independent polar
+    integral leaves in the band.
+    """
     grid = Grid.of(n, size)
     expected = seed_amplitudes(WIND_SEA, grid)
     m0 = WIND_SEA.variance - sum(outside_band(WIND_SEA, grid))
@@ -91,7 +123,9 @@ def test_mean_variance_over_seeds_is_m0(n, size):
         spectrum = np.zeros(grid.half_shape, dtype=complex)
         spectrum[rows, columns] = f + b
         if seed == 3:
-            assert np.array_equal(spectrum, (a := seed_amplitudes(WIND_SEA, grid, seed=3)).forward + a.backward)
+            assert np.array_equal(
+                spectrum, (a := seed_amplitudes(WIND_SEA, grid, seed=3)).forward + a.backward
+            )
         variances.append(np.var(np.fft.irfft2(spectrum, s=grid.shape, norm="forward")))
     ratio = np.array(variances) / m0
     assert abs(np.mean(ratio) - 1.0) < 4.0 * np.std(ratio, ddof=1) / 8.0
@@ -99,13 +133,27 @@ def test_mean_variance_over_seeds_is_m0(n, size):
 
 
 def test_the_literature_s_factor_of_eight_is_not_here():
-    """h0 = sqrt(2 S dk dk)(xi_r + i xi_i), as often printed, has eight times the variance of 1/2 (xi_r + i xi_i) sqrt(S dk dk)."""
+    """
+    h0 = sqrt(2 S dk dk)(xi_r + i xi_i), as often printed, has eight times the variance of 1/2 (xi_r
+    + i xi_i) sqrt(S dk dk).
+    """
     grid = Grid.of(32, 300.0)
-    ours = np.mean([np.sum(seed_amplitudes(WIND_SEA, grid, seed=seed).modes().amplitude ** 2) / 2.0 for seed in range(40)])
-    assert ours == pytest.approx(WIND_SEA.variance, rel=0.15)  # a tenth lies above the band; 40 draws scatter by 3 %
+    ours = np.mean(
+        [
+            np.sum(seed_amplitudes(WIND_SEA, grid, seed=seed).modes().amplitude ** 2) / 2.0
+            for seed in range(40)
+        ]
+    )
+    assert ours == pytest.approx(
+        WIND_SEA.variance, rel=0.15
+    )  # a tenth lies above the band; 40 draws scatter by 3 %
     mx, my = np.array([4]), np.array([2])
-    printed = np.sqrt(2.0 * cell_variance(WIND_SEA, mx, my, grid.dkx, grid.dky)) * noise.complex_normals(1, mx, my)
-    assert abs(printed[0] / seed_amplitudes(WIND_SEA, grid, seed=1).forward[2, 4]) ** 2 == pytest.approx(8.0, rel=1e-12)
+    printed = np.sqrt(
+        2.0 * cell_variance(WIND_SEA, mx, my, grid.dkx, grid.dky)
+    ) * noise.complex_normals(1, mx, my)
+    assert abs(
+        printed[0] / seed_amplitudes(WIND_SEA, grid, seed=1).forward[2, 4]
+    ) ** 2 == pytest.approx(8.0, rel=1e-12)
 
 
 def test_modes_rebuild_the_surface():
@@ -144,12 +192,18 @@ def test_waves_that_the_grid_cannot_hold_are_refused(wave):
 
 def test_waves_on_one_wavenumber_add_up():
     grid = Grid.of(8, 10.0)
-    two = place_modes([(1, 2, 1.0, 0.3), (1, 2, 0.5, 0.3), (0, -2, 0.25, 1.0), (-3, 1, 2.0, 0.1)], grid, depth=5.0)
+    two = place_modes(
+        [(1, 2, 1.0, 0.3), (1, 2, 0.5, 0.3), (0, -2, 0.25, 1.0), (-3, 1, 2.0, 0.1)], grid, depth=5.0
+    )
     m = two.modes()
     assert sorted(np.round(m.amplitude, 12)) == [0.25, 1.5, 2.0]
 
 
 def test_a_sea_that_is_not_a_number_is_refused():
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.CustomSpectrum(lambda w: np.where(w > 1.0, np.nan, 1.0), peak=0.5)))
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.CustomSpectrum(lambda w: np.where(w > 1.0, np.nan, 1.0), peak=0.5)
+        )
+    )
     with pytest.raises(fo.ParameterError, match="finite"):
         seed_amplitudes(sea, Grid.of(32, 100.0))

@@ -1,4 +1,7 @@
-"""Several tiles, one sea: no energy twice and none missing, chance that does not depend on the cut, loops, and bad input."""
+"""
+Several tiles, one sea: no energy twice and none missing, chance that does not depend on the cut,
+loops, and bad input.
+"""
 
 import copy
 import itertools
@@ -21,7 +24,11 @@ from fftocean.statistics import outside_band
 SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
 CROSSED = fo.Sea(
     fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=5.0), direction=20.0),
-    fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=0.5, tp=9.0, gamma=7.0), spreading=fo.CosinePower(s=25.0), direction=-70.0),
+    fo.WaveSystem(
+        spectrum=fo.JONSWAP.from_sea_state(hs=0.5, tp=9.0, gamma=7.0),
+        spreading=fo.CosinePower(s=25.0),
+        direction=-70.0,
+    ),
     depth=15.0,
 )
 TILES = [(32, 240.0), (48, 47.0), ((24, 20), (7.3, 6.1))]
@@ -32,8 +39,14 @@ def cascade(sea=SEA, **arguments):
 
 
 def flat(level):
-    """A sea with the same energy at every wavenumber: S = 2 pi C k/(d omega/dk), in all directions; so every share is an area."""
-    density = fo.CustomSpectrum(lambda omega: np.where(omega < 60.0, 4.0 * np.pi * level * omega**3 / 9.80665**2, 0.0), peak=1.0)
+    """
+    A sea with the same energy at every wavenumber: S = 2 pi C k/(d omega/dk), in all directions; so
+    every share is an area.
+    """
+    density = fo.CustomSpectrum(
+        lambda omega: np.where(omega < 60.0, 4.0 * np.pi * level * omega**3 / 9.80665**2, 0.0),
+        peak=1.0,
+    )
     return fo.Sea(fo.WaveSystem(spectrum=density, spreading=fo.CosinePower(s=0.0)))
 
 
@@ -41,24 +54,36 @@ def flat(level):
 
 
 def test_no_energy_twice_and_none_missing():
-    """Where every share is an area: all tiles together cover the last one's rectangle less the cell of the first at k = 0."""
+    """
+    Where every share is an area: all tiles together cover the last one's rectangle less the cell of
+    the first at k = 0.
+    """
     made = cascade(flat(1e-4))
     first, *_, last = (ocean.grid for ocean in made.oceans)
-    width, height = ((2 * reach + 1) * step for reach, step in zip(last.reach, (last.dkx, last.dky), strict=True))
+    width, height = (
+        (2 * reach + 1) * step for reach, step in zip(last.reach, (last.dkx, last.dky), strict=True)
+    )
     # panels in direction and frequency are resolved to 1e-6 each
     assert made.variance == pytest.approx(1e-4 * (width * height - first.dkx * first.dky), rel=1e-6)
 
 
 @pytest.mark.parametrize(("lowest", "highest"), [(0.3, 0.9), (0.3, 0.31), (0.05, 5.0)])
 def test_a_ring_has_the_area_of_a_ring(lowest, highest):
-    """One tile, both edges cutting cells, even both one cell: pi (b^2 - a^2), oblong cells included."""
+    """
+    One tile, both edges cutting cells, even both one cell: pi (b^2 - a^2), oblong cells included.
+    """
     grid = Grid.of((61, 80), (70.0, 90.0))
     held = seed_amplitudes(flat(1e-4), grid, band=(lowest, highest)).variance
     outermost = math.pi * min(highest, reach_of(grid)[1]) ** 2
     if highest < reach_of(grid)[1] and lowest > reach_of(grid)[0]:
-        assert held == pytest.approx(1e-4 * (outermost - math.pi * lowest**2), rel=1e-11)  # 1e-12 of the disc, of which this is a part
+        assert held == pytest.approx(
+            1e-4 * (outermost - math.pi * lowest**2), rel=1e-11
+        )  # 1e-12 of the disc, of which this is a part
     else:
-        width, height = ((2 * reach + 1) * step for reach, step in zip(grid.reach, (grid.dkx, grid.dky), strict=True))
+        width, height = (
+            (2 * reach + 1) * step
+            for reach, step in zip(grid.reach, (grid.dkx, grid.dky), strict=True)
+        )
         inner = math.pi * lowest**2 if lowest > reach_of(grid)[0] else 0.0
         assert held <= 1e-4 * (width * height - inner)
 
@@ -66,10 +91,15 @@ def test_a_ring_has_the_area_of_a_ring(lowest, highest):
 @pytest.mark.parametrize("sea", [SEA, CROSSED], ids=["wind", "crossed"])
 @pytest.mark.parametrize("cuts", [(0.4,), (0.21, 0.8), (0.3, 0.31, 0.32, 1.1)])
 def test_bands_share_out_every_cell(sea, cuts):
-    """On one grid, however it is cut: cell by cell the parts add up to the whole, to 1e-12, and no part is negative."""
+    """
+    On one grid, however it is cut: cell by cell the parts add up to the whole, to 1e-12, and no
+    part is negative.
+    """
     grid = Grid.of((32, 40), (100.0, 80.0))
     whole = seed_amplitudes(sea, grid)
-    parts = [seed_amplitudes(sea, grid, band=band) for band in itertools.pairwise((0.0, *cuts, math.inf))]
+    parts = [
+        seed_amplitudes(sea, grid, band=band) for band in itertools.pairwise((0.0, *cuts, math.inf))
+    ]
     for name in ("variance_forward", "variance_backward"):
         total = sum(getattr(part, name) for part in parts)
         assert np.all(np.abs(total - getattr(whole, name)) <= 1e-12 * getattr(whole, name))
@@ -79,7 +109,10 @@ def test_bands_share_out_every_cell(sea, cuts):
 
 @pytest.mark.parametrize("sea", [SEA, CROSSED], ids=["wind", "crossed"])
 def test_tiles_of_several_sizes_hold_the_sea(sea):
-    """Held + outside = ordered: against the polar integral, whose trapezoids are good to 2e-4, as cells are by the midpoint rule."""
+    """
+    Held + outside = ordered: against the polar integral, whose trapezoids are good to 2e-4, as
+    cells are by the midpoint rule.
+    """
     made = cascade(sea)
     below, _ = outside_band(sea, made.oceans[0].grid)
     _, above = outside_band(sea, made.oceans[-1].grid)
@@ -87,7 +120,10 @@ def test_tiles_of_several_sizes_hold_the_sea(sea):
 
 
 def test_a_share_is_the_integral_over_the_part():
-    """A cut cell of a real sea against a fine midpoint sum with a sharp edge: 1/1000 of the cell's width along the edge."""
+    """
+    A cut cell of a real sea against a fine midpoint sum with a sharp edge: 1/1000 of the cell's
+    width along the edge.
+    """
     grid = Grid.of(16, 60.0)
     edge, n = 0.4, 1000
     mx, my = np.array([3, -2, 0, 4]), np.array([2, 3, -4, 0])
@@ -99,7 +135,11 @@ def test_a_share_is_the_integral_over_the_part():
         omega = np.sqrt(9.80665 * k)
         density = SEA.density(omega, np.arctan2(ky, kx)) * 0.5 * omega / k / k
         total = np.sum(density)
-        expected = np.sum(density[k < edge]) / total if total > 0.0 else float(np.hypot(mx[i] * grid.dkx, my[i] * grid.dky) < edge)
+        expected = (
+            np.sum(density[k < edge]) / total
+            if total > 0.0
+            else float(np.hypot(mx[i] * grid.dkx, my[i] * grid.dky) < edge)
+        )
         assert shares[i] == pytest.approx(expected, abs=3e-3)
     assert np.any((shares > 0.1) & (shares < 0.9))
 
@@ -111,7 +151,11 @@ def remembered(monkeypatch):
         integrate, known = getattr(Cells, name), {}
 
         def look_up(self, *arguments, integrate=integrate, known=known):
-            key = (self.dkx, self.dky, *(a.tobytes() if isinstance(a, np.ndarray) else a for a in arguments))
+            key = (
+                self.dkx,
+                self.dky,
+                *(a.tobytes() if isinstance(a, np.ndarray) else a for a in arguments),
+            )
             if key not in known:
                 known[key] = integrate(self, *arguments)
             return known[key].copy()
@@ -122,13 +166,21 @@ def remembered(monkeypatch):
 
 @pytest.mark.usefixtures("remembered")
 def test_variance_over_seeds_is_that_of_one_big_tile():
-    """64 seeds of three tiles against 64 of one that holds the same band: means within four standard errors of their difference."""
+    """
+    64 seeds of three tiles against 64 of one that holds the same band: means within four standard
+    errors of their difference.
+    """
     tiles, big = [(20, 100.0), (20, 37.0), (20, 13.7)], Grid.of(139, 100.0)
     many = [fo.Cascade(SEA, tiles, seed=seed, dtype="float64") for seed in range(64)]
     last = many[0].oceans[-1].grid
     assert reach_of(big)[1] == pytest.approx(reach_of(last)[1], rel=0.01)
-    ours = [sum(np.mean(frame.height**2) for frame in made.frame(3.7, ("height",))) for made in many]
-    oceans = (fo.Ocean(SEA, n=big.nx, size=big.lx, seed=1000 + seed, dtype="float64") for seed in range(64))
+    ours = [
+        sum(np.mean(frame.height**2) for frame in made.frame(3.7, ("height",))) for made in many
+    ]
+    oceans = (
+        fo.Ocean(SEA, n=big.nx, size=big.lx, seed=1000 + seed, dtype="float64")
+        for seed in range(64)
+    )
     theirs = [np.mean(ocean.frame(3.7, ("height",)).height ** 2) for ocean in oceans]
     error = math.hypot(np.std(ours, ddof=1), np.std(theirs, ddof=1)) / 8.0
     assert abs(np.mean(ours) - np.mean(theirs)) < 4.0 * error
@@ -137,7 +189,10 @@ def test_variance_over_seeds_is_that_of_one_big_tile():
 
 
 def test_tiles_are_independent():
-    """Chance at the same (mx, my) of two tiles: no correlation over 400 seeds; it would be complete if both had the cascade's seed."""
+    """
+    Chance at the same (mx, my) of two tiles: no correlation over 400 seeds; it would be complete if
+    both had the cascade's seed.
+    """
     mx, my = np.arange(1, 11), np.arange(10) - 4
     one, two = (
         np.concatenate([noise.complex_normals(seed, mx, my) for seed in seeds])
@@ -146,7 +201,11 @@ def test_tiles_are_independent():
     for other in (two, np.conj(two)):
         assert abs(np.mean(one * other)) < 4.0 * 2.0 / math.sqrt(4000)  # |xi|^2 is 2 on average
     made = cascade()
-    assert [ocean.seed for ocean in made.oceans] == [7, tile_seed(7, 47.0, 47.0), tile_seed(7, 7.3, 6.1)]
+    assert [ocean.seed for ocean in made.oceans] == [
+        7,
+        tile_seed(7, 47.0, 47.0),
+        tile_seed(7, 7.3, 6.1),
+    ]
     assert np.mean(np.abs(one) ** 2) == pytest.approx(2.0, rel=0.07)
 
 
@@ -160,9 +219,17 @@ def test_the_same_waves_whichever_way_the_band_is_cut(draw):
     whole = seed_amplitudes(SEA, grid, seed=5, draw=draw)
     for low, high in [(0.0, 0.5), (0.5, math.inf), (0.3, 0.9)]:
         part = seed_amplitudes(SEA, grid, seed=5, draw=draw, band=(low, high))
-        nearest = np.hypot(np.maximum(grid.mx - 0.5, 0)[None, :], np.maximum(np.abs(grid.my) - 0.5, 0)[:, None]) * grid.dkx
+        nearest = (
+            np.hypot(
+                np.maximum(grid.mx - 0.5, 0)[None, :], np.maximum(np.abs(grid.my) - 0.5, 0)[:, None]
+            )
+            * grid.dkx
+        )
         farthest = np.hypot(grid.mx[None, :] + 0.5, np.abs(grid.my)[:, None] + 0.5) * grid.dkx
-        inside, outside = (nearest >= low) & (farthest <= high), (farthest <= low) | (nearest >= high)
+        inside, outside = (
+            (nearest >= low) & (farthest <= high),
+            (farthest <= low) | (nearest >= high),
+        )
         for name in ("forward", "backward"):
             mine, theirs = getattr(part, name), getattr(whole, name)
             assert np.array_equal(mine[inside], theirs[inside])
@@ -175,7 +242,10 @@ def test_the_same_waves_whichever_way_the_band_is_cut(draw):
 
 
 def test_a_tile_s_waves_do_not_depend_on_the_others():
-    """Another n, another band, another tile between: the tile of 47 m keeps its waves, and the first is the ocean of its size and seed."""
+    """
+    Another n, another band, another tile between: the tile of 47 m keeps its waves, and the first
+    is the ocean of its size and seed.
+    """
     made = cascade()
     alone = fo.Ocean(SEA, n=32, size=240.0, seed=7, dtype="float64")
     low = made.oceans[0].grid.k < 0.8 * made.bands[0][1]
@@ -185,12 +255,16 @@ def test_a_tile_s_waves_do_not_depend_on_the_others():
     for other, index in ((finer, 1), (between, 2)):
         mine, theirs = made.oceans[1], other.oceans[index]
         assert theirs.seed == mine.seed
-        rows, columns = np.nonzero(mine.grid.active & (mine.grid.k > 1.2 * max(made.bands[1][0], other.bands[index][0])))
+        rows, columns = np.nonzero(
+            mine.grid.active & (mine.grid.k > 1.2 * max(made.bands[1][0], other.bands[index][0]))
+        )
         near = mine.grid.k[rows, columns] < 0.8 * min(made.bands[1][1], other.bands[index][1])
         rows, columns = rows[near], columns[near]
         assert rows.size > 10
         my = mine.grid.my[rows]
-        assert np.array_equal(mine.amplitudes.forward[my, columns], theirs.amplitudes.forward[my, columns])
+        assert np.array_equal(
+            mine.amplitudes.forward[my, columns], theirs.amplitudes.forward[my, columns]
+        )
 
 
 def test_one_tile_is_an_ocean():
@@ -203,11 +277,17 @@ def test_one_tile_is_an_ocean():
 
 def test_seeds_of_tiles():
     """Different for another seed and another size; 64 bits; the same for ever."""
-    seeds = {tile_seed(seed, size, size) for seed in (0, 1, 2**64 - 1) for size in (71.0, 71.00000000000001, 9.3)}
+    seeds = {
+        tile_seed(seed, size, size)
+        for seed in (0, 1, 2**64 - 1)
+        for size in (71.0, 71.00000000000001, 9.3)
+    }
     assert len(seeds) == 9
     assert all(0 <= seed < 2**64 for seed in seeds)
     assert tile_seed(7, 71.0, 9.3) != tile_seed(7, 9.3, 71.0)
-    assert tile_seed(7, 71.0, 71.0) == 14448063307456676198  # a change would be another sea for everybody
+    assert (
+        tile_seed(7, 71.0, 71.0) == 14448063307456676198
+    )  # a change would be another sea for everybody
 
 
 # Bands
@@ -217,7 +297,9 @@ def test_automatic_bands_lie_where_both_tiles_hold_every_wave():
     made = cascade()
     assert made.bands[0][0] == 0.0
     assert made.bands[-1][1] == math.inf
-    for (low, high), (again, _), large, small in zip(made.bands, made.bands[1:], made.oceans, made.oceans[1:], strict=False):
+    for (low, high), (again, _), large, small in zip(
+        made.bands, made.bands[1:], made.oceans, made.oceans[1:], strict=False
+    ):
         assert low < high == again
         assert reach_of(small.grid)[0] < high < reach_of(large.grid)[1]
         samples, waves = 2 * math.pi / high / (large.grid.lx / large.grid.nx), high / small.grid.dkx
@@ -296,11 +378,15 @@ def test_loops():
     assert (free.loop, free.loops) == (None, (None,) * 3)
     for a, b in zip(common.frame(1.5, ("height",)), common.frame(41.5, ("height",)), strict=True):
         assert np.array_equal(a.height, b.height)
-    for a, b in zip(common.loop_frame(3, 8, ("height",)), common.loop_frame(11, 8, ("height",)), strict=True):
+    for a, b in zip(
+        common.loop_frame(3, 8, ("height",)), common.loop_frame(11, 8, ("height",)), strict=True
+    ):
         assert np.array_equal(a.height, b.height)
     each = cascade(loop=(40.0, 20.0, 8.0))
     assert (each.loop, each.loops) == (None, (40.0, 20.0, 8.0))
-    for frame, again in zip(each.frame(1.5, ("height",)), each.frame(41.5, ("height",)), strict=True):
+    for frame, again in zip(
+        each.frame(1.5, ("height",)), each.frame(41.5, ("height",)), strict=True
+    ):
         assert np.allclose(frame.height, again.height, atol=1e-12)  # 40 is a multiple of all three
     for made in (each, free):
         with pytest.raises(fo.ParameterError, match="one period"):
@@ -320,7 +406,12 @@ def test_a_cascade_is_a_frozen_value():
     with pytest.raises(AttributeError, match="frozen"):
         made.seed = 8
     for again in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made)):
-        assert (again.seed, again.bands, again.loops, again.choppiness) == (made.seed, made.bands, made.loops, made.choppiness)
+        assert (again.seed, again.bands, again.loops, again.choppiness) == (
+            made.seed,
+            made.bands,
+            made.loops,
+            made.choppiness,
+        )
         for a, b in zip(again.frame(2.0), made.frame(2.0), strict=True):
             assert np.array_equal(a.height, b.height)
     assert len(made) == 3

@@ -13,15 +13,21 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean.bake.tiles import bake_tiles
+from fftocean.baking.cascade import bake_tiles
 from fftocean.export import formats
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "cascades.md"
-TILES = [(64, 96.0), (60, 30.0)]  # 1.5 m and 0.5 m from sample to sample: places 1.5 m apart are samples of both; 96 is no multiple of 30
+TILES = [
+    (64, 96.0),
+    (60, 30.0),
+    # 1.5 m and 0.5 m from sample to sample: places 1.5 m apart are samples of both; 96 is no multiple
+    # of 30
+]
 LOOP, FRAMES = 12.0, 72
 
-# An engine by its own documents: its two horizontal axes and up as (our axis, sign), units in a metre, v of row 0 by its loader.
+# An engine by its own documents: its two horizontal axes and up as (our axis, sign), units in a
+# metre, v of row 0 by its loader.
 ENGINES = {
     "canonical": (((0, 1), (1, 1), (2, 1)), (0, 1, 2), 1.0, 1),
     "unity": (((0, 1), (2, 1), (1, 1)), (0, 2, 1), 1.0, 1),
@@ -37,7 +43,10 @@ class Vector:
         self.parts = list(parts)
 
     def __getattr__(self, letters):
-        index = {**dict(zip("xyzw", range(4), strict=True)), **dict(zip("rgba", range(4), strict=True))}
+        index = {
+            **dict(zip("xyzw", range(4), strict=True)),
+            **dict(zip("rgba", range(4), strict=True)),
+        }
         found = [self.parts[index[letter]] for letter in letters]
         return found[0] if len(found) == 1 else Vector(*found)
 
@@ -62,7 +71,9 @@ def recipe():
     for line in block.splitlines():
         line = line.split("//")[0].rstrip().rstrip(";")
         line = re.sub(r"^(\s*)(?:float|vec[234]) (?=\w+ =)", r"\1", line)
-        line = re.sub(r"for \(int (\w+) = 0; \1 < (\w+); \1\+\+\) \{", r"for \1 in range(\2):", line)
+        line = re.sub(
+            r"for \(int (\w+) = 0; \1 < (\w+); \1\+\+\) \{", r"for \1 in range(\2):", line
+        )
         lines.append("" if line.strip() == "}" else line)
     return compile("\n".join(lines), "recipe", "exec")
 
@@ -81,7 +92,10 @@ def sampler(row0_v):
     def texture(picture, uv):
         rows, columns, channels = picture.shape
         column, row = uv.x * columns - 0.5, (uv.y if row0_v == 0 else 1.0 - uv.y) * rows - 0.5
-        i, j = np.floor(column + 1e-9).astype(int), np.floor(row + 1e-9).astype(int)  # exact at a texel's middle, whatever the last bit
+        i, j = (
+            np.floor(column + 1e-9).astype(int),
+            np.floor(row + 1e-9).astype(int),
+        )  # exact at a texel's middle, whatever the last bit
         f, g = np.clip(column - i, 0.0, 1.0)[:, None], np.clip(row - j, 0.0, 1.0)[:, None]
         texel = lambda b, a: picture[b % rows, a % columns]  # noqa: E731
         low = texel(j, i) * (1 - f) + texel(j, i + 1) * f
@@ -103,7 +117,13 @@ def baked(tmp_path_factory):
     for engine in ENGINES:
         made[engine] = tmp_path_factory.mktemp(engine) / "sea"
         some = None if engine == "godot" else "7:8"
-        bake_tiles(job.replaced({"bake.engine": engine}), TILES, made[engine], frames=some, executor="serial")
+        bake_tiles(
+            job.replaced({"bake.engine": engine}),
+            TILES,
+            made[engine],
+            frames=some,
+            executor="serial",
+        )
     cascade = fo.Cascade(job.sea(), TILES, seed=5, loop=LOOP, choppiness=1.2, dtype="float64")
     return made, cascade
 
@@ -118,9 +138,15 @@ def summed(cascade, x, y, t):
     phase = np.outer(x, w.kx) + np.outer(y, w.ky) - w.omega * t - w.phase
     wave, turned = np.cos(phase), np.sin(phase)
     along, across = w.kx / k, w.ky / k
-    displacement = [-c * turned @ (w.amplitude * along), -c * turned @ (w.amplitude * across), wave @ w.amplitude]
+    displacement = [
+        -c * turned @ (w.amplitude * along),
+        -c * turned @ (w.amplitude * across),
+        wave @ w.amplitude,
+    ]
     slopes = [-turned @ (w.amplitude * w.kx), -turned @ (w.amplitude * w.ky)]
-    stretch = [-c * wave @ (w.amplitude * part) for part in (w.kx * along, w.kx * across, w.ky * across)]
+    stretch = [
+        -c * wave @ (w.amplitude * part) for part in (w.kx * along, w.kx * across, w.ky * across)
+    ]
     return np.array(displacement), np.array(slopes), np.array(stretch)
 
 
@@ -136,7 +162,9 @@ def run(folder, engine, j, x, y, **known):
         n, size = listed["tiles"][i]["n"], listed["tiles"][i]["size"]
         north = world[second][1]  # of the second axis
         v = p[1] / unit / size[1] + north * 0.5 / n[1]  # grows along the second axis
-        points_up = row0_v == 1  # row 0 is north in all four: v grows northward where row 0 is at v = 1
+        points_up = (
+            row0_v == 1
+        )  # row 0 is north in all four: v grows northward where row 0 is at v = 1
         return Vector(p[0] / unit / size[0] + 0.5 / n[0], v if points_up == (north > 0) else -v)
 
     names = {
@@ -165,15 +193,25 @@ def test_the_recipe_is_the_summed_water(baked, engine):
     got = run(folders[engine], engine, 7, x, y)
     displacement, slopes, stretch = summed(cascade, x, y, LOOP * 7 / FRAMES)
     for c, (axis, sign) in enumerate(world):
-        assert np.allclose(got["D"].parts[c], sign * unit * displacement[axis], atol=3e-6 * unit), engine
-    along, across = (np.array(part) for part in ((1 + stretch[0], stretch[1], slopes[0]), (stretch[1], 1 + stretch[2], slopes[1])))
+        assert np.allclose(got["D"].parts[c], sign * unit * displacement[axis], atol=3e-6 * unit), (
+            engine
+        )
+    along, across = (
+        np.array(part)
+        for part in (
+            (1 + stretch[0], stretch[1], slopes[0]),
+            (stretch[1], 1 + stretch[2], slopes[1]),
+        )
+    )
     normal = np.cross(along.T, across.T)
     assert np.allclose(got["jacobian"], normal[:, 2], atol=3e-6)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     for part, axis in zip(got["normal"].parts, (first, second, up), strict=True):
         ours, sign = world[axis]
         assert np.allclose(part, sign * normal[:, ours], atol=3e-6), engine
-    deformation = np.moveaxis(np.array([[1 + stretch[0], stretch[1]], [stretch[1], 1 + stretch[2]]]), -1, 0)
+    deformation = np.moveaxis(
+        np.array([[1 + stretch[0], stretch[1]], [stretch[1], 1 + stretch[2]]]), -1, 0
+    )
     assert np.allclose(got["squeeze"], np.linalg.eigvalsh(deformation)[:, 0], atol=3e-6)
     assert np.std(stretch[1]) > 0.02  # with a shear that would be missed
 
@@ -183,7 +221,9 @@ def test_the_recipe_s_normal_is_that_of_a_query(baked):
     folders, cascade = baked
     x, y = places()
     got = run(folders["canonical"], "canonical", 7, x, y)
-    found = fo.Query(cascade, mode="exact").at(x + got["D"].x, y + got["D"].y, LOOP * 7 / FRAMES, fields=("heights", "normals"))
+    found = fo.Query(cascade, mode="exact").at(
+        x + got["D"].x, y + got["D"].y, LOOP * 7 / FRAMES, fields=("heights", "normals")
+    )
     calm = ~found.folded & (np.hypot(found.x0 - x, found.y0 - y) < 1e-3)
     assert np.mean(calm) > 0.9
     assert np.allclose(np.stack(got["normal"].parts, -1)[calm], found.normals[calm], atol=2e-4)
@@ -209,7 +249,10 @@ def test_the_recipe_s_foam_is_that_of_the_sum(baked):
     truth = exact_foam(cascade, x, y, settings)
     assert np.mean(truth) > 0.02
     assert np.mean(seen) == pytest.approx(np.mean(truth), rel=0.05)
-    alone = [np.mean([cover.mean() for cover in fo.Foam(**settings).loop(ocean, 24)]) for ocean in cascade.oceans]
+    alone = [
+        np.mean([cover.mean() for cover in fo.Foam(**settings).loop(ocean, 24)])
+        for ocean in cascade.oceans
+    ]
     assert sum(alone) < 0.5 * np.mean(truth)
 
 
@@ -225,5 +268,7 @@ def exact_foam(cascade, x, y, settings):
         squeeze.append(1 + 0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy))
     source = settings["strength"] * np.maximum(settings["threshold"] - np.array(squeeze), 0.0)
     memory = np.exp(-times / settings["tau"]) / (1.0 - math.exp(-LOOP / settings["tau"]))
-    made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real * (LOOP / dense)
+    made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real * (
+        LOOP / dense
+    )
     return 1.0 - np.exp(-made)

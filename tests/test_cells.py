@@ -1,4 +1,7 @@
-"""Variance of cells: adaptive quadrature written out again, closed forms, and every width that the limits allow."""
+"""
+Variance of cells: adaptive quadrature written out again, closed forms, and every width that the
+limits allow.
+"""
 
 import itertools
 import math
@@ -25,14 +28,18 @@ def sea_of(spreading, direction=0.0, spectrum=JONSWAP):
 
 def bell_at(centre, width):
     """A narrow bell away from the system's own direction, named in `breaks`."""
-    return fo.CustomSpreading(lambda _, theta, __: np.exp(-0.5 * ((theta - centre) / width) ** 2), breaks=[centre])
+    return fo.CustomSpreading(
+        lambda _, theta, __: np.exp(-0.5 * ((theta - centre) / width) ** 2), breaks=[centre]
+    )
 
 
 def two_rows():
     """A measured spreading of two narrow sectors, in a table."""
     direction = np.array([-40.0, -20.5, -20.0, -19.5, 10.0, 30.0, 30.5, 31.0, 90.0, 180.0])
     row = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0])
-    return TabulatedSpreading(frequency=[0.05, 0.5], direction=direction.tolist(), density=[row.tolist(), row.tolist()])
+    return TabulatedSpreading(
+        frequency=[0.05, 0.5], direction=direction.tolist(), density=[row.tolist(), row.tolist()]
+    )
 
 
 NARROW = [
@@ -58,7 +65,10 @@ def cumulated(omega, spectrum):
 
 
 def along_ray(spectrum, theta, mx, my, dkx, dky):
-    """Variance of a Pierson-Moskowitz sea on the part of a ray from k = 0 that lies in a cell: deep water, omega^2 = g k."""
+    """
+    Variance of a Pierson-Moskowitz sea on the part of a ray from k = 0 that lies in a cell: deep
+    water, omega^2 = g k.
+    """
     low, high = 0.0, math.inf
     for m, dk, u in ((mx, dkx, math.cos(theta)), (my, dky, math.sin(theta))):
         if u == 0.0:
@@ -69,7 +79,9 @@ def along_ray(spectrum, theta, mx, my, dkx, dky):
         low, high = max(low, ends[0]), min(high, ends[1])
     if not high > low:
         return 0.0
-    return cumulated(math.sqrt(GRAVITY * high), spectrum) - cumulated(math.sqrt(GRAVITY * low), spectrum)
+    return cumulated(math.sqrt(GRAVITY * high), spectrum) - cumulated(
+        math.sqrt(GRAVITY * low), spectrum
+    )
 
 
 PM = fo.PiersonMoskowitz.from_sea_state(hs=2.0, tp=8.0)
@@ -77,20 +89,28 @@ PM = fo.PiersonMoskowitz.from_sea_state(hs=2.0, tp=8.0)
 
 @pytest.mark.parametrize("direction", [0.0, 17.0, 45.0, 133.0, 180.0, -90.0])
 def test_long_crested_cells_hold_the_energy_of_the_ray(direction):
-    """The closed form of a Pierson-Moskowitz sea between the points where the ray enters and leaves each cell."""
+    """
+    The closed form of a Pierson-Moskowitz sea between the points where the ray enters and leaves
+    each cell.
+    """
     dkx, dky = 2.0 * np.pi / 300.0, 2.0 * np.pi / 200.0
     mx, my = (a.ravel() for a in np.meshgrid(np.arange(-8, 9), np.arange(-8, 9)))
     waves = (mx != 0) | (my != 0)
     mx, my = mx[waves], my[waves]
     ours = cell_variance(sea_of(fo.LongCrested(), direction, PM), mx, my, dkx, dky)
-    truth = [along_ray(PM, math.radians(direction), x, y, dkx, dky) for x, y in zip(mx, my, strict=True)]
+    truth = [
+        along_ray(PM, math.radians(direction), x, y, dkx, dky) for x, y in zip(mx, my, strict=True)
+    ]
     assert ours == pytest.approx(truth, abs=1e-9 * PM.alpha * GRAVITY**2 / (5.0 * PM.peak**4))
 
 
 @pytest.mark.parametrize("direction", [0.0, 33.0])
 @pytest.mark.parametrize("sigma", [0.1, 1.0, 10.0])
 def test_narrow_cells_against_adaptive_quadrature(sigma, direction):
-    """A wound normal bell times the closed radial integral, by QUADPACK in theta, cut at corners and round the bell."""
+    """
+    A wound normal bell times the closed radial integral, by QUADPACK in theta, cut at corners and
+    round the bell.
+    """
     dkx, dky = 2.0 * np.pi / 600.0, 2.0 * np.pi / 50.0
     sea = sea_of(fo.WrappedNormal(spread=sigma), direction, PM)
     centre, width = math.radians(direction), math.radians(sigma)
@@ -100,10 +120,27 @@ def test_narrow_cells_against_adaptive_quadrature(sigma, direction):
 
     total = ordered(sea).m0
     for mx, my in ((5, 0), (4, 1), (9, 1), (1, 1), (2, 0), (0, 1), (3, -1)):
-        corners = [math.atan2((my + j) * dky, (mx + i) * dkx) for i in (-0.5, 0.5) for j in (-0.5, 0.5)]
-        cuts = sorted({*corners, *(centre + s * width for s in range(-10, 11, 2) if min(corners) < centre + s * width < max(corners))})
+        corners = [
+            math.atan2((my + j) * dky, (mx + i) * dkx) for i in (-0.5, 0.5) for j in (-0.5, 0.5)
+        ]
+        cuts = sorted(
+            {
+                *corners,
+                *(
+                    centre + s * width
+                    for s in range(-10, 11, 2)
+                    if min(corners) < centre + s * width < max(corners)
+                ),
+            }
+        )
         truth = sum(
-            integrate.quad(lambda t, x=mx, y=my: bell(t) * along_ray(PM, t, x, y, dkx, dky), a, b, epsabs=1e-14 * total, epsrel=1e-9)[0]
+            integrate.quad(
+                lambda t, x=mx, y=my: bell(t) * along_ray(PM, t, x, y, dkx, dky),
+                a,
+                b,
+                epsabs=1e-14 * total,
+                epsrel=1e-9,
+            )[0]
             for a, b in itertools.pairwise(cuts)
         )
         ours = cell_variance(sea, np.array([mx]), np.array([my]), dkx, dky)[0]
@@ -111,7 +148,9 @@ def test_narrow_cells_against_adaptive_quadrature(sigma, direction):
 
 
 @pytest.mark.parametrize("spreading", NARROW, ids=lambda s: repr(s)[:40])
-@pytest.mark.parametrize(("n", "size"), [((64, 4), (600.0, 50.0)), (48, 400.0), ((9, 64), (20.0, 900.0))], ids=str)
+@pytest.mark.parametrize(
+    ("n", "size"), [((64, 4), (600.0, 50.0)), (48, 400.0), ((9, 64), (20.0, 900.0))], ids=str
+)
 def test_held_and_lost_are_what_was_specified(spreading, n, size):
     """However narrow, in whatever direction; 1e-5: panels that eight points resolve to 1e-6."""
     for direction in (0.0, 33.0):
@@ -130,13 +169,18 @@ def test_held_and_lost_are_what_was_specified(spreading, n, size):
 @pytest.mark.parametrize("width", [1e-1, 1e-3, 1e-5])
 def test_a_spectral_line_keeps_its_energy(width):
     """A normal bell in omega, of variance 1, across cells of the whole circle."""
-    line = fo.CustomSpectrum(lambda w: np.exp(-0.5 * ((w - 0.8) / width) ** 2) / (width * math.sqrt(2.0 * math.pi)), peak=0.8)
+    line = fo.CustomSpectrum(
+        lambda w: np.exp(-0.5 * ((w - 0.8) / width) ** 2) / (width * math.sqrt(2.0 * math.pi)),
+        peak=0.8,
+    )
     held = seed_amplitudes(sea_of(fo.CosineSquared(), 20.0, line), Grid.of(48, 400.0)).variance
     assert held == pytest.approx(1.0, rel=1e-5)
 
 
 @pytest.mark.parametrize(
-    "spreading", [fo.LongCrested(), fo.WrappedNormal(spread=0.1), two_rows(), fo.CosineN(n=0.0)], ids=lambda s: repr(s)[:20]
+    "spreading",
+    [fo.LongCrested(), fo.WrappedNormal(spread=0.1), two_rows(), fo.CosineN(n=0.0)],
+    ids=lambda s: repr(s)[:20],
 )
 def test_cells_do_not_depend_on_the_grid_or_the_band(spreading):
     """To the bit."""
@@ -150,10 +194,16 @@ def test_cells_do_not_depend_on_the_grid_or_the_band(spreading):
         fine = seed_amplitudes(sea, Grid.of(n, (300.0, 120.0)), seed=5, band=band)
         some = within if band[0] else slice(None)
         assert np.array_equal(fine.forward[my, columns][some], coarse.forward[rows, columns][some])
-        assert np.array_equal(fine.backward[my, columns][some], coarse.backward[rows, columns][some])
+        assert np.array_equal(
+            fine.backward[my, columns][some], coarse.backward[rows, columns][some]
+        )
 
 
-@pytest.mark.parametrize("spreading", [fo.LongCrested(), fo.WrappedNormal(spread=0.1), fo.CosineSquared()], ids=lambda s: repr(s)[:20])
+@pytest.mark.parametrize(
+    "spreading",
+    [fo.LongCrested(), fo.WrappedNormal(spread=0.1), fo.CosineSquared()],
+    ids=lambda s: repr(s)[:20],
+)
 def test_bands_of_narrow_seas_share_out_their_cells(spreading):
     """Bands that adjoin hold the whole, each what the continuous sea has there."""
     sea, grid, cuts = sea_of(spreading, 33.0), Grid.of(40, (300.0, 120.0)), (0.06, 0.09, 0.2)
@@ -161,7 +211,9 @@ def test_bands_of_narrow_seas_share_out_their_cells(spreading):
     parts = [seed_amplitudes(sea, grid, band=band).variance for band in bands]
     assert sum(parts) == pytest.approx(seed_amplitudes(sea, grid).variance, rel=1e-12)
     low, high = math.sqrt(GRAVITY * cuts[0]), math.sqrt(GRAVITY * cuts[1])
-    assert parts[1] == pytest.approx(fo.moments.moment(JONSWAP, 0, low, high), rel=1e-5)  # a ring that lies in the tile's rectangle
+    assert parts[1] == pytest.approx(
+        fo.moments.moment(JONSWAP, 0, low, high), rel=1e-5
+    )  # a ring that lies in the tile's rectangle
 
 
 def test_a_spreading_that_does_not_integrate_to_1_is_refused():
@@ -176,14 +228,18 @@ def test_a_spreading_that_does_not_integrate_to_1_is_refused():
 def test_lost_energy_is_refused_with_its_numbers(monkeypatch):
     variances = Cells.variances
     monkeypatch.setattr(Cells, "variances", lambda *a: 0.998 * variances(*a))
-    with pytest.raises(fo.ParameterError, match=r"0\.24\d+ m\^2 of 0\.25\d* m\^2, within 0\.001, got 0\.24"):
+    with pytest.raises(
+        fo.ParameterError, match=r"0\.24\d+ m\^2 of 0\.25\d* m\^2, within 0\.001, got 0\.24"
+    ):
         fo.Ocean(sea_of(fo.CosineSquared()), n=64, size=400.0)
 
 
 def test_a_spectrum_without_end_is_no_error():
     """White noise has infinite variance; a tile holds its part."""
     flat = fo.CustomSpectrum(lambda w: 0.0 * w + 1.0, peak=1.0)
-    assert seed_amplitudes(sea_of(fo.CosinePower(s=0.0), 0.0, flat), Grid.of(16, 100.0)).variance > 0.0
+    assert (
+        seed_amplitudes(sea_of(fo.CosinePower(s=0.0), 0.0, flat), Grid.of(16, 100.0)).variance > 0.0
+    )
 
 
 def test_measure_says_the_realised_spread():
@@ -200,7 +256,10 @@ def test_measure_says_the_realised_spread():
     ("spreading", "spread"),
     [
         (fo.WrappedNormal(spread=0.1), 0.1),
-        (fo.WrappedNormal(spread=2.0), math.degrees(math.sqrt(2.0 * (1.0 - math.exp(-0.5 * math.radians(2.0) ** 2))))),
+        (
+            fo.WrappedNormal(spread=2.0),
+            math.degrees(math.sqrt(2.0 * (1.0 - math.exp(-0.5 * math.radians(2.0) ** 2)))),
+        ),
         (bell_at(1.1, math.radians(0.2)), 0.2),
     ],
     ids=["0.1", "2", "beside"],
@@ -213,16 +272,23 @@ def test_the_specified_spread_of_narrow_seas(spreading, spread):
 
 
 def test_long_crested_in_a_job_and_as_a_value():
-    job = fo.Job.from_toml("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\nspreading = { kind = 'long-crested' }")
+    job = fo.Job.from_toml(
+        "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\nspreading = { kind = 'long-crested' }"
+    )
     assert job.sea().systems[0].spreading == fo.LongCrested()
-    total = integrate.quad(lambda t: float(fo.LongCrested()(1.0, t, 1.0)), -0.1, 0.1, points=[0.0], epsabs=1e-12)[0]
+    total = integrate.quad(
+        lambda t: float(fo.LongCrested()(1.0, t, 1.0)), -0.1, 0.1, points=[0.0], epsabs=1e-12
+    )[0]
     assert total == pytest.approx(1.0, rel=1e-9)
 
 
 def test_the_proof_passes_on_long_crested_seas():
     from fftocean.proof import verify
 
-    assert all(check.passed for check in verify(fo.Ocean(sea_of(fo.LongCrested(), 20.0), n=32, size=300.0, loop=40.0)))
+    assert all(
+        check.passed
+        for check in verify(fo.Ocean(sea_of(fo.LongCrested(), 20.0), n=32, size=300.0, loop=40.0))
+    )
 
 
 def test_cells_are_covered_without_remainder():

@@ -1,4 +1,7 @@
-"""The command line: what it prints and where, its exit codes, and that a wrong word costs one line and nothing else."""
+"""
+The command line: what it prints and where, its exit codes, and that a wrong word costs one line and
+nothing else.
+"""
 
 import contextlib
 import dataclasses
@@ -22,11 +25,12 @@ import pytest
 
 import fftocean as fo
 from fftocean import cli
-from fftocean.bake import baker, preview
-from fftocean.bake.load import load
-from fftocean.bake.parameters import BY_KEY, PARAMETERS
+from fftocean.baking import bake as baker
+from fftocean.baking.finished.load import load
+from fftocean.baking.previews import sheets as preview
 from fftocean.errors import FFTOceanError
 from fftocean.export import exr
+from fftocean.job.parameters import BY_KEY, PARAMETERS
 from fftocean.statistics import SeaState
 
 BAD = ["nan", "inf", "-1", "0", '"5"', "true", "1e308", "1e-308"]
@@ -36,7 +40,10 @@ SWELL = "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.5, tp = 4.0 }\n"
 
 @pytest.fixture(autouse=True)
 def place(tmp_path, monkeypatch):
-    """Each test in a folder of its own; a 160-column terminal's worth of width, no colours, whatever the outer ones are."""
+    """
+    Each test in a folder of its own; a 160-column terminal's worth of width, no colours, whatever
+    the outer ones are.
+    """
     monkeypatch.chdir(tmp_path)
     for name in ("FORCE_COLOR", "NO_COLOR", "COLUMNS", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
         monkeypatch.delenv(name, raising=False)
@@ -45,8 +52,15 @@ def place(tmp_path, monkeypatch):
 
 @pytest.fixture
 def quick(monkeypatch):
-    """No picture and no integrals over the sea, which take most of the time of a small bake; test_baker.py has them."""
-    monkeypatch.setattr(baker, "measure", lambda ocean: some_statistics(0.0 if ocean.amplitudes.variance == 0.0 else 0.1))
+    """
+    No picture and no integrals over the sea, which take most of the time of a small bake;
+    test_baker.py has them.
+    """
+    monkeypatch.setattr(
+        baker,
+        "measure",
+        lambda ocean: some_statistics(0.0 if ocean.amplitudes.variance == 0.0 else 0.1),
+    )
     no_pictures(monkeypatch)
 
 
@@ -58,7 +72,9 @@ def no_pictures(monkeypatch, size=7):
 @functools.cache
 def some_statistics(m0):
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    return dataclasses.replace(still, ordered=SeaState(m0=m0, hs=4.0 * m0**0.5, tp=5.0, mean_direction=0.0, spread=30.0))
+    return dataclasses.replace(
+        still, ordered=SeaState(m0=m0, hs=4.0 * m0**0.5, tp=5.0, mean_direction=0.0, spread=30.0)
+    )
 
 
 @pytest.fixture
@@ -94,7 +110,9 @@ def clean(result, folder="out"):
 
 
 def refused_or_finite(result, key, value):
-    """Clean refusal with key, rule and value, or a bake without a NaN. Returns whether it was refused."""
+    """
+    Clean refusal with key, rule and value, or a bake without a NaN. Returns whether it was refused.
+    """
     if result[0] == 2:
         message = clean(result).lower().replace("e+", "e")
         for part in (key, "must ", value.strip('"').removesuffix(".0")):
@@ -126,7 +144,10 @@ FLAGGED = [p for p in PARAMETERS if p.flag and not p.switch]  # a switch takes n
 
 
 def others(key):
-    """Flags that keep a bake small, but for the key in question; smaller levels need a format that has room for them."""
+    """
+    Flags that keep a bake small, but for the key in question; smaller levels need a format that has
+    room for them.
+    """
     return [*(["--format", "ktx2"] if key == "bake.mips" else []), *_small(key)]
 
 
@@ -143,9 +164,9 @@ def _small(key):
 @pytest.mark.parametrize("value", BAD)
 @pytest.mark.parametrize("key", BY_KEY)
 def test_a_bad_value_by_set(run, key, value):
-    assert refused_or_finite(run("bake", "-o", "out", *others(key), "--set", f"{key}={value}"), key, value) == (
-        value not in ACCEPTED.get(key, ())
-    )
+    assert refused_or_finite(
+        run("bake", "-o", "out", *others(key), "--set", f"{key}={value}"), key, value
+    ) == (value not in ACCEPTED.get(key, ()))
 
 
 @pytest.mark.usefixtures("quick")
@@ -154,7 +175,9 @@ def test_a_bad_value_by_set(run, key, value):
 def test_a_bad_value_in_a_file(run, key, value):
     table, _, name = key.rpartition(".")
     Path("job.toml").write_text(f"[{table}]\n{name} = {value}\n")
-    assert refused_or_finite(run("bake", "job.toml", "-o", "out", *others(key)), key, value) == (value not in ACCEPTED.get(key, ()))
+    assert refused_or_finite(run("bake", "job.toml", "-o", "out", *others(key)), key, value) == (
+        value not in ACCEPTED.get(key, ())
+    )
 
 
 @pytest.mark.usefixtures("quick")
@@ -162,28 +185,45 @@ def test_a_bad_value_in_a_file(run, key, value):
 @pytest.mark.parametrize("parameter", FLAGGED, ids=lambda p: p.flag)
 def test_a_bad_value_by_flag(run, parameter, value):
     key = parameter.key
-    assert refused_or_finite(run("bake", "-o", "out", *others(key), f"--{parameter.flag}", value), key, value) == (
-        value not in ACCEPTED.get(key, ())
-    )
+    assert refused_or_finite(
+        run("bake", "-o", "out", *others(key), f"--{parameter.flag}", value), key, value
+    ) == (value not in ACCEPTED.get(key, ()))
 
 
 @pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize("value", BAD)
-@pytest.mark.parametrize("key", ["spectrum.hs", "spectrum.tp", "spectrum.gamma", "spreading.s", "direction"])
+@pytest.mark.parametrize(
+    "key", ["spectrum.hs", "spectrum.tp", "spectrum.gamma", "spreading.s", "direction"]
+)
 def test_a_bad_value_in_a_wave_system(run, key, value):
-    """One spectrum stands for all here; tests/bake/test_job.py goes through them."""
-    values = {"spectrum.hs": "0.5", "spectrum.tp": "4.0", "spectrum.gamma": "2.0", "spreading.s": "9.0", "direction": "30.0", key: value}
+    """One spectrum stands for all here; tests/job/test_job.py goes through them."""
+    values = {
+        "spectrum.hs": "0.5",
+        "spectrum.tp": "4.0",
+        "spectrum.gamma": "2.0",
+        "spreading.s": "9.0",
+        "direction": "30.0",
+        key: value,
+    }
     v = {k.replace(".", "_"): text for k, text in values.items()}
     text = "[[sea.systems]]\nspectrum = {{ kind = 'jonswap', hs = {spectrum_hs}, tp = {spectrum_tp}, gamma = {spectrum_gamma} }}\n"
     text += "spreading = {{ kind = 'cosine-power', s = {spreading_s} }}\ndirection = {direction}\n"
     Path("job.toml").write_text(text.format(**v))
-    accepted = {"spectrum.hs": ("0", "1e-308"), "spreading.s": ("0", "1e-308"), "direction": ("-1", "0", "1e-308")}.get(key, ())
-    assert refused_or_finite(run("bake", "job.toml", "-o", "out", *SMALL), f"sea.systems[0].{key}", value) == (value not in accepted)
+    accepted = {
+        "spectrum.hs": ("0", "1e-308"),
+        "spreading.s": ("0", "1e-308"),
+        "direction": ("-1", "0", "1e-308"),
+    }.get(key, ())
+    assert refused_or_finite(
+        run("bake", "job.toml", "-o", "out", *SMALL), f"sea.systems[0].{key}", value
+    ) == (value not in accepted)
 
 
 @pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
 def test_each_command_refuses_alike(run, command):
-    assert "sea.wind.speed must be between 0 and 150 m/s, got -1.0" in clean(run(command, "--set", "sea.wind.speed=-1"))
+    assert "sea.wind.speed must be between 0 and 150 m/s, got -1.0" in clean(
+        run(command, "--set", "sea.wind.speed=-1")
+    )
 
 
 @pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
@@ -200,11 +240,17 @@ def test_more_samples_than_memory_are_refused_before_they_are_taken(run, command
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ("[sea.wind]\nsped = 3\n", ["job.toml", "unknown key 'sea.wind.sped'", "did you mean sea.wind.speed?"]),
+        (
+            "[sea.wind]\nsped = 3\n",
+            ["job.toml", "unknown key 'sea.wind.sped'", "did you mean sea.wind.speed?"],
+        ),
         ("[ocean]\nn = 8\nn = 9\n", ["job.toml", "TOML", "line 3"]),
         (f"[sea.wind]\nfetch = 1e4\n{SWELL}", ["sea.wind.speed must be given"]),
         ("ocean = 5\n", ["'ocean'"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', \"a\\nb\\u001b[31m\" = 1.0 }\n", ["a\\nb\\x1b[31m"]),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', \"a\\nb\\u001b[31m\" = 1.0 }\n",
+            ["a\\nb\\x1b[31m"],
+        ),
         ("a" * 100_000, ["at most 65536 bytes"]),
         (".".join("a" * 30_000) + " = 1", ["line 1", "at most 2048 characters"]),
         (".".join(['"\u2028"'] * 9000) + " = 1", ["line 1", "at most 2048 characters"]),
@@ -226,7 +272,20 @@ def test_bad_files_are_refused_within_two_seconds(run, text, parts):
 
 
 @pytest.mark.parametrize(
-    "path", ["/dev/zero", "/dev/full", "/dev/null", ".", "none.toml", "a\nb", "\udcff", "x" * 5000, "/dev/full/x", "[/red].toml", ""]
+    "path",
+    [
+        "/dev/zero",
+        "/dev/full",
+        "/dev/null",
+        ".",
+        "none.toml",
+        "a\nb",
+        "\udcff",
+        "x" * 5000,
+        "/dev/full/x",
+        "[/red].toml",
+        "",
+    ],
 )
 def test_what_is_no_job_file_is_refused(run, path):
     clean(run("bake", path, "-o", "out"))
@@ -266,7 +325,9 @@ def test_a_wind_that_nobody_ordered_is_refused(run):
 
 @pytest.mark.parametrize("t", ["nan", "inf", "1e13"])
 def test_times_that_cannot_be_are_refused(run, t):
-    assert f"t must be between -1e+12 and 1e+12 s, got {float(t)}" in clean(run("verify", "--n", "8", "--t", t))
+    assert f"t must be between -1e+12 and 1e+12 s, got {float(t)}" in clean(
+        run("verify", "--n", "8", "--t", t)
+    )
 
 
 # Words of the command line
@@ -302,7 +363,10 @@ def test_a_wrong_flag_is_answered_with_its_own_command_s_usage(run, command):
     assert (code, out) == (2, "")
     usage, error = err.splitlines()
     assert usage.startswith(f"usage: fftocean {command} ")
-    assert error == f"fftocean {command}: error: unrecognized arguments: --nonsense; see fftocean {command} --help"
+    assert (
+        error
+        == f"fftocean {command}: error: unrecognized arguments: --nonsense; see fftocean {command} --help"
+    )
 
 
 def test_a_bare_command_says_what_to_try(run):
@@ -316,7 +380,9 @@ def test_version(run):
     assert run("--version") == (0, f"fftocean {fo.__version__}\n", "")
 
 
-@pytest.mark.parametrize("command", ["", "bake", "check", "info", "verify", "bench", "plot", "presets"])
+@pytest.mark.parametrize(
+    "command", ["", "bake", "check", "info", "verify", "bench", "plot", "presets"]
+)
 def test_help_shows_an_example_and_the_exit_codes(run, command):
     code, out, err = run(*command.split(), "--help")
     assert code == 0
@@ -331,7 +397,9 @@ def test_help_shows_an_example_and_the_exit_codes(run, command):
     assert ("--mips, --no-mips" in out) == (command in ("bake", "info", "verify", "plot"))
 
 
-@pytest.mark.parametrize("example", [line for text in cli.EXAMPLES.values() for line in text.splitlines()])
+@pytest.mark.parametrize(
+    "example", [line for text in cli.EXAMPLES.values() for line in text.splitlines()]
+)
 def test_the_examples_of_the_help_are_commands(example):
     word, *arguments = shlex.split(example)
     assert word == "fftocean"
@@ -344,12 +412,19 @@ def test_the_examples_of_the_help_are_commands(example):
 
 
 def test_help_does_not_wait_for_compilers():
-    """Nor does a usage error: numba, FFTW, OpenEXR, SciPy and NumPy are loaded by the work that needs them."""
+    """
+    Nor does a usage error: numba, FFTW, OpenEXR, SciPy and NumPy are loaded by the work that needs
+    them.
+    """
     heavy = {"numba", "pyfftw", "OpenEXR", "scipy", "numpy", "rich", "PIL"}
-    program = (
-        f"import sys; from fftocean.cli import main\ntry: main(['--help'])\nexcept SystemExit: print(sorted({heavy} & set(sys.modules)))"
+    program = f"import sys; from fftocean.cli import main\ntry: main(['--help'])\nexcept SystemExit: print(sorted({heavy} & set(sys.modules)))"
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
-    done = subprocess.run([sys.executable, "-c", program], env=environment(), capture_output=True, text=True, timeout=600)
     assert done.stdout.endswith("\n[]\n"), done.stdout + done.stderr
 
 
@@ -363,7 +438,9 @@ def environment(**more):
 
 @pytest.mark.usefixtures("quick")
 def test_a_bake_says_what_it_made(run):
-    code, out, err = run("bake", "-o", "out", "--n", "8,4", "--frames", "2", "--maps", "height,normal")
+    code, out, err = run(
+        "bake", "-o", "out", "--n", "8,4", "--frames", "2", "--maps", "height,normal"
+    )
     assert code == 0
     assert "Hs 1.26 m specified" in out
     assert "4 maps of 8 x 4 in " in out
@@ -397,7 +474,12 @@ def test_a_bar_where_there_is_one(quiet, monkeypatch, capsys):
 
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(sys, "stderr", Terminal())
-    assert cli.main(["bake", "-o", "out", "--n", "8", "--frames", "3", *(["--quiet"] if quiet else [])]) == 0
+    assert (
+        cli.main(
+            ["bake", "-o", "out", "--n", "8", "--frames", "3", *(["--quiet"] if quiet else [])]
+        )
+        == 0
+    )
     shown = sys.stderr.getvalue()
     assert ("baking" in shown and "3/3" in shown) == (not quiet)
     assert "baking" not in capsys.readouterr().out
@@ -406,7 +488,9 @@ def test_a_bar_where_there_is_one(quiet, monkeypatch, capsys):
 def test_no_wind_bakes_an_exactly_flat_sea_and_says_so(run, monkeypatch):
     """All heights 0, all normals up, by the whole way: only the picture is left out."""
     no_pictures(monkeypatch)
-    code, out, err = run("bake", "-o", "out", *SMALL, "--set", "sea.wind.speed=0", "--maps", "height,normal")
+    code, out, err = run(
+        "bake", "-o", "out", *SMALL, "--set", "sea.wind.speed=0", "--maps", "height,normal"
+    )
     assert code == 0
     assert "wind speed 0 m/s raises no waves: the sea is exactly flat\n" in err
     assert "Hs 0 m specified, 0 m realised" in out
@@ -419,8 +503,13 @@ def test_no_wind_bakes_an_exactly_flat_sea_and_says_so(run, monkeypatch):
 
 
 def test_notes_tell_what_the_tile_cannot_hold(run):
-    """Too short a loop, waves too long for the tile and too short for its samples: on stderr, one line each."""
-    code, _, err = run("info", "--n", "8", "--size", "40", "--loop", "2", "--set", "sea.wind.speed=20")
+    """
+    Too short a loop, waves too long for the tile and too short for its samples: on stderr, one line
+    each.
+    """
+    code, _, err = run(
+        "info", "--n", "8", "--size", "40", "--loop", "2", "--set", "sea.wind.speed=20"
+    )
     assert code == 0
     notes = err.splitlines()
     assert all(note.startswith("note: ") for note in notes)
@@ -499,7 +588,7 @@ def test_presets_are_listed(run):
         assert call in out
 
 
-# Output faults: tests/bake/test_baker.py has them all; here their exit code and their line
+# Output faults: tests/baking/test_bake.py has them all; here their exit code and their line
 
 
 @pytest.mark.usefixtures("quick")
@@ -518,14 +607,19 @@ def test_a_full_disk_exits_4(run):
     run("bake", "-o", "warm", *SMALL)
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     try:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (5000, limits[1]))  # the job and the journal fit, a picture does not
+        resource.setrlimit(
+            resource.RLIMIT_FSIZE, (5000, limits[1])
+        )  # the job and the journal fit, a picture does not
         code, out, err = run("bake", "-o", "out", "--n", "64", "--frames", "1", "--maps", "height")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert code == 4
     assert not out
     assert err == f"fftocean: {Path('out/height/0000.exr')} could not be written: File too large\n"
-    assert sorted(str(p.relative_to("out")) for p in Path("out").rglob("*") if p.is_file()) == [".work/journal", "job.json"]
+    assert sorted(str(p.relative_to("out")) for p in Path("out").rglob("*") if p.is_file()) == [
+        ".work/journal",
+        "job.json",
+    ]
 
 
 @pytest.mark.usefixtures("quick")
@@ -547,9 +641,17 @@ def test_another_job_s_folder_exits_4_and_overwrite_takes_it(run):
     ("error", "code", "said"),
     [
         (MemoryError(), 2, "fftocean: not enough memory; a smaller --n needs less\n"),
-        (KeyboardInterrupt(), 130, "fftocean: interrupted; a folder without manifest.json is not a finished bake\n"),
+        (
+            KeyboardInterrupt(),
+            130,
+            "fftocean: interrupted; a folder without manifest.json is not a finished bake\n",
+        ),
         (OSError(28, "No space left on device"), 4, "fftocean: output: No space left on device\n"),
-        (OSError(5, "Input/output error", "some/file"), 4, "fftocean: some/file: Input/output error\n"),
+        (
+            OSError(5, "Input/output error", "some/file"),
+            4,
+            "fftocean: some/file: Input/output error\n",
+        ),
         (BrokenPipeError(), 0, ""),
     ],
     ids=lambda v: type(v).__name__ if isinstance(v, BaseException) else "",
@@ -574,7 +676,9 @@ def test_a_full_disk_under_stdout_exits_4():
     """One line, no traceback, nothing ignored at exit. (A broken pipe: rich exits 1, silently.)"""
     command = [sys.executable, "-m", "fftocean.cli", "info", "--n", "4"]
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run(command, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True, timeout=600)
+        done = subprocess.run(
+            command, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True, timeout=600
+        )
     assert done.returncode == 4
     assert done.stderr.endswith("fftocean: output: No space left on device\n")
     assert all(line.startswith(("note: ", "fftocean: ")) for line in done.stderr.splitlines())
@@ -597,12 +701,15 @@ def test_a_closed_stdout_is_no_concern_of_the_bake(monkeypatch, capsys):
 @pytest.mark.parametrize(("at", "there"), [(1, 0), (2, 1), (5, 3)])
 def test_a_signal_leaves_no_manifest(run, number, code, at, there, monkeypatch):
     """
-    In the middle of a write, the at-th: the file's temporary name goes, its final name is not taken.
+    In the middle of a write, the at-th: the file's temporary name goes, its final name is not
+    taken.
 
     They are the journal, the job, and for each frame the picture and its line in the journal.
     """
     before = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a test runner in the background may ignore it
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a test runner in the background may ignore it
     calls = []
     real = os.fsync
 
@@ -668,8 +775,26 @@ def test_a_command_runs_in_any_thread():
 
 @pytest.mark.usefixtures("quick")
 def test_flags_override_the_file_and_so_does_set(run):
-    Path("job.toml").write_text("[ocean]\nn = 16\nseed = 5\n[bake]\nframes = 9\nmaps = ['jacobian']\n")
-    assert run("bake", "job.toml", "-o", "out", "--n", "8,4", "--set", "bake.frames=1", "--set", "ocean.seed=6", "--seed", "7")[0] == 0
+    Path("job.toml").write_text(
+        "[ocean]\nn = 16\nseed = 5\n[bake]\nframes = 9\nmaps = ['jacobian']\n"
+    )
+    assert (
+        run(
+            "bake",
+            "job.toml",
+            "-o",
+            "out",
+            "--n",
+            "8,4",
+            "--set",
+            "bake.frames=1",
+            "--set",
+            "ocean.seed=6",
+            "--seed",
+            "7",
+        )[0]
+        == 0
+    )
     described = json.loads(Path("out/job.json").read_text())["job"]
     assert described["ocean.n"] == [8, 4]
     assert described["ocean.seed"] == 7  # a flag is the last word
@@ -678,10 +803,24 @@ def test_flags_override_the_file_and_so_does_set(run):
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize("maps", ["--maps height", "--set bake.maps=height", "--set bake.maps=['height']", "--maps height,height"])
+@pytest.mark.parametrize(
+    "maps",
+    [
+        "--maps height",
+        "--set bake.maps=height",
+        "--set bake.maps=['height']",
+        "--maps height,height",
+    ],
+)
 def test_one_map_needs_no_brackets(run, maps):
     assert run("bake", "-o", "out", *SMALL, *maps.split())[0] == 0
-    assert sorted(p.name for p in Path("out").iterdir()) == ["height", "job.json", "manifest.json", "preview.png", "preview.webp"]
+    assert sorted(p.name for p in Path("out").iterdir()) == [
+        "height",
+        "job.json",
+        "manifest.json",
+        "preview.png",
+        "preview.webp",
+    ]
 
 
 @pytest.mark.usefixtures("quick")
@@ -701,8 +840,24 @@ def test_an_empty_file_is_a_job(run):
 @pytest.mark.usefixtures("quick")
 def test_two_bakes_give_the_same_bytes(run):
     for folder in ("one", "two"):
-        assert run("bake", "-o", folder, "--n", "12,20", "--frames", "3", "--maps", "height,displacement,normal,jacobian")[0] == 0
-    one, two = ({p.relative_to(f): p.read_bytes() for p in Path(f).rglob("*") if p.is_file()} for f in ("one", "two"))
+        assert (
+            run(
+                "bake",
+                "-o",
+                folder,
+                "--n",
+                "12,20",
+                "--frames",
+                "3",
+                "--maps",
+                "height,displacement,normal,jacobian",
+            )[0]
+            == 0
+        )
+    one, two = (
+        {p.relative_to(f): p.read_bytes() for p in Path(f).rglob("*") if p.is_file()}
+        for f in ("one", "two")
+    )
     assert one == two
     assert len(one) == 3 * 4 + 4
 
@@ -721,10 +876,26 @@ def test_an_empty_output_is_not_the_current_folder(tmp_path, monkeypatch, capsys
 
 @pytest.mark.usefixtures("quick")
 def test_a_part_of_the_loop_and_a_part_of_the_samples(run):
-    code, out, _ = run("bake", "-o", "out", "--n", "16", "--set", "bake.frames=12", "--frames", "2:9:3", "--downsample", "2")
+    code, out, _ = run(
+        "bake",
+        "-o",
+        "out",
+        "--n",
+        "16",
+        "--set",
+        "bake.frames=12",
+        "--frames",
+        "2:9:3",
+        "--downsample",
+        "2",
+    )
     assert code == 0
     assert "9 maps of 8 x 8 in " in out
-    assert sorted(p.name for p in Path("out/height").iterdir()) == ["0002.exr", "0005.exr", "0008.exr"]
+    assert sorted(p.name for p in Path("out/height").iterdir()) == [
+        "0002.exr",
+        "0005.exr",
+        "0008.exr",
+    ]
     manifest = json.loads(Path("out/manifest.json").read_text())
     assert [row["t"] for row in manifest["frames"]] == [16.0 * j / 12 for j in (2, 5, 8)]
     assert (manifest["subset"], manifest["downsample"]) == ("2:9:3", 2)
@@ -733,9 +904,15 @@ def test_a_part_of_the_loop_and_a_part_of_the_samples(run):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (["--frames", "9:2"], "frames must choose some of the loop's 240 in rising order, got '9:2'"),
+        (
+            ["--frames", "9:2"],
+            "frames must choose some of the loop's 240 in rising order, got '9:2'",
+        ),
         (["--frames", "a:b"], "frames must be a count, or start:stop or start:stop:step"),
-        (["--n", "16", "--downsample", "3"], "downsample must be a whole number that divides ocean.n = 16, got 3"),
+        (
+            ["--n", "16", "--downsample", "3"],
+            "downsample must be a whole number that divides ocean.n = 16, got 3",
+        ),
         (["--executor", "thread"], "executor must be one of auto, serial, processes, dask"),
         (["--format", "r16"], "cannot hold the map 'displacement'"),
         (["--format", "exr", "--mips"], "mip levels"),
@@ -743,7 +920,9 @@ def test_a_part_of_the_loop_and_a_part_of_the_samples(run):
     ],
 )
 def test_what_cannot_be_baked_is_refused(run, arguments, part):
-    assert part in clean(run("bake", "-o", "out", *(arguments if "--n" in arguments else ["--n", "8", *arguments])))
+    assert part in clean(
+        run("bake", "-o", "out", *(arguments if "--n" in arguments else ["--n", "8", *arguments]))
+    )
 
 
 @pytest.mark.parametrize("number", ["0", "-1", "1.5", "", "two", "9" * 4000])
@@ -808,7 +987,10 @@ def test_a_dry_run_refuses_what_a_run_refuses(run, arguments, monkeypatch):
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize(("rate", "loop", "frames"), [("30", "16", 480), ("24", "2.5", 60), ("0.25", "16", 4), ("29.97", "100", 2997)])
+@pytest.mark.parametrize(
+    ("rate", "loop", "frames"),
+    [("30", "16", 480), ("24", "2.5", 60), ("0.25", "16", 4), ("29.97", "100", 2997)],
+)
 def test_frames_a_second(run, rate, loop, frames):
     code, out, _ = run("info", "--n", "4", "--fps", rate, "--loop", loop)
     assert code == 0
@@ -831,7 +1013,9 @@ def test_rates_that_cannot_be_are_refused(run, arguments, part):
 
 
 def test_a_rate_and_a_part_of_the_loop_go_together(run):
-    code, out, _ = run("bake", "-o", "out", "--n", "8", "--fps", "3", "--frames", "0:10", "--dry-run")
+    code, out, _ = run(
+        "bake", "-o", "out", "--n", "8", "--fps", "3", "--frames", "0:10", "--dry-run"
+    )
     assert code == 0
     assert "for 10 frames to out" in out
 
@@ -842,10 +1026,25 @@ def test_names_are_case_blind(run):
     Path("job.toml").write_text(
         "[[sea.systems]]\nspectrum = { kind = 'JONSWAP', hs = 1.5, tp = 4.0 }\nspreading = { kind = 'Cosine-Squared' }\n"
     )
-    flags = ("--format", "EXR", "--engine", "Unity", "--maps", "Height,NORMAL", "--lookup", "Lagrangian", "--executor", "SERIAL")
+    flags = (
+        "--format",
+        "EXR",
+        "--engine",
+        "Unity",
+        "--maps",
+        "Height,NORMAL",
+        "--lookup",
+        "Lagrangian",
+        "--executor",
+        "SERIAL",
+    )
     assert run("bake", "job.toml", "-o", "out", *SMALL, *flags)[0] == 0
     job = json.loads(Path("out/job.json").read_text())["job"]
-    assert (job["bake.format"], job["bake.engine"], job["bake.maps"]) == ("exr", "unity", ["height", "normal"])
+    assert (job["bake.format"], job["bake.engine"], job["bake.maps"]) == (
+        "exr",
+        "unity",
+        ["height", "normal"],
+    )
 
 
 @pytest.mark.usefixtures("quick")
@@ -858,7 +1057,10 @@ def test_a_finished_bake_says_that_all_was_there(run):
 
 
 def test_memory_counts_containers_and_video_memory_is_named(run):
-    """Of 6 frames of 64 x 64: 4 halves of a displacement, whose container is held twice; one of height."""
+    """
+    Of 6 frames of 64 x 64: 4 halves of a displacement, whose container is held twice; one of
+    height.
+    """
     flags = ("--n", "64", "--frames", "6", "--maps", "displacement,height", "--dry-run", "--json")
     told = json.loads(run("bake", "-o", "out", *flags, "--format", "bin")[1])
     assert told["video"] == 6 * 64 * 64 * 2 * (4 + 1)  # graphics cards have no three channels
@@ -866,10 +1068,16 @@ def test_memory_counts_containers_and_video_memory_is_named(run):
     assert json.loads(run("bake", "-o", "out", *flags)[1])["container"] == 0.0
     out = run("bake", "-o", "out", *flags[:-1], "--format", "bin")[1]
     assert "then 0.281 MiB for the container" in out
-    assert "video memory of the maps in an engine: 0.234 MiB for 6 frames, 0.0391 MiB a frame" in out
+    assert (
+        "video memory of the maps in an engine: 0.234 MiB for 6 frames, 0.0391 MiB a frame" in out
+    )
 
 
-@pytest.mark.parametrize("command", [["info", "--n", "16"], ["presets"], ["verify", "--n", "8"], ["check", "out"]], ids=lambda c: c[0])
+@pytest.mark.parametrize(
+    "command",
+    [["info", "--n", "16"], ["presets"], ["verify", "--n", "8"], ["check", "out"]],
+    ids=lambda c: c[0],
+)
 def test_tables_keep_their_figures_at_80_columns(run, command, monkeypatch):
     """No line is longer, no number or call is cut with an ellipsis, and the verdicts are there."""
     from rich.console import Console
@@ -897,11 +1105,40 @@ def events(out):
 
 @pytest.mark.usefixtures("quick")
 def test_events_tell_all_that_happens(run):
-    code, out, err = run("bake", "-o", "out", "--n", "8", "--frames", "3", "--maps", "height", "--format", "png16", "--json")
+    code, out, err = run(
+        "bake",
+        "-o",
+        "out",
+        "--n",
+        "8",
+        "--frames",
+        "3",
+        "--maps",
+        "height",
+        "--format",
+        "png16",
+        "--json",
+    )
     assert (code, err) == (0, "")
     told = events(out)
-    assert [e["event"] for e in told] == ["start", "survey", "survey", "survey", "frame", "frame", "frame", "done"]
-    assert told[0] == {"event": "start", "folder": "out", "frames": 3, "kept": 0, "executor": "serial", "workers": 1}
+    assert [e["event"] for e in told] == [
+        "start",
+        "survey",
+        "survey",
+        "survey",
+        "frame",
+        "frame",
+        "frame",
+        "done",
+    ]
+    assert told[0] == {
+        "event": "start",
+        "folder": "out",
+        "frames": 3,
+        "kept": 0,
+        "executor": "serial",
+        "workers": 1,
+    }
     assert told[4] == {"event": "frame", "frame": 0, "t": 0.0, "done": 1, "frames": 3}
     assert told[-1]["manifest"] == str(Path("out/manifest.json"))
     code, out, err = run("bake", "-o", "out", "--n", "9", "--frames", "3", "--json")
@@ -912,7 +1149,10 @@ def test_events_tell_all_that_happens(run):
 
 
 @pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize(("stop", "code", "word"), [(KeyboardInterrupt(), 130, "interrupted"), (SystemExit(143), 143, "terminated")])
+@pytest.mark.parametrize(
+    ("stop", "code", "word"),
+    [(KeyboardInterrupt(), 130, "interrupted"), (SystemExit(143), 143, "terminated")],
+)
 def test_events_tell_of_a_stop(run, stop, code, word, monkeypatch):
     def fail(*_, **__):
         raise stop
@@ -924,7 +1164,7 @@ def test_events_tell_of_a_stop(run, stop, code, word, monkeypatch):
     assert "2 of 2 frames are finished; the same command goes on from there" in err
 
 
-# fftocean check: tests/bake/test_check.py has what it finds; here its words and its exit code
+# fftocean check: tests/baking/test_check.py has what it finds; here its words and its exit code
 
 
 @pytest.fixture

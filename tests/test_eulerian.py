@@ -1,4 +1,7 @@
-"""The water at places, against the parametric surface summed wave by wave, which knows nothing of grids."""
+"""
+The water at places, against the parametric surface summed wave by wave, which knows nothing of
+grids.
+"""
 
 import numpy as np
 import pytest
@@ -6,11 +9,23 @@ import pytest
 import fftocean as fo
 from fftocean.eulerian import STEEPEST, Eulerian
 
-ALL = ("height", "slope_x", "slope_y", "velocity_x", "velocity_y", "velocity_z", "normal", "jacobian")
+ALL = (
+    "height",
+    "slope_x",
+    "slope_y",
+    "velocity_x",
+    "velocity_y",
+    "velocity_z",
+    "normal",
+    "jacobian",
+)
 
 
 def surface_over(ocean, x, y, t):
-    """The parametric surface at the parameters whose water is over (x, y): a fixed-point iteration on exact sums."""
+    """
+    The parametric surface at the parameters whose water is over (x, y): a fixed-point iteration on
+    exact sums.
+    """
     x0, y0 = x.copy(), y.copy()
     for _ in range(200):
         s = fo.gerstner.surface(ocean, x0, y0, t)
@@ -30,11 +45,15 @@ def some_places(ocean, count, seed=0):
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 def test_a_realistic_sea_to_a_tenth_of_a_millimetre(dtype):
     """
-    A fresh breeze, 256 samples over 200 m: the spline's own error is 5e-4 of the shortest waves, which are some millimetres high.
+    A fresh breeze, 256 samples over 200 m: the spline's own error is 5e-4 of the shortest waves,
+    which are some millimetres high.
 
-    Derivatives weigh the shortest waves by their wavenumber, 4 rad/m, and velocities by their frequency, 6 rad/s.
+    Derivatives weigh the shortest waves by their wavenumber, 4 rad/m, and velocities by their
+    frequency, 6 rad/s.
     """
-    ocean = fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n=256, size=200.0, seed=2, dtype=dtype)
+    ocean = fo.Ocean(
+        fo.Sea.from_wind(speed=10.0, fetch=100e3), n=256, size=200.0, seed=2, dtype=dtype
+    )
     iy, ix, x, y = some_places(ocean, 12)
     truth = surface_over(ocean, x, y, 3.3)
     euler = Eulerian(ocean)
@@ -44,7 +63,12 @@ def test_a_realistic_sea_to_a_tenth_of_a_millimetre(dtype):
     assert euler.residual < 1e-6
     assert np.max(np.abs(frame.height[iy, ix] - truth.z)) < 1e-4
     assert np.std(truth.z) > 0.3
-    for name, error in (("velocity_x", 6e-4), ("velocity_y", 6e-4), ("velocity_z", 6e-4), ("jacobian", 1e-3)):
+    for name, error in (
+        ("velocity_x", 6e-4),
+        ("velocity_y", 6e-4),
+        ("velocity_z", 6e-4),
+        ("jacobian", 1e-3),
+    ):
         assert np.max(np.abs(frame[name][iy, ix] - getattr(truth, name))) < error
     assert np.max(np.abs(frame.normal[iy, ix] - truth.normal)) < 5e-4
     slopes = -truth.normal[:, :2] / truth.normal[:, 2:]
@@ -54,12 +78,24 @@ def test_a_realistic_sea_to_a_tenth_of_a_millimetre(dtype):
     assert np.max(np.hypot(moved.x - x, moved.y - y)) < 1e-4
 
 
-@pytest.mark.parametrize(("n", "size"), [((9, 14), (30.0, 50.0)), ((16, 16), (40.0, 40.0)), ((5, 3), (20.0, 11.0))])
+@pytest.mark.parametrize(
+    ("n", "size"), [((9, 14), (30.0, 50.0)), ((16, 16), (40.0, 40.0)), ((5, 3), (20.0, 11.0))]
+)
 def test_waves_of_any_length_on_any_tile(n, size):
-    """Odd, even and oblong; waves as short as the grid holds, in shallow water: 1e-3 of their height, as the spline's error says."""
+    """
+    Odd, even and oblong; waves as short as the grid holds, in shallow water: 1e-3 of their height,
+    as the spline's error says.
+    """
     reach = [(m - 1) // 2 for m in n]
-    modes = [(1, 0, 0.3, 0.2), (-1, 1, 0.2, 1.0), (reach[0], -reach[1], 0.02, 2.0), (0, reach[1], 0.02, 3.0)]
-    ocean = fo.Ocean.from_modes(modes, n=n, size=size, depth=3.0, choppiness=0.8, dtype="float64", loop=12.0)
+    modes = [
+        (1, 0, 0.3, 0.2),
+        (-1, 1, 0.2, 1.0),
+        (reach[0], -reach[1], 0.02, 2.0),
+        (0, reach[1], 0.02, 3.0),
+    ]
+    ocean = fo.Ocean.from_modes(
+        modes, n=n, size=size, depth=3.0, choppiness=0.8, dtype="float64", loop=12.0
+    )
     x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
     frame = Eulerian(ocean).loop_frame(5, 8, ("height", "normal"))
     truth = surface_over(ocean, x, y, frame.t)
@@ -69,14 +105,21 @@ def test_waves_of_any_length_on_any_tile(n, size):
 
 
 def test_without_choppiness_it_is_the_ocean_s_own_frame():
-    ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3), n=32, size=60.0, dtype="float64", choppiness=0.0)
+    ocean = fo.Ocean(
+        fo.Sea.from_wind(speed=8.0, fetch=50e3), n=32, size=60.0, dtype="float64", choppiness=0.0
+    )
     ours, own = Eulerian(ocean).frame(1.0, ALL), ocean.frame(1.0, ALL)
     for name in ALL:
-        assert np.allclose(ours[name], own[name], atol=1e-12), name  # the spline goes through its samples
+        assert np.allclose(ours[name], own[name], atol=1e-12), (
+            name
+        )  # the spline goes through its samples
 
 
 def test_it_is_a_height_field_and_has_only_what_that_has():
-    """Normals by place and by the slopes agree; the Jacobian is that of the water, and there is no stretch to make another of."""
+    """
+    Normals by place and by the slopes agree; the Jacobian is that of the water, and there is no
+    stretch to make another of.
+    """
     ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3), n=32, size=60.0, choppiness=1.2)
     euler = Eulerian(ocean)
     frame = euler.frame(1.0, ALL)
@@ -93,7 +136,9 @@ def test_it_is_a_height_field_and_has_only_what_that_has():
     assert not np.shares_memory(fo.jacobian(frame), frame.jacobian)
 
 
-@pytest.mark.parametrize("name", ["displace_x", "displace_y", "stretch_xx", "stretch_xy", "stretch_yy"])
+@pytest.mark.parametrize(
+    "name", ["displace_x", "displace_y", "stretch_xx", "stretch_xy", "stretch_yy"]
+)
 def test_what_a_height_field_has_not_is_refused_by_name(name):
     euler = Eulerian(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=10.0))
     reason = f"{name}: a height field over places has no displacement"
@@ -106,7 +151,9 @@ def test_what_a_height_field_has_not_is_refused_by_name(name):
     for make in (fo.minimum_eigenvalue, fo.folding):
         with pytest.raises(fo.FieldError, match="an eulerian frame has no stretch_xx"):
             make(frame)
-    with pytest.raises(fo.FieldError, match=r"for jacobian ask frame\(t, fields=\('jacobian', ...\)\)$"):
+    with pytest.raises(
+        fo.FieldError, match=r"for jacobian ask frame\(t, fields=\('jacobian', ...\)\)$"
+    ):
         fo.jacobian(frame)
     assert not hasattr(frame, "anything")
     with pytest.raises(fo.ParameterError, match="out must be a frame"):
@@ -114,7 +161,10 @@ def test_what_a_height_field_has_not_is_refused_by_name(name):
 
 
 def test_crests_are_sharper_than_troughs_there():
-    """One wave: the water above the mean level, half of the still one, is drawn together to 1/2 - c a k/pi of the places."""
+    """
+    One wave: the water above the mean level, half of the still one, is drawn together to 1/2 - c a
+    k/pi of the places.
+    """
     ocean = fo.Ocean.from_modes([(1, 0, 0.6, 0.4)], n=(512, 3), size=20.0, choppiness=1.2)
     above = np.mean(Eulerian(ocean).frame(0.0, ("height",)).height > 0.0)
     assert above == pytest.approx(0.5 - 1.2 * 0.6 * 2 * np.pi / 20.0 / np.pi, abs=1.5 / 512)
@@ -123,8 +173,9 @@ def test_crests_are_sharper_than_troughs_there():
 
 def test_folds_are_found_and_the_upper_sheet_is_taken():
     """
-    One wave folded at its crest, c k a = 1.6: x = x0 - c a sin k x0. Under the fold three sheets lie over each place, found here on
-    a dense curve; the middle of the crest is 1.6 times turned over, and the highest water is still that of the curve.
+    One wave folded at its crest, c k a = 1.6: x = x0 - c a sin k x0. Under the fold three sheets
+    lie over each place, found here on a dense curve; the middle of the crest is 1.6 times turned
+    over, and the highest water is still that of the curve.
     """
     size, a = 20.0, 1.6 * 20.0 / (2 * np.pi)
     ocean = fo.Ocean.from_modes([(1, 0, a, np.pi)], n=(128, 4), size=(size, 5.0), dtype="float64")
@@ -140,11 +191,15 @@ def test_folds_are_found_and_the_upper_sheet_is_taken():
         beside = abs(abs(x - 0.5 * size) - rim_at) < 0.16
         if not beside:  # within a sample of the rim, triangles and curve may differ
             assert euler.folded[0, ix] == (crossing.size > 1)
-            assert frame.height[0, ix] == pytest.approx(np.max(height[crossing]), abs=5e-4)  # of the dense curve
+            assert frame.height[0, ix] == pytest.approx(
+                np.max(height[crossing]), abs=5e-4
+            )  # of the dense curve
     assert 10 < euler.folded[0].sum() < 40
     assert np.array_equal(euler.folded, euler.folded[:1].repeat(4, axis=0))
     assert all(np.all(np.isfinite(frame[name])) for name in ALL)
-    assert max(np.max(np.abs(frame.slope_x)), np.max(np.abs(frame.slope_y))) <= STEEPEST * (1.0 + 1e-12)
+    assert max(np.max(np.abs(frame.slope_x)), np.max(np.abs(frame.slope_y))) <= STEEPEST * (
+        1.0 + 1e-12
+    )
 
 
 def test_hopelessly_folded_water_stays_finite():
@@ -172,14 +227,22 @@ def test_frames_come_in_any_order_with_the_same_bits():
 
 
 def test_another_field_is_carried_along():
-    """The undisplaced x as a field of its own, then foam: within its range, and where the positions say."""
+    """
+    The undisplaced x as a field of its own, then foam: within its range, and where the positions
+    say.
+    """
     ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3), n=32, size=64.0)
     euler = Eulerian(ocean)
     euler.frame(1.0, ("height",))
     x0, y0 = euler.positions
-    wave = np.sin(2 * np.pi * ocean.grid.x / 64.0)[None, :] * np.cos(2 * np.pi * ocean.grid.y / 64.0)[:, None]
+    wave = (
+        np.sin(2 * np.pi * ocean.grid.x / 64.0)[None, :]
+        * np.cos(2 * np.pi * ocean.grid.y / 64.0)[:, None]
+    )
     exact = np.sin(2 * np.pi * x0 / 64.0) * np.cos(2 * np.pi * y0 / 64.0)
-    assert np.max(np.abs(euler.resample(wave) - exact)) < (2 * np.pi / 32) ** 2 / 8 * 2  # of two linear interpolations
+    assert (
+        np.max(np.abs(euler.resample(wave) - exact)) < (2 * np.pi / 32) ** 2 / 8 * 2
+    )  # of two linear interpolations
     foam = (np.random.default_rng(1).uniform(size=(32, 32)) > 0.9).astype(np.float32)
     carried = euler.resample(foam)
     assert carried.dtype == np.float32
@@ -210,8 +273,18 @@ def test_what_is_refused():
 
 @pytest.mark.parametrize(("speed", "n", "size"), [(25.0, 48, 120.0), (40.0, 32, 600.0)])
 def test_a_storm_on_few_samples_is_as_exact(speed, n, size):
-    """The steepest waves have two samples: the splines are made finer until the promised 1e-4 m hold, against the sum of all waves."""
-    ocean = fo.Ocean(fo.Sea.from_wind(speed=speed, fetch=500e3), n=n, size=size, seed=3, choppiness=0.6, dtype="float64")
+    """
+    The steepest waves have two samples: the splines are made finer until the promised 1e-4 m hold,
+    against the sum of all waves.
+    """
+    ocean = fo.Ocean(
+        fo.Sea.from_wind(speed=speed, fetch=500e3),
+        n=n,
+        size=size,
+        seed=3,
+        choppiness=0.6,
+        dtype="float64",
+    )
     seen = Eulerian(ocean)
     frame = seen.frame(2.0, ("height",))
     assert not np.any(seen.folded)

@@ -11,7 +11,10 @@ pytestmark = pytest.mark.nojit
 
 
 def test_the_signs_written_out_once_more():
-    """As the papers print them (Tessendorf 2001, eq. 20, 29, 37-40, with +i), for one wavenumber in water of 5 m."""
+    """
+    As the papers print them (Tessendorf 2001, eq. 20, 29, 37-40, with +i), for one wavenumber in
+    water of 5 m.
+    """
     kx, ky, depth = 0.3, -0.4, 5.0
     k = 0.5
     coth = 1.0 / math.tanh(k * depth)
@@ -30,7 +33,9 @@ def test_the_signs_written_out_once_more():
     }
     assert set(expected) == set(FIELDS)
     for name, value in expected.items():
-        assert complex(multiplier(FIELDS[name], np.float64(kx), np.float64(ky), depth)) == pytest.approx(value, rel=1e-14)
+        assert complex(
+            multiplier(FIELDS[name], np.float64(kx), np.float64(ky), depth)
+        ) == pytest.approx(value, rel=1e-14)
     assert len(EIGHT) == 8
     assert not any(FIELDS[name].dt for name in EIGHT)
 

@@ -1,4 +1,7 @@
-"""Foam remembers, decays, and closes its loop: against a dense quadrature of the integral, and against what must hold of any."""
+"""
+Foam remembers, decays, and closes its loop: against a dense quadrature of the integral, and against
+what must hold of any.
+"""
 
 import itertools
 import math
@@ -16,14 +19,25 @@ FOAM = Foam(tau=2.0, threshold=0.8, strength=40.0)
 
 @pytest.fixture(scope="module")
 def ocean():
-    return fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n=24, size=60.0, loop=LOOP, seed=3, choppiness=1.2)
+    return fo.Ocean(
+        fo.Sea.from_wind(speed=10.0, fetch=100e3),
+        n=24,
+        size=60.0,
+        loop=LOOP,
+        seed=3,
+        choppiness=1.2,
+    )
 
 
 def whole_loop(ocean, count, foam=FOAM):
     """The states of every frame, (count, ny, nx)."""
-    starts = foam.starts([foam.response(ocean, count, *span) for span in spans_of(count)], ocean, count)
+    starts = foam.starts(
+        [foam.response(ocean, count, *span) for span in spans_of(count)], ocean, count
+    )
     spans = zip(spans_of(count), starts, strict=True)
-    return np.stack([f.copy() for span, start in spans for _, f in foam.states(ocean, count, start, *span)])
+    return np.stack(
+        [f.copy() for span, start in spans for _, f in foam.states(ocean, count, start, *span)]
+    )
 
 
 def difference(a, b):
@@ -32,7 +46,10 @@ def difference(a, b):
 
 
 def squeeze_summed(ocean, ix, iy, times):
-    """The smaller eigenvalue at some grid points and times, (times, points): waves summed one by one, numpy's eigenvalues."""
+    """
+    The smaller eigenvalue at some grid points and times, (times, points): waves summed one by one,
+    numpy's eigenvalues.
+    """
     w = ocean.modes()
     k = np.hypot(w.kx, w.ky)
     x, y = ix * ocean.grid.lx / ocean.grid.nx, iy * ocean.grid.ly / ocean.grid.ny
@@ -47,18 +64,26 @@ def squeeze_summed(ocean, ix, iy, times):
 
 def test_against_a_dense_quadrature(ocean):
     """
-    f(t) = integral over all the past of e^{-(t - s)/tau} source(s): 6000 rectangles a loop, whose error is 1e-4 here.
+    f(t) = integral over all the past of e^{-(t - s)/tau} source(s): 6000 rectangles a loop, whose
+    error is 1e-4 here.
 
-    Steps of a third of a radian, cubic between, are good for half a percent of the root mean square (`longest_step`).
+    Steps of a third of a radian, cubic between, are good for half a percent of the root mean square
+    (`longest_step`).
     """
     ix, iy = (c.ravel() for c in np.meshgrid(np.arange(0, 24, 3), np.arange(0, 24, 3)))
     dense = 6000
     times = np.arange(dense) * (LOOP / dense)
     source = 40.0 * np.maximum(0.8 - squeeze_summed(ocean, ix, iy, times), 0.0)
-    memory = np.exp(-times / 2.0) / (1.0 - math.exp(-LOOP / 2.0))  # of all the turns of the loop before
-    memory[0] = 0.5 * memory[0] + 0.5 * memory[0] * math.exp(-LOOP / 2.0)  # both ends of the integral fall on one sample
+    memory = np.exp(-times / 2.0) / (
+        1.0 - math.exp(-LOOP / 2.0)
+    )  # of all the turns of the loop before
+    memory[0] = 0.5 * memory[0] + 0.5 * memory[0] * math.exp(
+        -LOOP / 2.0
+    )  # both ends of the integral fall on one sample
     count = 60
-    truth = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[:: dense // count] * (LOOP / dense)
+    truth = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[
+        :: dense // count
+    ] * (LOOP / dense)
     ours = whole_loop(ocean, count)[:, iy, ix]
     assert np.mean(truth > 1e-3) > 0.1  # there is foam to speak of
     assert difference(ours, truth) < 0.01
@@ -66,7 +91,10 @@ def test_against_a_dense_quadrature(ocean):
 
 
 def test_the_loop_closes(ocean):
-    """From the last stored state on to frame F: the state of frame 0, to the roundings of some hundred steps."""
+    """
+    From the last stored state on to frame F: the state of frame 0, to the roundings of some hundred
+    steps.
+    """
     for count in (1, 5, SPAN, 2 * SPAN + 3):
         spans = spans_of(count)
         starts = FOAM.starts([FOAM.response(ocean, count, *span) for span in spans], ocean, count)
@@ -86,11 +114,16 @@ def test_halving_the_step_changes_less_than_one_percent(ocean, count):
 
 
 def test_a_frame_s_bits_do_not_depend_on_who_asks(ocean):
-    """From a stored state, frames alone, in any number, by another ocean: the same bits; and `loop` yields these."""
+    """
+    From a stored state, frames alone, in any number, by another ocean: the same bits; and `loop`
+    yields these.
+    """
     count = 2 * SPAN + 5
     spans = spans_of(count)
     assert spans == [(0, SPAN), (SPAN, 2 * SPAN), (2 * SPAN, count)]
-    starts = FOAM.starts([FOAM.response(ocean, count, *span) for span in reversed(spans)][::-1], ocean, count)
+    starts = FOAM.starts(
+        [FOAM.response(ocean, count, *span) for span in reversed(spans)][::-1], ocean, count
+    )
     whole = [coverage(f) for f in whole_loop(ocean, count)]
     twin = fo.Ocean(ocean.sea, n=24, size=60.0, loop=LOOP, seed=3, choppiness=1.2)
     for j in (2 * SPAN + 2, SPAN + 7, SPAN):
@@ -103,9 +136,11 @@ def test_a_frame_s_bits_do_not_depend_on_who_asks(ocean):
 
 def test_one_wave_on_average():
     """
-    Threshold 1 and one wave: the source is strength c a k max(cos, 0), 1/pi of the amplitude on average; the mean foam is tau times that.
+    Threshold 1 and one wave: the source is strength c a k max(cos, 0), 1/pi of the amplitude on
+    average; the mean foam is tau times that.
 
-    Frames equally spaced over whole periods: the mean of 64 of them is exact but for overtones that alias; the error is the step's.
+    Frames equally spaced over whole periods: the mean of 64 of them is exact but for overtones that
+    alias; the error is the step's.
     """
     a, size, c = 0.6, 20.0, 0.9
     ocean = fo.Ocean.from_modes([(1, 0, a, 0.3)], n=8, size=size, loop=16.0, choppiness=c)
@@ -116,7 +151,10 @@ def test_one_wave_on_average():
 
 
 def test_foam_follows_the_crest():
-    """A wave that goes east leaves its foam behind it: west of where it breaks; and where it breaks is the crest."""
+    """
+    A wave that goes east leaves its foam behind it: west of where it breaks; and where it breaks is
+    the crest.
+    """
     ocean = fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=64, size=20.0, loop=16.0, dtype="float64")
     ocean_frame = ocean.loop_frame(3, 16, ("height",))
     foam = list(Foam(tau=0.5, threshold=0.9, strength=20.0).loop(ocean, 16))[3][0]
@@ -143,7 +181,10 @@ def test_coverage_stays_within_0_and_1(ocean):
 
 
 def test_live_foam_becomes_that_of_the_loop(ocean):
-    """Ten decay times after clean water, e^-10 is left of it. The steps are other ones, and linear between: 3 % of the mean square."""
+    """
+    Ten decay times after clean water, e^-10 is left of it. The steps are other ones, and linear
+    between: 3 % of the mean square.
+    """
     looped = whole_loop(ocean, 48)
     live = FOAM.live(ocean, t=-10.0 * FOAM.tau)
     shown = np.stack([live.at(j * LOOP / 48) for j in range(48)])
@@ -157,15 +198,21 @@ def test_live_foam_does_not_depend_on_how_often_it_is_asked(ocean):
         often.at(float(t))
     assert np.array_equal(often.at(9.1), seldom.at(9.1))
     assert np.array_equal(often.at(9.1), seldom.at(9.1))  # the same moment once more
-    with pytest.raises(fo.ParameterError, match=r"cannot go back: t must be at least 9\.1, got 9\.0"):
+    with pytest.raises(
+        fo.ParameterError, match=r"cannot go back: t must be at least 9\.1, got 9\.0"
+    ):
         often.at(9.0)
 
 
 def test_live_foam_leaps(ocean, monkeypatch):
-    """A leap of a thousand decay times costs twenty, and ends where a start thirty before it ends."""
+    """
+    A leap of a thousand decay times costs twenty, and ends where a start thirty before it ends.
+    """
     asked = itertools.count()
     real = fo.Ocean.frame
-    monkeypatch.setattr(fo.Ocean, "frame", lambda self, *a, **k: (next(asked), real(self, *a, **k))[1])
+    monkeypatch.setattr(
+        fo.Ocean, "frame", lambda self, *a, **k: (next(asked), real(self, *a, **k))[1]
+    )
     live, late = FOAM.live(ocean), FOAM.live(ocean, t=1940.0)
     live.at(2000.0)
     assert next(asked) < 20.0 * FOAM.tau / longest_step(ocean) + 20
@@ -203,12 +250,21 @@ def test_a_sea_without_a_loop_has_no_foam_of_a_loop():
 
 @pytest.mark.parametrize(("tau", "count"), [(1e-3, 4), (1e6, 4)])
 def test_extreme_decay_times(tau, count, ocean):
-    """Decay within a step, and none within a loop: the mean of the state is tau times the mean of the source, as for any tau."""
+    """
+    Decay within a step, and none within a loop: the mean of the state is tau times the mean of the
+    source, as for any tau.
+    """
     states = whole_loop(ocean, count, Foam(tau=tau, threshold=0.9, strength=1.0))
     assert np.all(np.isfinite(states))
     if tau > 1.0:
-        source = [np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, 400, SQUEEZE)), 0.0) for j in range(400)]
+        source = [
+            np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, 400, SQUEEZE)), 0.0)
+            for j in range(400)
+        ]
         assert np.mean(states) == pytest.approx(tau * np.mean(source), rel=0.003)
     else:
-        now = [np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, count, SQUEEZE)), 0.0) for j in range(count)]
+        now = [
+            np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, count, SQUEEZE)), 0.0)
+            for j in range(count)
+        ]
         assert difference(states, tau * np.stack(now)) < 0.01

@@ -1,4 +1,7 @@
-"""Forks beside other threads: they wait for what was begun, at most for so long, and the child computes on."""
+"""
+Forks beside other threads: they wait for what was begun, at most for so long, and the child
+computes on.
+"""
 
 import os
 import signal
@@ -17,7 +20,10 @@ pytestmark = [
 
 
 def forked(child):
-    """The exit code of a child that does something, and is killed by the system's own clock if it hangs."""
+    """
+    The exit code of a child that does something, and is killed by the system's own clock if it
+    hangs.
+    """
     pid = os.fork()
     if pid == 0:
         signal.alarm(60)
@@ -127,6 +133,11 @@ print(codes)
 
 
 def test_a_child_makes_oceans_though_other_threads_were_making_some():
-    """Two of eleven such forks hung while plans were made and destroyed; each child ends itself by an alarm, and the script by a limit."""
-    ran = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=300, check=False)
+    """
+    Two of eleven such forks hung while plans were made and destroyed; each child ends itself by an
+    alarm, and the script by a limit.
+    """
+    ran = subprocess.run(
+        [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=300, check=False
+    )
     assert ran.stdout.strip() == str([0] * 20), ran.stderr[-2000:]

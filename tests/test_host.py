@@ -7,9 +7,15 @@ from fftocean import host
 
 def test_a_control_group_limits_the_cores(monkeypatch):
     real = host.read
-    monkeypatch.setattr(host, "read", lambda path: "150000 100000\n" if str(path).endswith("cpu.max") else real(path))
+    monkeypatch.setattr(
+        host,
+        "read",
+        lambda path: "150000 100000\n" if str(path).endswith("cpu.max") else real(path),
+    )
     assert host.cores() == 1
-    monkeypatch.setattr(host, "read", lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path))
+    monkeypatch.setattr(
+        host, "read", lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path)
+    )
     assert 1 <= host.cores() <= os.cpu_count()
 
 

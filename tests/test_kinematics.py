@@ -1,4 +1,7 @@
-"""Below the surface: the equations that linear waves solve, boundary conditions, stretching, drift; closed forms before all."""
+"""
+Below the surface: the equations that linear waves solve, boundary conditions, stretching, drift;
+closed forms before all.
+"""
 
 import math
 
@@ -28,7 +31,10 @@ def below(count, deepest):
 
 @pytest.mark.parametrize("depth", [math.inf, 50.0, 4.0, 0.5])
 def test_one_wave_in_closed_form(depth):
-    """Dean & Dalrymple's table 4.1, written with hyperbolic functions; in deep water with exponentials."""
+    """
+    Dean & Dalrymple's table 4.1, written with hyperbolic functions; in deep water with
+    exponentials.
+    """
     a, k, phase, t = 0.2, 0.8, 0.6, 2.3
     omega = math.sqrt(GRAVITY * k * (1.0 if math.isinf(depth) else math.tanh(k * depth)))
     modes = fo.Ocean.from_modes([(1, 0, a, phase)], n=4, size=2 * math.pi / k, depth=depth).modes()
@@ -38,22 +44,37 @@ def test_one_wave_in_closed_form(depth):
     if math.isinf(depth):
         along = up = pressure = np.exp(k * z)
     else:
-        along, up, pressure = np.cosh(k * (z + depth)), np.sinh(k * (z + depth)), np.cosh(k * (z + depth)) / math.cosh(k * depth)
+        along, up, pressure = (
+            np.cosh(k * (z + depth)),
+            np.sinh(k * (z + depth)),
+            np.cosh(k * (z + depth)) / math.cosh(k * depth),
+        )
         along, up = along / math.sinh(k * depth), up / math.sinh(k * depth)
     still = 0.0 * x
-    velocities = np.stack([a * omega * along * np.cos(f), still, a * omega * up * np.sin(f)], axis=-1)
-    accelerations = np.stack([a * omega**2 * along * np.sin(f), still, -a * omega**2 * up * np.cos(f)], axis=-1)
+    velocities = np.stack(
+        [a * omega * along * np.cos(f), still, a * omega * up * np.sin(f)], axis=-1
+    )
+    accelerations = np.stack(
+        [a * omega**2 * along * np.sin(f), still, -a * omega**2 * up * np.cos(f)], axis=-1
+    )
     assert np.max(np.abs(found.velocities - velocities)) < 1e-12 * max(1.0, 1.0 / depth)
     assert np.max(np.abs(found.accelerations - accelerations)) < 1e-12 * max(1.0, 1.0 / depth)
-    assert np.max(np.abs(found.pressures - WATER_DENSITY * GRAVITY * a * pressure * np.cos(f))) < 1e-9  # of 2000 Pa
+    assert (
+        np.max(np.abs(found.pressures - WATER_DENSITY * GRAVITY * a * pressure * np.cos(f))) < 1e-9
+    )  # of 2000 Pa
     assert np.max(np.abs(found.heights - a * np.cos(f))) < 1e-14
     assert np.all(found.wet)
 
 
-@pytest.mark.parametrize("source", [ocean(), ocean(SHALLOW), cascade(), ocean(loop=40.0)], ids=["deep", "6m", "cascade", "loop"])
+@pytest.mark.parametrize(
+    "source",
+    [ocean(), ocean(SHALLOW), cascade(), ocean(loop=40.0)],
+    ids=["deep", "6m", "cascade", "loop"],
+)
 def test_the_equations_of_motion(source):
     """
-    Central differences: no divergence, no rotation, du/dt = -grad p / rho, and acceleration is the velocity's rate.
+    Central differences: no divergence, no rotation, du/dt = -grad p / rho, and acceleration is the
+    velocity's rate.
 
     h = 1e-3 m: h^2/6 k^3 with k up to 2 rad/m, 1e-6 of the fields, against rounding of 1e-13.
     """
@@ -71,20 +92,32 @@ def test_the_equations_of_motion(source):
         gradients.append((plus.velocities - minus.velocities) / (2 * h))
         pressure.append((plus.pressures - minus.pressures) / (2 * h))
     here, scale = at(), np.max(np.abs(gradients))
-    assert np.max(np.abs(gradients[0][:, 0] + gradients[1][:, 1] + gradients[2][:, 2])) < 1e-5 * scale
+    assert (
+        np.max(np.abs(gradients[0][:, 0] + gradients[1][:, 1] + gradients[2][:, 2])) < 1e-5 * scale
+    )
     for i, j in ((0, 1), (0, 2), (1, 2)):
         assert np.max(np.abs(gradients[i][:, j] - gradients[j][:, i])) < 1e-5 * scale
-    assert np.max(np.abs(here.accelerations + np.stack(pressure, axis=-1) / WATER_DENSITY)) < 1e-5 * np.max(np.abs(here.accelerations))
+    assert np.max(
+        np.abs(here.accelerations + np.stack(pressure, axis=-1) / WATER_DENSITY)
+    ) < 1e-5 * np.max(np.abs(here.accelerations))
     rate = (at(dt=h).velocities - at(dt=-h).velocities) / (2 * h)
     assert np.max(np.abs(here.accelerations - rate)) < 1e-5 * np.max(np.abs(rate))
 
 
-@pytest.mark.parametrize("source", [ocean(), ocean(SHALLOW), cascade()], ids=["deep", "6m", "cascade"])
+@pytest.mark.parametrize(
+    "source", [ocean(), ocean(SHALLOW), cascade()], ids=["deep", "6m", "cascade"]
+)
 def test_boundary_conditions_at_the_mean_level(source):
-    """At z = 0: linear Bernoulli, p = rho g height, and the water goes up as the surface does; at the bed it does not."""
+    """
+    At z = 0: linear Bernoulli, p = rho g height, and the water goes up as the surface does; at the
+    bed it does not.
+    """
     x, y, _ = below(20, 1.0)
     found = fo.kinematics.at(source, x, y, 0.0, 2.9)
-    assert np.max(np.abs(found.pressures - WATER_DENSITY * GRAVITY * found.heights)) < 1e-12 * WATER_DENSITY * GRAVITY
+    assert (
+        np.max(np.abs(found.pressures - WATER_DENSITY * GRAVITY * found.heights))
+        < 1e-12 * WATER_DENSITY * GRAVITY
+    )
     surface = fo.gerstner.surface(source, x, y, 2.9)  # parameters: the same sums
     assert np.max(np.abs(found.heights - surface.height)) < 1e-12
     assert np.max(np.abs(found.velocities[:, 2] - surface.velocity_z)) < 1e-12
@@ -97,13 +130,19 @@ def test_boundary_conditions_at_the_mean_level(source):
 
 @pytest.mark.parametrize("source", [ocean(), ocean(SHALLOW)], ids=["deep", "6m"])
 def test_stretching(source):
-    """In the crests: nothing; as at z = 0; and with Wheeler the whole column moved, so that the surface has what z = 0 had."""
+    """
+    In the crests: nothing; as at z = 0; and with Wheeler the whole column moved, so that the
+    surface has what z = 0 had.
+    """
     x, y, _ = below(400, 1.0)
     level = fo.kinematics.at(source, x, y, 0.0, 1.0)
     crest = level.heights > 0.05
     x, y, height = x[crest], y[crest], level.heights[crest]
     z = 0.7 * height
-    none, vertical, wheeler = (fo.kinematics.at(source, x, y, z, 1.0, stretching=name) for name in ("none", "vertical", "wheeler"))
+    none, vertical, wheeler = (
+        fo.kinematics.at(source, x, y, z, 1.0, stretching=name)
+        for name in ("none", "vertical", "wheeler")
+    )
     assert not np.any(none.wet)
     assert not np.any(none.velocities)
     assert not np.any(none.pressures)
@@ -111,8 +150,14 @@ def test_stretching(source):
     assert np.array_equal(vertical.velocities, level.velocities[crest])
     surface = fo.kinematics.at(source, x, y, height * (1 - 1e-12), 1.0, stretching="wheeler")
     assert np.max(np.abs(surface.velocities - level.velocities[crest])) < 1e-10
-    assert np.max(np.abs(surface.pressures - WATER_DENSITY * GRAVITY * height)) < 1e-6  # of 1e4 Pa: atmospheric at the surface
-    read = z - height if math.isinf(source.depth) else source.depth * (z - height) / (source.depth + height)
+    assert (
+        np.max(np.abs(surface.pressures - WATER_DENSITY * GRAVITY * height)) < 1e-6
+    )  # of 1e4 Pa: atmospheric at the surface
+    read = (
+        z - height
+        if math.isinf(source.depth)
+        else source.depth * (z - height) / (source.depth + height)
+    )
     expected = fo.kinematics.at(source, x, y, read, 1.0)
     assert np.max(np.abs(wheeler.velocities - expected.velocities)) < 1e-13
     above = fo.kinematics.at(source, x, y, 1.01 * height, 1.0, stretching="vertical")
@@ -123,14 +168,17 @@ def test_stretching(source):
     if math.isfinite(source.depth):
         bed = fo.kinematics.at(source, x, y, -source.depth, 1.0, stretching="wheeler")
         assert np.max(np.abs(bed.velocities[:, 2])) < 1e-14
-        assert not np.any(fo.kinematics.at(source, x, y, -1.001 * source.depth, 1.0, stretching="wheeler").wet)
+        assert not np.any(
+            fo.kinematics.at(source, x, y, -1.001 * source.depth, 1.0, stretching="wheeler").wet
+        )
 
 
 @pytest.mark.parametrize("depth", [math.inf, 4.0])
 def test_tracers_drift_as_stokes_says(depth):
     """
-    A tracer in the linear velocity field of one wave, over 50 periods by Runge-Kutta: a^2 omega k cosh 2k(z + h)/(2 sinh^2 kh),
-    within 1 %; the theory leaves out (a k)^2 = 4e-4. Its mean place in the last period is compared with that in the first.
+    A tracer in the linear velocity field of one wave, over 50 periods by Runge-Kutta: a^2 omega k
+    cosh 2k(z + h)/(2 sinh^2 kh), within 1 %; the theory leaves out (a k)^2 = 4e-4. Its mean place
+    in the last period is compared with that in the first.
     """
     k, start = 0.5, -1.0
     a = 0.02 / k
@@ -157,19 +205,32 @@ def test_tracers_drift_as_stokes_says(depth):
     if math.isinf(depth):
         stokes = a**2 * omega * k * math.exp(2 * k * mean)
     else:
-        stokes = a**2 * omega * k * math.cosh(2 * k * (mean + depth)) / (2 * math.sinh(k * depth) ** 2)
+        stokes = (
+            a**2 * omega * k * math.cosh(2 * k * (mean + depth)) / (2 * math.sinh(k * depth) ** 2)
+        )
     assert drift == pytest.approx(stokes, rel=0.01)
 
 
 @pytest.mark.parametrize("depth", [1e-6, 1e-3, 1e3, 1e8])
 def test_no_depth_overflows(depth):
-    modes = fo.Ocean.from_modes([(1, 0, 1e-7, 0.0), (400, 0, 1e-7, 0.0)], n=1024, size=6.0, depth=depth).modes()
+    modes = fo.Ocean.from_modes(
+        [(1, 0, 1e-7, 0.0), (400, 0, 1e-7, 0.0)], n=1024, size=6.0, depth=depth
+    ).modes()
     for stretching in ("none", "vertical", "wheeler"):
-        found = fo.kinematics.at(modes, [0.3, 1.0], 0.0, [-depth, 0.0], 0.4, depth=depth, stretching=stretching)
+        found = fo.kinematics.at(
+            modes, [0.3, 1.0], 0.0, [-depth, 0.0], 0.4, depth=depth, stretching=stretching
+        )
         for values in (found.velocities, found.accelerations, found.pressures, found.heights):
             assert np.all(np.isfinite(values))
-    deep = fo.kinematics.at(modes._replace(omega=np.sqrt(GRAVITY * modes.kx)), 0.3, 0.0, -0.2, 0.4, depth=1e8)
-    assert np.allclose(deep.velocities, fo.kinematics.at(modes._replace(omega=np.sqrt(GRAVITY * modes.kx)), 0.3, 0.0, -0.2, 0.4).velocities)
+    deep = fo.kinematics.at(
+        modes._replace(omega=np.sqrt(GRAVITY * modes.kx)), 0.3, 0.0, -0.2, 0.4, depth=1e8
+    )
+    assert np.allclose(
+        deep.velocities,
+        fo.kinematics.at(
+            modes._replace(omega=np.sqrt(GRAVITY * modes.kx)), 0.3, 0.0, -0.2, 0.4
+        ).velocities,
+    )
 
 
 def test_shapes_threads_and_what_is_not_finite():
@@ -186,8 +247,16 @@ def test_shapes_threads_and_what_is_not_finite():
     single, double = (fo.kinematics.at(source, x, y, z, 0.5, threads=threads) for threads in (1, 2))
     assert np.array_equal(single.velocities, double.velocities)
     for bad in (math.nan, math.inf):
-        for place in ((bad, 2.0, -3.0, 0.5), (1.0, bad, -3.0, 0.5), (1.0, 2.0, bad, 0.5), (1.0, 2.0, -3.0, bad)):
-            arguments = [np.array([good, value, good]) for good, value in zip((1.0, 2.0, -3.0, 0.5), place, strict=True)]
+        for place in (
+            (bad, 2.0, -3.0, 0.5),
+            (1.0, bad, -3.0, 0.5),
+            (1.0, 2.0, bad, 0.5),
+            (1.0, 2.0, -3.0, bad),
+        ):
+            arguments = [
+                np.array([good, value, good])
+                for good, value in zip((1.0, 2.0, -3.0, 0.5), place, strict=True)
+            ]
             found = fo.kinematics.at(source, *arguments)
             assert np.array_equal(found.velocities[0], one.velocities)
             assert np.array_equal(found.velocities[2], one.velocities)
@@ -206,7 +275,8 @@ def test_sources_and_filter():
     both = fo.Ocean.from_modes([(1, 0, 0.3, 0.0), (5, 1, 0.1, 0.0)], n=16, size=50.0)
     long = fo.Ocean.from_modes([(1, 0, 0.3, 0.0)], n=16, size=50.0)
     assert np.allclose(
-        fo.kinematics.at(both, 1.0, 2.0, -1.0, 3.0, shortest=20.0).velocities, fo.kinematics.at(long, 1.0, 2.0, -1.0, 3.0).velocities
+        fo.kinematics.at(both, 1.0, 2.0, -1.0, 3.0, shortest=20.0).velocities,
+        fo.kinematics.at(long, 1.0, 2.0, -1.0, 3.0).velocities,
     )
 
 
@@ -215,7 +285,11 @@ def test_sources_and_filter():
     [
         ((ocean(), 0.0, 0.0, 0.0, 0.0), {"stretching": "chakrabarti"}, "stretching must be one of"),
         ((3.0, 0.0, 0.0, 0.0, 0.0), {}, "must come from"),
-        ((fo.gerstner.CWR(period=5.0, amplitude=0.3, tau=2.0), 0.0, 0.0, 0.0, 0.0), {}, "start from rest"),
+        (
+            (fo.gerstner.CWR(period=5.0, amplitude=0.3, tau=2.0), 0.0, 0.0, 0.0, 0.0),
+            {},
+            "start from rest",
+        ),
         ((ocean(), "x", 0.0, 0.0, 0.0), {}, "x must be numbers"),
         ((ocean(), [1.0, 2.0], [1.0, 2.0, 3.0], 0.0, 0.0), {}, "broadcast"),
         ((ocean(), 0.0, 0.0, 0.0, 1e13), {}, "t must"),

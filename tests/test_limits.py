@@ -1,4 +1,7 @@
-"""What each quantity may be, what is said when it is not, and that no constructor of the sea lets anything else through."""
+"""
+What each quantity may be, what is said when it is not, and that no constructor of the sea lets
+anything else through.
+"""
 
 import math
 import re
@@ -13,7 +16,13 @@ from fftocean import arrays, errors, limits
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.limits import Count, Quantity
 from fftocean.physics.sea import Sea, WaveSystem, from_compass
-from fftocean.physics.spectra import JONSWAP, TMA, CustomSpectrum, PiersonMoskowitz, TabulatedSpectrum
+from fftocean.physics.spectra import (
+    JONSWAP,
+    TMA,
+    CustomSpectrum,
+    PiersonMoskowitz,
+    TabulatedSpectrum,
+)
 from fftocean.physics.spreading import Blend, CosinePower
 
 QUANTITIES = {name: value for name, value in vars(limits).items() if isinstance(value, Quantity)}
@@ -29,17 +38,43 @@ def test_ends_are_inside_and_the_next_float_is_not(name):
         assert q.check("x", end) == end
         beyond = math.nextafter(float(end), outward)
         if beyond != end:
-            with pytest.raises(ParameterError, match=rf"^x must be {re.escape(q.rule)}, got {re.escape(repr(beyond))}$"):
+            with pytest.raises(
+                ParameterError,
+                match=rf"^x must be {re.escape(q.rule)}, got {re.escape(repr(beyond))}$",
+            ):
                 q.check("x", beyond)
 
 
-@pytest.mark.parametrize("bad", ["5", b"5", True, False, np.True_, None, 1j, [1.0], np.array(1.0), np.array([1.0]), Decimal(1), object, {}])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        "5",
+        b"5",
+        True,
+        False,
+        np.True_,
+        None,
+        1j,
+        [1.0],
+        np.array(1.0),
+        np.array([1.0]),
+        Decimal(1),
+        object,
+        {},
+    ],
+)
 def test_what_is_no_number_is_refused(bad):
-    """A message names the thing, the rule, the value and its type: a text "5" and a number 5 look alike in a job file."""
+    """
+    A message names the thing, the rule, the value and its type: a text "5" and a number 5 look
+    alike in a job file.
+    """
     for q in QUANTITIES.values():
         with pytest.raises(ParameterError) as error:
             q.check("thing", bad)
-        assert str(error.value) == f"thing must be a number {q.rule}, got {bad!r:.60} ({type(bad).__name__})"
+        assert (
+            str(error.value)
+            == f"thing must be a number {q.rule}, got {bad!r:.60} ({type(bad).__name__})"
+        )
 
 
 @pytest.mark.parametrize("name", sorted(QUANTITIES))
@@ -51,14 +86,27 @@ def test_nan_is_nowhere_inside(name):
 
 def test_every_kind_of_real_number_becomes_a_plain_float():
     q = limits.DIRECTION
-    for value in (3, 3.0, np.float64(3.0), np.float32(3.0), np.float16(3.0), np.int8(3), np.uint64(3), np.longdouble(3.0), Fraction(3)):
+    for value in (
+        3,
+        3.0,
+        np.float64(3.0),
+        np.float32(3.0),
+        np.float16(3.0),
+        np.int8(3),
+        np.uint64(3),
+        np.longdouble(3.0),
+        Fraction(3),
+    ):
         checked = q.check("x", value)
         assert checked == 3.0
         assert type(checked) is float
 
 
 def test_numbers_beyond_the_floats_are_infinite():
-    """10^400 is no float: where inf is allowed it is inf, elsewhere it is refused as such, not with an OverflowError."""
+    """
+    10^400 is no float: where inf is allowed it is inf, elsewhere it is refused as such, not with an
+    OverflowError.
+    """
     assert limits.DEPTH.check("depth", 10**400) == math.inf
     with pytest.raises(ParameterError, match=r"fetch must be between 1 and 5e\+07 m, got inf"):
         limits.FETCH.check("fetch", 10**400)
@@ -83,10 +131,24 @@ def test_counts_are_whole(name):
     assert q.check_whole("n", q.high) == q.high
     assert q.check_whole("n", np.int64(7)) == 7
     assert type(q.check_whole("n", np.uint8(7))) is int
-    for bad in (7.0, 7.5, np.float64(7.0), "7", True, np.True_, None, math.nan, math.inf, Fraction(7)):
+    for bad in (
+        7.0,
+        7.5,
+        np.float64(7.0),
+        "7",
+        True,
+        np.True_,
+        None,
+        math.nan,
+        math.inf,
+        Fraction(7),
+    ):
         with pytest.raises(ParameterError) as error:
             q.check_whole("n", bad)
-        assert str(error.value) == f"n must be a whole number {q.rule}, got {bad!r} ({type(bad).__name__})"
+        assert (
+            str(error.value)
+            == f"n must be a whole number {q.rule}, got {bad!r} ({type(bad).__name__})"
+        )
     for bad in (q.low - 1, q.high + 1, 10**400, -(10**400)):
         with pytest.raises(ParameterError) as error:
             q.check_whole("n", bad)
@@ -118,13 +180,22 @@ CONSTRUCTORS = {
     "JONSWAP.from_sea_state": (JONSWAP.from_sea_state, {"hs": 3.0, "tp": 9.0, "gamma": 3.0}),
     "TMA": (lambda depth: TMA(JONSWAP(peak=0.75), depth), {"depth": 40.0}),
     "TMA.from_sea_state": (TMA.from_sea_state, {"hs": 3.0, "tp": 9.0, "depth": 40.0, "gamma": 3.0}),
-    "CustomSpectrum": (lambda peak: CustomSpectrum(lambda w: np.exp(-w), peak=peak), {"peak": 0.75}),
+    "CustomSpectrum": (
+        lambda peak: CustomSpectrum(lambda w: np.exp(-w), peak=peak),
+        {"peak": 0.75},
+    ),
     "TabulatedSpectrum": (table, {"frequency": 0.125, "density": 2.0}),
     "CosinePower": (CosinePower, {"s": 4.0}),
     "Blend": (Blend, {"weight": 0.25}),
-    "WaveSystem": (lambda direction: WaveSystem(spectrum=JONSWAP(peak=0.75), direction=direction), {"direction": 30.0}),
+    "WaveSystem": (
+        lambda direction: WaveSystem(spectrum=JONSWAP(peak=0.75), direction=direction),
+        {"direction": 30.0},
+    ),
     "Sea": (lambda **water: Sea(SYSTEM, **water), {"depth": 40.0, "surface_tension": 0.0625}),
-    "Sea.from_wind": (Sea.from_wind, {"speed": 14.0, "fetch": 2e5, "depth": 40.0, "direction": 30.0, "gamma": 3.0}),
+    "Sea.from_wind": (
+        Sea.from_wind,
+        {"speed": 14.0, "fetch": 2e5, "depth": 40.0, "direction": 30.0, "gamma": 3.0},
+    ),
     "from_compass": (from_compass, {"bearing": 225.0}),
 }
 KEYS = [(name, key) for name, (_, valid) in CONSTRUCTORS.items() for key in valid]
@@ -134,10 +205,15 @@ UNSTATED = {("Sea", "depth"), ("Sea", "surface_tension")}  # None: taken from th
 
 
 def build(name: str, key: str, value: object) -> np.ndarray:
-    """Make it with one value changed, and look at it: everything it says from a thousandth of its peak to a thousand times it."""
+    """
+    Make it with one value changed, and look at it: everything it says from a thousandth of its peak
+    to a thousand times it.
+    """
     make, valid = CONSTRUCTORS[name]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SeaWarning)  # still air may say so; any other warning is an error
+        warnings.simplefilter(
+            "ignore", SeaWarning
+        )  # still air may say so; any other warning is an error
         thing = make(**{**valid, key: value})
     theta = np.linspace(-7.0, 7.0, 15)
     steps = np.geomspace(1e-3, 1e3, 121)
@@ -148,7 +224,9 @@ def build(name: str, key: str, value: object) -> np.ndarray:
     if isinstance(thing, CosinePower | Blend):
         return thing(steps[:, None], theta, 1.0)
     if isinstance(thing, Sea):
-        return np.concatenate([thing(thing.peak * steps), thing.density((thing.peak * steps)[:, None], theta).ravel()])
+        return np.concatenate(
+            [thing(thing.peak * steps), thing.density((thing.peak * steps)[:, None], theta).ravel()]
+        )
     return thing(thing.peak * steps)
 
 
@@ -160,7 +238,11 @@ def test_a_clean_refusal_or_a_finite_sea(name, key, value):
     except ParameterError as error:
         message = str(error)
         assert re.search(rf"\b{key}\b.* must ", message), message  # the key and the rule
-        shown = {repr(value), repr(float(value))} if isinstance(value, float) else {f"{value!r} ({type(value).__name__})"}
+        shown = (
+            {repr(value), repr(float(value))}
+            if isinstance(value, float)
+            else {f"{value!r} ({type(value).__name__})"}
+        )
         assert any(message.endswith(f"got {text}") for text in shown), message  # and what came
     else:
         assert np.all((said >= 0.0) & (said < math.inf))
@@ -179,7 +261,11 @@ def test_exactly_these_odd_values_are_let_through():
                 continue
             through.add((key, value))
     assert through == {
-        *((key, value) for key in ("hs", "alpha", "s", "weight", "density", "surface_tension", "speed") for value in (0.0, 1e-308)),
+        *(
+            (key, value)
+            for key in ("hs", "alpha", "s", "weight", "density", "surface_tension", "speed")
+            for value in (0.0, 1e-308)
+        ),
         *((key, value) for key in ("direction", "bearing") for value in (-1.0, 0.0, 1e-308)),
         *(("depth", value) for value in (math.inf, 1e308)),
         *((key, None) for _, key in UNSTATED),
@@ -188,11 +274,16 @@ def test_exactly_these_odd_values_are_let_through():
 
 @pytest.mark.parametrize(("name", "key"), KEYS)
 def test_numpy_numbers_are_numbers(name, key):
-    """The valid values are all exact in single precision: the sea must be the same to the bit, whatever they came as."""
+    """
+    The valid values are all exact in single precision: the sea must be the same to the bit,
+    whatever they came as.
+    """
     value = CONSTRUCTORS[name][1][key]
     expected = build(name, key, value)
     kinds = [np.float64, np.float32, Fraction, *([int, np.int64] if value.is_integer() else [])]
-    for kind in kinds if name != "TMA.from_sea_state" else [np.float32]:  # its quadrature takes a quarter of a second
+    for kind in (
+        kinds if name != "TMA.from_sea_state" else [np.float32]
+    ):  # its quadrature takes a quarter of a second
         assert np.array_equal(build(name, key, kind(value)), expected), kind
     for bad in (np.array(value), np.True_, Decimal(value), complex(value)):
         with pytest.raises(ParameterError, match=rf"\b{key}\b.* must be a number "):
@@ -200,21 +291,39 @@ def test_numpy_numbers_are_numbers(name, key):
 
 
 def test_stored_values_are_plain_floats():
-    """A spectrum made from single precision is not computed in it, and integers are not raised to integer powers."""
-    for thing in (JONSWAP(peak=np.float32(0.7), alpha=np.float16(0.01), gamma=np.int64(2)), PiersonMoskowitz(peak=2, alpha=1)):
+    """
+    A spectrum made from single precision is not computed in it, and integers are not raised to
+    integer powers.
+    """
+    for thing in (
+        JONSWAP(peak=np.float32(0.7), alpha=np.float16(0.01), gamma=np.int64(2)),
+        PiersonMoskowitz(peak=2, alpha=1),
+    ):
         assert all(type(getattr(thing, name)) is float for name in thing.__slots__)
     turned = WaveSystem(spectrum=SYSTEM.spectrum, direction=np.int8(3))
-    stored = [TMA(SYSTEM.spectrum, np.int32(4)).depth, CosinePower(s=4).s, Blend(weight=1).weight, turned.direction, Sea(depth=4).depth]
+    stored = [
+        TMA(SYSTEM.spectrum, np.int32(4)).depth,
+        CosinePower(s=4).s,
+        Blend(weight=1).weight,
+        turned.direction,
+        Sea(depth=4).depth,
+    ]
     assert {type(value) for value in stored} == {float}
     assert PiersonMoskowitz(peak=np.int64(2)) == PiersonMoskowitz(peak=2.0)
-    assert repr(PiersonMoskowitz(peak=np.float64(2.0))) == "PiersonMoskowitz(peak=2.0, alpha=0.0081)"
+    assert (
+        repr(PiersonMoskowitz(peak=np.float64(2.0))) == "PiersonMoskowitz(peak=2.0, alpha=0.0081)"
+    )
 
 
 # The floor that limits stands on
 
 
 def test_what_can_go_wrong_is_one_tree():
-    tree = {kind: kind.exit_code for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, errors.FFTOceanError)}
+    tree = {
+        kind: kind.exit_code
+        for kind in vars(errors).values()
+        if isinstance(kind, type) and issubclass(kind, errors.FFTOceanError)
+    }
     assert tree == {
         errors.FFTOceanError: 2,
         errors.ParameterError: 2,
@@ -235,7 +344,10 @@ def test_what_can_go_wrong_is_one_tree():
 def test_memory_is_asked_for_before_it_is_taken():
     assert arrays.available_memory() > 0.0
     arrays.require_memory("a small thing", 1.0)
-    with pytest.raises(ParameterError, match=r"^a vast ocean needs about 1048576\.0 GiB of memory, but only \d+\.\d GiB are free$"):
+    with pytest.raises(
+        ParameterError,
+        match=r"^a vast ocean needs about 1048576\.0 GiB of memory, but only \d+\.\d GiB are free$",
+    ):
         arrays.require_memory("a vast ocean", 2.0**50)
 
 

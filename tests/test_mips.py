@@ -1,4 +1,7 @@
-"""Smaller levels lose detail and nothing else: means, roughness and the normals' mean plane are kept, on tiles of any size."""
+"""
+Smaller levels lose detail and nothing else: means, roughness and the normals' mean plane are kept,
+on tiles of any size.
+"""
 
 import math
 
@@ -19,7 +22,9 @@ def test_levels_have_the_sizes_of_a_gpu_s_and_keep_the_mean(shape):
     picture = np.random.default_rng(1).standard_normal((*shape, 2))
     levels = mips.chain(picture)
     assert levels[0] is picture
-    assert [level.shape for level in levels] == [(max(1, shape[0] >> i), max(1, shape[1] >> i), 2) for i in range(max(shape).bit_length())]
+    assert [level.shape for level in levels] == [
+        (max(1, shape[0] >> i), max(1, shape[1] >> i), 2) for i in range(max(shape).bit_length())
+    ]
     for level in levels:
         assert np.allclose(level.mean(axis=(0, 1)), picture.mean(axis=(0, 1)), atol=1e-15)
 
@@ -28,13 +33,18 @@ def test_a_picture_s_precision_is_kept():
     picture = np.random.default_rng(1).standard_normal((8, 8, 1)).astype(np.float32)
     levels = mips.chain(picture)
     assert {level.dtype for level in levels} == {np.dtype(np.float32)}
-    assert levels[-1][0, 0, 0] == np.float32(np.mean(picture, dtype=np.float64))  # no rounding but the last
+    assert levels[-1][0, 0, 0] == np.float32(
+        np.mean(picture, dtype=np.float64)
+    )  # no rounding but the last
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("unresolved", [None, (3e-3, -1e-3, 2e-3)])
 def test_roughness_is_kept_on_every_level(shape, unresolved):
-    """Total covariance: that of the mean slopes over the level, and the mean of those within its texels, to round-off."""
+    """
+    Total covariance: that of the mean slopes over the level, and the mean of those within its
+    texels, to round-off.
+    """
     rng = np.random.default_rng(2)
     x, y = 0.1 * rng.standard_normal((2, *shape)) + 0.05
     beyond = None if unresolved is None else np.array(unresolved)
@@ -53,7 +63,10 @@ def test_roughness_is_kept_on_every_level(shape, unresolved):
 
 
 def test_roughness_of_one_wave():
-    """Slope a k cos: over whole wavelengths its variance is (a k)^2/2, along its own direction, and is nothing across."""
+    """
+    Slope a k cos: over whole wavelengths its variance is (a k)^2/2, along its own direction, and is
+    nothing across.
+    """
     ocean = fo.Ocean.from_modes([(8, 0, 0.05, 0.3)], n=32, size=16.0, dtype="float64")
     frame = ocean.frame(0.0)
     last = mips.slope_covariances(frame.slope_x, frame.slope_y)[-1][0, 0]
@@ -61,7 +74,9 @@ def test_roughness_of_one_wave():
 
 
 def test_distant_water_keeps_the_roughness_that_averaged_slopes_lose():
-    """Why there is a covariance: a quarter of the way down, hardly any slope is left in the means."""
+    """
+    Why there is a covariance: a quarter of the way down, hardly any slope is left in the means.
+    """
     frame = fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n=64, size=60.0).frame(0.0)
     mean = mips.chain(np.stack([frame.slope_x, frame.slope_y], -1))
     within = mips.slope_covariances(frame.slope_x, frame.slope_y)
@@ -72,19 +87,35 @@ def test_distant_water_keeps_the_roughness_that_averaged_slopes_lose():
 @pytest.mark.parametrize("n", [(16, 16), (9, 6)])
 def test_normals_are_those_of_the_mean_plane(n):
     """
-    Against the surface itself: twice the vector area of a patch is the integral of r x dr along its rim, here summed wave by wave.
+    Against the surface itself: twice the vector area of a patch is the integral of r x dr along its
+    rim, here summed wave by wave.
 
-    A patch is the water of 2 x 2 samples, from half a sample before the first. Its inside is known at these four only: the mean of
-    four cross products is the integral to the second order in the sample, (k h)^2/24 of the waves' own slopes.
+    A patch is the water of 2 x 2 samples, from half a sample before the first. Its inside is known
+    at these four only: the mean of four cross products is the integral to the second order in the
+    sample, (k h)^2/24 of the waves' own slopes.
     """
-    ocean = fo.Ocean.from_modes([(1, 0, 0.5, 0.2), (-1, 1, 0.3, 1.0)], n=n, size=(32.0, 24.0), dtype="float64", choppiness=1.1)
+    ocean = fo.Ocean.from_modes(
+        [(1, 0, 0.5, 0.2), (-1, 1, 0.3, 1.0)],
+        n=n,
+        size=(32.0, 24.0),
+        dtype="float64",
+        choppiness=1.1,
+    )
     frame = ocean.frame(0.5, ("normal", *GEOMETRY))
     levels = mips.normals(frame.normal, tuple(frame[name] for name in GEOMETRY), frame.choppiness)
     assert levels[0] is frame.normal
     rows, columns = levels[1].shape[:2]
     along = np.linspace(0.0, 1.0, 400, endpoint=False)
     rim = np.concatenate(
-        [np.stack(p, -1) for p in ((along, 0 * along), (1 + 0 * along, along), (1 - along, 1 + 0 * along), (0 * along, 1 - along))]
+        [
+            np.stack(p, -1)
+            for p in (
+                (along, 0 * along),
+                (1 + 0 * along, along),
+                (1 - along, 1 + 0 * along),
+                (0 * along, 1 - along),
+            )
+        ]
     )
     for q in range(rows):
         for p in range(columns):
@@ -97,9 +128,13 @@ def test_normals_are_those_of_the_mean_plane(n):
 
 
 def test_normals_of_a_level_have_length_1_and_the_last_is_up():
-    """The vector area of a periodic tile is that of the flat one, folded or not: 1e-6 in float32."""
+    """
+    The vector area of a periodic tile is that of the flat one, folded or not: 1e-6 in float32.
+    """
     for choppiness in (0.0, 1.0, 4.0):
-        ocean = fo.Ocean(fo.Sea.from_wind(speed=15.0, fetch=100e3), n=(27, 40), size=80.0, choppiness=choppiness)
+        ocean = fo.Ocean(
+            fo.Sea.from_wind(speed=15.0, fetch=100e3), n=(27, 40), size=80.0, choppiness=choppiness
+        )
         frame = ocean.frame(0.0, ("normal", *GEOMETRY))
         levels = mips.normals(frame.normal, tuple(frame[name] for name in GEOMETRY), choppiness)
         for level in levels:
@@ -108,20 +143,26 @@ def test_normals_of_a_level_have_length_1_and_the_last_is_up():
 
 
 def test_normals_without_choppiness_are_those_of_the_mean_slope():
-    frame = fo.Ocean(fo.Sea.from_wind(speed=9.0, fetch=50e3), n=16, size=40.0, choppiness=0.0, dtype="float64").frame(0.0)
+    frame = fo.Ocean(
+        fo.Sea.from_wind(speed=9.0, fetch=50e3), n=16, size=40.0, choppiness=0.0, dtype="float64"
+    ).frame(0.0)
     normals = mips.normals(fo.normals(frame), tuple(frame[name] for name in GEOMETRY), 0.0)
     slopes = mips.chain(np.stack([frame.slope_x, frame.slope_y], -1))
     for normal, slope in zip(normals, slopes, strict=True):
         assert np.allclose(-normal[..., :2] / normal[..., 2:], slope, atol=1e-13)
     mean_of_normals = mips.chain(fo.normals(frame))[2]
-    assert np.max(np.abs(-mean_of_normals[..., :2] / mean_of_normals[..., 2:] - slopes[2])) > 1e-4  # which would be something else
+    assert (
+        np.max(np.abs(-mean_of_normals[..., :2] / mean_of_normals[..., 2:] - slopes[2])) > 1e-4
+    )  # which would be something else
 
 
 def test_waves_too_short_for_the_tile():
     """
-    Against a plain sum over a Cartesian grid of wavenumbers, 0.04 rad/m wide, outside the tile's rectangle and inside the circle.
+    Against a plain sum over a Cartesian grid of wavenumbers, 0.04 rad/m wide, outside the tile's
+    rectangle and inside the circle.
 
-    Cells that an edge cuts count whole or not at all: 1e-3 of the sum over some ten thousand of them.
+    Cells that an edge cuts count whole or not at all: 1e-3 of the sum over some ten thousand of
+    them.
     """
     sea = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
     grid = Grid.of((48, 30), (24.0, 24.0))  # up to 6.2 rad/m along x and 3.8 along y
@@ -142,13 +183,21 @@ def test_waves_too_short_for_the_tile():
 
 
 def test_finer_tiles_leave_less_beyond_them():
-    """Resolved and unresolved slopes add up to the same sea, whatever the tile: the mean square slope down to 10 cm."""
+    """
+    Resolved and unresolved slopes add up to the same sea, whatever the tile: the mean square slope
+    down to 10 cm.
+    """
     sea = fo.Sea.from_wind(speed=8.0, fetch=60e3, direction=20.0)
     totals = []
     for n in (32, 96):
         ocean = fo.Ocean(sea, n=n, size=40.0, amplitudes="fixed", dtype="float64")
         w = ocean.modes()
-        resolved = np.array([np.sum(0.5 * w.amplitude**2 * a * b) for a, b in ((w.kx, w.kx), (w.kx, w.ky), (w.ky, w.ky))])
+        resolved = np.array(
+            [
+                np.sum(0.5 * w.amplitude**2 * a * b)
+                for a, b in ((w.kx, w.kx), (w.kx, w.ky), (w.ky, w.ky))
+            ]
+        )
         totals.append((resolved, mips.unresolved_slopes(ocean, 0.1)))
     (coarse, much), (fine, little) = totals
     assert np.sum(much[::2]) > np.sum(little[::2]) > 0.0
@@ -160,16 +209,29 @@ def test_who_has_no_waves_beyond():
     with pytest.warns(fo.SeaWarning, match="flat"):
         calm = fo.Sea.from_wind(speed=0.0, fetch=1e4)
     assert not mips.unresolved_slopes(fo.Ocean(calm, n=8, size=20.0)).any()
-    ripples = fo.Ocean(fo.Sea.from_wind(speed=3.0, fetch=1e4), n=64, size=0.5)  # 1.6 cm long, the shortest
+    ripples = fo.Ocean(
+        fo.Sea.from_wind(speed=3.0, fetch=1e4), n=64, size=0.5
+    )  # 1.6 cm long, the shortest
     assert not mips.unresolved_slopes(ripples).any()
-    narrow = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=8.0), spreading=fo.CosinePower(s=1e4), direction=33.3))
+    narrow = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=8.0),
+            spreading=fo.CosinePower(s=1e4),
+            direction=33.3,
+        )
+    )
     beyond = mips.unresolved_slopes(fo.Ocean(narrow, n=16, size=100.0))
-    assert beyond[1] / beyond[0] == pytest.approx(math.tan(math.radians(33.3)), rel=1e-2)  # all along one direction
+    assert beyond[1] / beyond[0] == pytest.approx(
+        math.tan(math.radians(33.3)), rel=1e-2
+    )  # all along one direction
 
 
 @pytest.mark.parametrize("direction", [0.0, 33.0])
 def test_short_waves_of_one_direction(direction):
-    """All slopes along the waves: the integral of k^2 S, by QUADPACK, from the edge of the rectangle on; a narrow bell has the same."""
+    """
+    All slopes along the waves: the integral of k^2 S, by QUADPACK, from the edge of the rectangle
+    on; a narrow bell has the same.
+    """
     spectrum = fo.JONSWAP.from_wind(speed=10.0, fetch=100e3)
     grid = Grid.of((48, 30), (24.0, 30.0))
     c, s = math.cos(math.radians(direction)), math.sin(math.radians(direction))
@@ -179,4 +241,6 @@ def test_short_waves_of_one_direction(direction):
     truth = integrate.quad(lambda w: (w * w / 9.80665) ** 2 * float(spectrum(w)), low, high)[0]
     for spreading in (fo.LongCrested(), fo.WrappedNormal(spread=0.1)):
         sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction))
-        assert mips.beyond(sea, grid, 0.05) == pytest.approx(truth * np.array([c * c, c * s, s * s]), abs=1e-4 * truth)
+        assert mips.beyond(sea, grid, 0.05) == pytest.approx(
+            truth * np.array([c * c, c * s, s * s]), abs=1e-4 * truth
+        )

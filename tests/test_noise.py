@@ -34,7 +34,10 @@ def waves():
 
 
 def test_normals_are_normal(waves):
-    """Kolmogorov-Smirnov on 160,000 draws of each part: p below 1e-4 would happen once in ten thousand seeds, and the seed is fixed."""
+    """
+    Kolmogorov-Smirnov on 160,000 draws of each part: p below 1e-4 would happen once in ten thousand
+    seeds, and the seed is fixed.
+    """
     xi = noise.complex_normals(7, *waves)
     for part in (xi.real, xi.imag):
         assert stats.kstest(part, "norm").pvalue > 1e-4
@@ -44,10 +47,17 @@ def test_normals_are_normal(waves):
 
 
 def test_neighbours_and_opposites_are_independent(waves):
-    """Correlation of xi(k) with xi(-k), xi(k + dk), and the next seed: standard error 0.0025 each, four of them."""
+    """
+    Correlation of xi(k) with xi(-k), xi(k + dk), and the next seed: standard error 0.0025 each,
+    four of them.
+    """
     mx, my = waves
     xi = noise.complex_normals(7, mx, my)
-    for other in (noise.complex_normals(7, -mx, -my), noise.complex_normals(7, mx + 1, my), noise.complex_normals(8, mx, my)):
+    for other in (
+        noise.complex_normals(7, -mx, -my),
+        noise.complex_normals(7, mx + 1, my),
+        noise.complex_normals(8, mx, my),
+    ):
         off_origin = (mx != 0) | (my != 0)
         assert abs(np.mean(xi[off_origin] * np.conj(other[off_origin]))) / 2 < 0.01
         assert abs(np.mean(xi[off_origin] * other[off_origin])) / 2 < 0.01
@@ -58,13 +68,18 @@ def test_draw_order_does_not_matter(waves):
     xi = noise.complex_normals(7, mx, my)
     order = np.random.default_rng(1).permutation(mx.size)
     assert np.array_equal(noise.complex_normals(7, mx[order], my[order]), xi[order])
-    assert np.array_equal(noise.complex_normals(7, mx[12345:12346], my[12345:12346]), xi[12345:12346])
+    assert np.array_equal(
+        noise.complex_normals(7, mx[12345:12346], my[12345:12346]), xi[12345:12346]
+    )
 
 
 def test_high_seeds_differ():
     """All 64 bits of the seed count."""
     one = np.array([3]), np.array([-5])
-    draws = {complex(noise.complex_normals(seed, *one)[0]) for seed in (0, 1, 2**31, 2**32, 2**63, 2**64 - 1)}
+    draws = {
+        complex(noise.complex_normals(seed, *one)[0])
+        for seed in (0, 1, 2**31, 2**32, 2**63, 2**64 - 1)
+    }
     assert len(draws) == 6
 
 
@@ -75,10 +90,15 @@ def test_phasors_have_unit_modulus_and_the_normals_phase(waves):
 
 
 def test_no_two_wavenumbers_share_a_draw(waves):
-    """Philox is a bijection of counters, and a wave's (mx, my) is its counter: 106 bits of 160,000 waves, all different."""
+    """
+    Philox is a bijection of counters, and a wave's (mx, my) is its counter: 106 bits of 160,000
+    waves, all different.
+    """
     first, second = noise._uniforms(7, *waves)
     assert np.unique(np.column_stack([first, second]), axis=0).shape[0] == waves[0].size
-    assert np.unique(first).size == waves[0].size  # 53 bits: two alike would happen once in 10^6 seeds
+    assert (
+        np.unique(first).size == waves[0].size
+    )  # 53 bits: two alike would happen once in 10^6 seeds
     edge = np.array([-32768, -32767, -1, 0, 1, 32767, 32768])
     mx, my = (a.ravel() for a in np.meshgrid(edge, edge))
     assert np.unique(np.column_stack(noise._uniforms(0, mx, my)), axis=0).shape[0] == edge.size**2
@@ -86,10 +106,15 @@ def test_no_two_wavenumbers_share_a_draw(waves):
 
 @pytest.mark.parametrize("word", [0, 0xFFFFFFFF])
 def test_the_rarest_words_give_finite_waves(word, monkeypatch):
-    """The logarithm is that of a number in (0, 1]: 2^-53 at least, which makes 8.6; 1 at most, which makes 0."""
+    """
+    The logarithm is that of a number in (0, 1]: 2^-53 at least, which makes 8.6; 1 at most, which
+    makes 0.
+    """
     monkeypatch.setattr(noise, "philox", lambda counter, _: (np.full_like(counter[0], word),) * 4)
     xi = noise.complex_normals(3, np.arange(4), np.arange(4))
-    assert np.abs(xi) == pytest.approx(np.sqrt(2.0 * 53.0 * np.log(2.0)) if word == 0 else 0.0, rel=1e-12)
+    assert np.abs(xi) == pytest.approx(
+        np.sqrt(2.0 * 53.0 * np.log(2.0)) if word == 0 else 0.0, rel=1e-12
+    )
     assert np.all(np.isfinite(noise.unit_phasors(3, np.arange(4), np.arange(4))))
 
 

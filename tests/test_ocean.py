@@ -1,4 +1,7 @@
-"""The frame: every field against the direct sum, at any time, on any grid; loops, seams, seeds, threads and bad input."""
+"""
+The frame: every field against the direct sum, at any time, on any grid; loops, seams, seeds,
+threads and bad input.
+"""
 
 import copy
 import dataclasses
@@ -31,14 +34,22 @@ def ocean(sea=DEEP, **arguments):
 
 
 def worst(t, *oceans):
-    """The largest difference from the direct sum over all fields, relative to each field's largest value; for oceans of the same waves."""
+    """
+    The largest difference from the direct sum over all fields, relative to each field's largest
+    value; for oceans of the same waves.
+    """
     grid = oceans[0].grid
-    step = max(1, min(grid.shape) // 16)  # enough points to see every wave; the sum costs points times waves
+    step = max(
+        1, min(grid.shape) // 16
+    )  # enough points to see every wave; the sum costs points times waves
     x, y = np.meshgrid(grid.x[::step], grid.y[::step])
     truth = fo.gerstner.surface(oceans[0], x, y, t)
 
     def apart(frame, name):
-        return float(np.max(np.abs(frame[name][::step, ::step] - getattr(truth, name))) / np.max(np.abs(frame[name])))
+        return float(
+            np.max(np.abs(frame[name][::step, ::step] - getattr(truth, name)))
+            / np.max(np.abs(frame[name]))
+        )
 
     return [max(apart(o.frame(t, fields=ALL), name) for name in ALL) for o in oceans]
 
@@ -49,8 +60,14 @@ def worst(t, *oceans):
 @pytest.mark.parametrize("sea", [DEEP, SHALLOW], ids=["deep", "5m"])
 @pytest.mark.parametrize("n", [64, (48, 80), 31])
 def test_every_field_equals_the_direct_sum(n, sea, t, loop, backend):
-    """float64: 1e-12 of the field's largest value, and the rounding of omega t in the direct sum; float32: 1e-6, about 8 eps."""
-    double, single = (ocean(sea, n=n, size=(200.0, 150.0), loop=loop, backend=backend, dtype=d) for d in ("float64", "float32"))
+    """
+    float64: 1e-12 of the field's largest value, and the rounding of omega t in the direct sum;
+        float32: 1e-6, about 8 eps.
+    """
+    double, single = (
+        ocean(sea, n=n, size=(200.0, 150.0), loop=loop, backend=backend, dtype=d)
+        for d in ("float64", "float32")
+    )
     omega = float(np.max(double.modes().omega))
     errors = worst(t, double, single)
     assert errors[0] <= 1e-12 + 2 * np.finfo(float).eps * omega * t
@@ -59,7 +76,10 @@ def test_every_field_equals_the_direct_sum(n, sea, t, loop, backend):
 
 @pytest.mark.parametrize("t", [-1e6, 1e7, 1e9])
 def test_single_precision_is_as_good_after_years(t):
-    """Against float64 at the same time: relative L2 error 2e-6 at most; phases are reduced before any cast."""
+    """
+    Against float64 at the same time: relative L2 error 2e-6 at most; phases are reduced before any
+    cast.
+    """
     single, double = ocean(dtype="float32").frame(t), ocean().frame(t)
     for name in EIGHT:
         assert np.linalg.norm(single[name] - double[name]) <= 2e-6 * np.linalg.norm(double[name])
@@ -103,7 +123,10 @@ def test_one_mode_in_closed_form(depth):
 @pytest.mark.nojit
 @pytest.mark.parametrize("m", [(2, 0), (-2, 0), (0, 3), (1, -1)])
 def test_waves_run_along_plus_k(m):
-    """The crest moves by c dt along +k: e^{+i omega t} with e^{+i k.x}, as sometimes printed, runs it backwards."""
+    """
+    The crest moves by c dt along +k: e^{+i omega t} with e^{+i k.x}, as sometimes printed, runs it
+    backwards.
+    """
     o = fo.Ocean.from_modes([(*m, 1.0, 0.0)], n=64, size=100.0, dtype="float64")
     kx, ky = 2 * math.pi * m[0] / 100.0, 2 * math.pi * m[1] / 100.0
     k = math.hypot(kx, ky)
@@ -159,19 +182,25 @@ def test_loop_frames_close_to_the_bit(dtype):
 @pytest.mark.parametrize(("size", "loop"), [(50.0, 16.0), (0.02, 1e9)])
 def test_phases_of_a_loop_are_those_of_whole_numbers(count, size, loop):
     """
-    a cos(k x - 2 pi (n j mod count)/count - phase) with Python's integers, which have no bounds: n reaches 1e12 turns here.
+    a cos(k x - 2 pi (n j mod count)/count - phase) with Python's integers, which have no bounds: n
+    reaches 1e12 turns here.
 
-    Two numbers of 32 bits, multiplied in double precision, lose whole turns, and in 64 bits with a sign overflow.
+    Two numbers of 32 bits, multiplied in double precision, lose whole turns, and in 64 bits with a
+    sign overflow.
     """
     modes = [(1, 0, 0.3, 0.4), (0, 2, 0.2, 1.0), (-3, 1, 0.1, 2.0)]
-    ocean = fo.Ocean.from_modes(modes, n=16, size=size, loop=loop, surface_tension=0.074, dtype="float64")
+    ocean = fo.Ocean.from_modes(
+        modes, n=16, size=size, loop=loop, surface_tension=0.074, dtype="float64"
+    )
     waves = ocean.modes()
     turns = [round(omega * loop / (2.0 * math.pi)) for omega in waves.omega]
     assert max(turns) > (1e9 if loop > 1e3 else 1)
     x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
     for j in (0, 1, count // 3, count - 1, 2**31 + 7, 2**32 - 9, -5, 10**30 + 1):
         expected = np.zeros_like(x)
-        for n, kx, ky, amplitude, phase in zip(turns, waves.kx, waves.ky, waves.amplitude, waves.phase, strict=True):
+        for n, kx, ky, amplitude, phase in zip(
+            turns, waves.kx, waves.ky, waves.amplitude, waves.phase, strict=True
+        ):
             turned = float(fractions.Fraction((n * j) % count, count))
             expected += amplitude * np.cos(kx * x + ky * y - 2.0 * math.pi * turned - phase)
         frame = ocean.loop_frame(j, count, ("height",))
@@ -181,8 +210,13 @@ def test_phases_of_a_loop_are_those_of_whole_numbers(count, size, loop):
 
 
 def test_turns_beyond_2_to_53_are_turned_in_whole_numbers():
-    """The two ways to turn agree where both hold, and the fine one holds for any whole double below 2^63."""
-    cycles = np.array([[1.0, 3.0, 2.0**49 + 1.0, 2.0**53 + 2.0, 2.0**62 + 2.0**11, 2.0**63 - 2.0**10]])
+    """
+    The two ways to turn agree where both hold, and the fine one holds for any whole double below
+    2^63.
+    """
+    cycles = np.array(
+        [[1.0, 3.0, 2.0**49 + 1.0, 2.0**53 + 2.0, 2.0**62 + 2.0**11, 2.0**63 - 2.0**10]]
+    )
     for step, count in ((5, 7), (2**25 + 3, 2**26), (2**31 + 11, 2**32 - 5), (2**32 - 1, 2**32)):
         fine = np.empty_like(cycles)
         passes.turns_in_fine_loop(cycles, step, count, fine)
@@ -197,7 +231,9 @@ def test_turns_beyond_2_to_53_are_turned_in_whole_numbers():
 
 
 def test_loop_frames_are_the_frames_at_their_times():
-    """Two clocks, whole turns and seconds: apart by the rounding of n t/T, 1e-13 of the largest value."""
+    """
+    Two clocks, whole turns and seconds: apart by the rounding of n t/T, 1e-13 of the largest value.
+    """
     o = ocean(loop=32.0)
     for j, count in ((7, 48), (11, 31)):
         a, b = o.loop_frame(j, count), o.frame(32.0 * j / count)
@@ -213,11 +249,16 @@ def test_every_wave_turns_a_whole_number_of_times_in_a_loop():
     assert np.min(turns) > 0.5
     free = ocean().modes()
     assert np.max(np.abs(modes.omega - free.omega)) <= np.pi / 32.0 * (1 + 1e-12)
-    assert np.array_equal(modes.amplitude, free.amplitude)  # energies come from the true omega, never the quantised one
+    assert np.array_equal(
+        modes.amplitude, free.amplitude
+    )  # energies come from the true omega, never the quantised one
 
 
 def test_the_seam_is_closed():
-    """One sample past the last is the first again: the exact surface at x + L and y + L equals the frame's own edge."""
+    """
+    One sample past the last is the first again: the exact surface at x + L and y + L equals the
+    frame's own edge.
+    """
     o = ocean(n=(40, 24), size=(200.0, 90.0))
     frame = o.frame(1.5)
     east = fo.gerstner.surface(o, 200.0, o.grid.y, 1.5)
@@ -229,7 +270,10 @@ def test_the_seam_is_closed():
 
 
 def test_finer_samples_of_the_same_sea_show_the_same_waves():
-    """n -> 2n keeps the waves: remove what only the finer grid can hold, and every second sample is the coarse frame."""
+    """
+    n -> 2n keeps the waves: remove what only the finer grid can hold, and every second sample is
+    the coarse frame.
+    """
     coarse, fine = ocean(n=16), ocean(n=32)
     kept = np.fft.rfft2(fine.frame(2.0).height)
     my, mx = fine.grid.my[:, None], fine.grid.mx[None, :]
@@ -243,12 +287,17 @@ def test_zero_mean_and_zero_nyquist():
         spectrum = np.fft.rfft2(frame[name]) / frame[name].size
         scale = np.max(np.abs(spectrum))
         assert abs(spectrum[0, 0]) < 1e-15 * max(scale, 1.0)
-        assert max(np.max(np.abs(spectrum[16])), np.max(np.abs(spectrum[:, 16]))) < 1e-15 * max(scale, 1.0)
+        assert max(np.max(np.abs(spectrum[16])), np.max(np.abs(spectrum[:, 16]))) < 1e-15 * max(
+            scale, 1.0
+        )
 
 
 @pytest.mark.parametrize(("dtype", "bound"), [("float32", 5e-7), ("float64", 1e-13)])
 def test_parseval(dtype, bound):
-    """Mean square in space = sum over the half plane of |h|^2, of what the evolution made: bounds as RELIABILITY's, 4 and 450 eps."""
+    """
+    Mean square in space = sum over the half plane of |h|^2, of what the evolution made: bounds as
+    RELIABILITY's, 4 and 450 eps.
+    """
     o = ocean(n=64, dtype=dtype)
     a, t = o.amplitudes, 4.4
     h = a.forward * np.exp(-1j * a.omega * t) + a.backward * np.exp(1j * a.omega * t)
@@ -262,7 +311,9 @@ def test_a_flat_sea_is_exactly_flat():
     for sea in (calm, fo.Sea()):
         frame = fo.Ocean(sea, n=16, size=50.0, loop=10.0).frame(3.0, fields=ALL)
         assert all(not np.any(frame[f]) for f in FIELDS)
-        assert np.array_equal(frame.normal, np.broadcast_to(np.array([0, 0, 1], dtype="f4"), (16, 16, 3)))
+        assert np.array_equal(
+            frame.normal, np.broadcast_to(np.array([0, 0, 1], dtype="f4"), (16, 16, 3))
+        )
         assert np.all(frame.jacobian == 1.0)
 
 
@@ -293,10 +344,16 @@ def test_only_what_is_asked_is_there():
         (lambda o: o.loop_frame(0, 48), "loops"),
         (lambda _: ocean(loop=30.0).loop_frame(0.5, 48), "j must be"),
         (lambda _: ocean(loop=30.0).loop_frame(0, 0), "count must be"),
-        (lambda _: ocean(loop=30.0).loop_frame(0, 2**32 + 1), "count must be a whole number between 1 and 4.29497e"),
+        (
+            lambda _: ocean(loop=30.0).loop_frame(0, 2**32 + 1),
+            "count must be a whole number between 1 and 4.29497e",
+        ),
         (lambda o: o.frame(0.0, out=ocean(n=16).frame(0.0)), "out.height must be"),
         (lambda o: o.frame(0.0, out=ocean(dtype="float32").frame(0.0)), "out.height must be"),
-        (lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))), "out must be a frame that has height, displace_x"),
+        (
+            lambda o: o.frame(0.0, out=o.frame(0.0, fields=("height",))),
+            "out must be a frame that has height, displace_x",
+        ),
         (lambda o: o.frame(0.0, out={}), "out must be a frame"),
     ],
 )
@@ -317,7 +374,9 @@ def tried(make):
 
 
 @pytest.mark.parametrize("value", BAD, ids=repr)
-@pytest.mark.parametrize("key", ["n", "size", "seed", "loop", "choppiness", "dtype", "amplitudes", "backend", "planning"])
+@pytest.mark.parametrize(
+    "key", ["n", "size", "seed", "loop", "choppiness", "dtype", "amplitudes", "backend", "planning"]
+)
 def test_bad_values_are_refused_or_finite(key, value):
     """Every key: a refusal that names it, or a finite sea."""
     with warnings.catch_warnings():
@@ -348,19 +407,27 @@ def test_bad_seas_are_refused_or_finite(key, value):
 @pytest.mark.parametrize("depth", [1e-6, 1e-3, 0.1, 1e5, 1e308, math.inf])
 @pytest.mark.parametrize("size", [1e-2, 1.0, 1e4, 1e6])
 def test_extreme_depths_and_sizes_are_finite(depth, size):
-    o = ocean(fo.Sea.from_wind(speed=10.0, fetch=1e5, depth=depth), n=16, size=size, dtype="float32")
+    o = ocean(
+        fo.Sea.from_wind(speed=10.0, fetch=1e5, depth=depth), n=16, size=size, dtype="float32"
+    )
     frame = o.frame(10.0, fields=ALL)
     assert all(np.all(np.isfinite(frame[f])) for f in ALL)
 
 
 def test_waves_that_would_overflow_are_refused():
     with pytest.raises(fo.ParameterError, match="float32"):
-        ocean(fo.Sea(fo.WaveSystem(spectrum=fo.CustomSpectrum(lambda w: 1e42 + 0 * w, peak=1.0))), dtype="float32")
+        ocean(
+            fo.Sea(fo.WaveSystem(spectrum=fo.CustomSpectrum(lambda w: 1e42 + 0 * w, peak=1.0))),
+            dtype="float32",
+        )
 
 
 def test_too_much_memory_is_refused_before_it_is_taken(monkeypatch):
     monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
-    with pytest.raises(fo.ParameterError, match=r"n = 65536 x 65536 needs about \d+\.\d GiB of memory, but only 1.0 GiB"):
+    with pytest.raises(
+        fo.ParameterError,
+        match=r"n = 65536 x 65536 needs about \d+\.\d GiB of memory, but only 1.0 GiB",
+    ):
         ocean(n=65536)
 
 
@@ -413,7 +480,13 @@ def test_a_reused_frame_names_the_moment_that_it_shows():
     assert np.array_equal(first.height, o.frame(2.0).height)
 
 
-@pytest.mark.parametrize("make", [lambda: ocean(loop=30.0, threads=2), lambda: fo.Ocean.from_modes([(1, 2, 0.5, 0.1)], n=8, size=9.0)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: ocean(loop=30.0, threads=2),
+        lambda: fo.Ocean.from_modes([(1, 2, 0.5, 0.1)], n=8, size=9.0),
+    ],
+)
 def test_oceans_can_be_pickled_and_copied(make):
     o = make()
     for twin in (pickle.loads(pickle.dumps(o)), copy.copy(o), copy.deepcopy(o)):
@@ -422,7 +495,9 @@ def test_oceans_can_be_pickled_and_copied(make):
         assert all(np.array_equal(twin.frame(1.3)[name], o.frame(1.3)[name]) for name in EIGHT)
 
 
-@pytest.mark.parametrize(("name", "value"), [("choppiness", 0.5), ("dtype", "float32"), ("seed", 9), ("sea", None)])
+@pytest.mark.parametrize(
+    ("name", "value"), [("choppiness", 0.5), ("dtype", "float32"), ("seed", 9), ("sea", None)]
+)
 def test_an_ocean_is_frozen(name, value):
     with pytest.raises(AttributeError, match=f"an ocean is frozen: make another with the {name}"):
         setattr(ocean(), name, value)
@@ -448,14 +523,22 @@ def test_values_are_frozen():
         o.amplitudes.depth = 3.0
     swell = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP(peak=1.0)), depth=5.0)
     assert dataclasses.replace(swell, depth=7.0).depth == 7.0
-    with pytest.raises(fo.ParameterError, match=r"got 7 m for the sea and 5 m for systems\[0\].spectrum \(TMA\)"):
+    with pytest.raises(
+        fo.ParameterError, match=r"got 7 m for the sea and 5 m for systems\[0\].spectrum \(TMA\)"
+    ):
         dataclasses.replace(SHALLOW, depth=7.0)
 
 
 def test_capillary_waves_run_faster():
-    """Wave of 5 mm, sigma = 0.074 N/m: omega^2 = g k + (sigma/rho) k^3 is 12 times what gravity alone gives."""
+    """
+    Wave of 5 mm, sigma = 0.074 N/m: omega^2 = g k + (sigma/rho) k^3 is 12 times what gravity alone
+    gives.
+    """
     args = {"n": 8, "size": 0.005, "dtype": "float64"}
-    slow, fast = (fo.Ocean.from_modes([(1, 0, 1e-5, 0.0)], surface_tension=s, **args).modes().omega[0] for s in (0.0, 0.074))
+    slow, fast = (
+        fo.Ocean.from_modes([(1, 0, 1e-5, 0.0)], surface_tension=s, **args).modes().omega[0]
+        for s in (0.0, 0.074)
+    )
     k = 2 * math.pi / 0.005
     assert (fast / slow) ** 2 == pytest.approx(1.0 + 0.074 / 1025.0 * k**2 / 9.80665, rel=1e-12)
 
@@ -468,11 +551,20 @@ WATER = fo.Sea.from_wind(speed=9.0, fetch=100e3)
 def test_frames_come_in_order_with_the_bits_of_frame(ahead, reuse):
     ocean = fo.Ocean(WATER, n=(24, 18), size=100.0, loop=30.0)
     times = [3.0, -1.0, 3.0, 1e6, 0.25]
-    for t, frame in zip(times, ocean.frames(iter(times), ("height", "normal"), ahead=ahead, reuse=reuse), strict=True):
+    for t, frame in zip(
+        times,
+        ocean.frames(iter(times), ("height", "normal"), ahead=ahead, reuse=reuse),
+        strict=True,
+    ):
         assert frame.t == t
-        assert all(np.array_equal(frame[name], ocean.frame(t, (name,))[name]) for name in ("height", "normal"))
+        assert all(
+            np.array_equal(frame[name], ocean.frame(t, (name,))[name])
+            for name in ("height", "normal")
+        )
     for j, frame in enumerate(ocean.loop_frames(7, ahead=ahead, reuse=reuse)):
-        assert all(np.array_equal(frame[name], ocean.loop_frame(j, 7)[name]) for name in frame.fields)
+        assert all(
+            np.array_equal(frame[name], ocean.loop_frame(j, 7)[name]) for name in frame.fields
+        )
     assert j == 6
 
 
@@ -480,7 +572,12 @@ def test_frames_reuse_arrays_only_when_told_to():
     ocean = fo.Ocean(WATER, n=16, size=100.0)
     kept = list(ocean.frames(range(6), ("height",)))
     assert len({frame.height.ctypes.data for frame in kept}) == 6
-    assert len({frame.height.ctypes.data for frame in ocean.frames(range(40), ("height",), reuse=True)}) <= 3  # one out, one ahead
+    assert (
+        len(
+            {frame.height.ctypes.data for frame in ocean.frames(range(40), ("height",), reuse=True)}
+        )
+        <= 3
+    )  # one out, one ahead
 
 
 def test_an_endless_sea_can_be_left_at_any_time():
@@ -518,7 +615,9 @@ def test_times_of_a_loop_are_reduced_before_they_are_multiplied():
     for t in (5.0, 29.5):
         frame = ocean.frame(t)
         for later in (t + 30.0, t + 30.0 * 1024, t - 30.0):
-            assert all(np.array_equal(ocean.frame(later)[name], frame[name]) for name in frame.fields)
+            assert all(
+                np.array_equal(ocean.frame(later)[name], frame[name]) for name in frame.fields
+            )
 
 
 def test_who_supplies_the_times_may_fail_and_no_frame_is_lost():
@@ -553,7 +652,11 @@ def test_out_refuses_what_it_cannot_fill():
     shared = fo.Frame(0.0, frame.grid, 1.0, {"height": frame.height, "slope_x": frame.height})
     with pytest.raises(fo.ParameterError, match="array of its own"):
         ocean.frame(1.0, ("height", "slope_x"), out=shared)
-    for wrong in (frame.height.tolist(), np.ma.masked_array(frame.height), frame.height.view(np.matrix)):
+    for wrong in (
+        frame.height.tolist(),
+        np.ma.masked_array(frame.height),
+        frame.height.view(np.matrix),
+    ):
         with pytest.raises(fo.ParameterError, match="plain array"):
             ocean.frame(1.0, ("height",), out=fo.Frame(0.0, frame.grid, 1.0, {"height": wrong}))
 
@@ -561,7 +664,10 @@ def test_out_refuses_what_it_cannot_fill():
 def test_arrays_of_an_unpickled_ocean_are_read_only():
     ocean = pickle.loads(pickle.dumps(fo.Ocean(WATER, n=16, size=100.0, loop=30.0)))
     a = ocean.amplitudes
-    assert not any(array.flags.writeable for array in (a.forward, a.backward, a.variance_forward, a.variance_backward, a.cycles))
+    assert not any(
+        array.flags.writeable
+        for array in (a.forward, a.backward, a.variance_forward, a.variance_backward, a.cycles)
+    )
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
@@ -574,7 +680,9 @@ def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
     child = os.fork()
     if child == 0:
         signal.alarm(20)
-        good = all(np.array_equal(frame.height, h) for frame, h in zip(frames, truth[1:], strict=True))
+        good = all(
+            np.array_equal(frame.height, h) for frame, h in zip(frames, truth[1:], strict=True)
+        )
         os._exit(0 if good else 1)
     assert os.waitpid(child, 0)[1] == 0
     assert all(np.array_equal(frame.height, h) for frame, h in zip(frames, truth[1:], strict=True))
@@ -582,7 +690,10 @@ def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_a_thread_that_outlives_the_main_one_goes_on(threads):
-    """When Python is on its way out, no new work can be handed to a pool: it is done where it is asked for."""
+    """
+    When Python is on its way out, no new work can be handed to a pool: it is done where it is asked
+    for.
+    """
     script = f"""
 import threading
 import fftocean as fo
@@ -594,5 +705,7 @@ def later():
     print(len(list(ocean.frames([1.0, 2.0, 3.0]))))
 threading.Thread(target=later).start()
 """
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=600
+    )
     assert done.stdout == "3\n", done.stderr

@@ -1,4 +1,7 @@
-"""The package as it is handed on: what the archive holds, that it is typed, and what is left out of version control."""
+"""
+The package as it is handed on: what the archive holds, that it is typed, and what is left out of
+version control.
+"""
 
 import subprocess
 import sys
@@ -20,11 +23,16 @@ def test_the_package_says_that_it_is_typed():
 
 def test_the_archive_packs_folders_of_the_root_alone():
     """A pattern without a leading slash also means folders of that name in stray environments."""
-    assert all(pattern.startswith("/") for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
+    assert all(
+        pattern.startswith("/")
+        for pattern in PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]
+    )
 
 
 def test_an_archive_holds_no_stray_environment(tmp_path):
-    """Built from a small copy of the tree, with an environment in it whose folders have our names."""
+    """
+    Built from a small copy of the tree, with an environment in it whose folders have our names.
+    """
     pytest.importorskip("hatchling")
     for name in (
         "pyproject.toml",

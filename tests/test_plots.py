@@ -1,4 +1,7 @@
-"""What is drawn is what is there: the artists' own data against the sea, the tile and closed forms; and the pictures as files."""
+"""
+What is drawn is what is there: the artists' own data against the sea, the tile and closed forms;
+and the pictures as files.
+"""
 
 import math
 import os
@@ -18,11 +21,23 @@ matplotlib = pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.text import Annotation  # noqa: E402
 
-SWELL = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=11.0, gamma=7.0), spreading=fo.CosinePower(s=40.0), direction=110.0)
-WIND = fo.WaveSystem(spectrum=fo.TMA(fo.JONSWAP.from_wind(speed=12.0, fetch=100e3), depth=12.0), direction=-30.0)
+SWELL = fo.WaveSystem(
+    spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=11.0, gamma=7.0),
+    spreading=fo.CosinePower(s=40.0),
+    direction=110.0,
+)
+WIND = fo.WaveSystem(
+    spectrum=fo.TMA(fo.JONSWAP.from_wind(speed=12.0, fetch=100e3), depth=12.0), direction=-30.0
+)
 CROSSED = fo.Sea(WIND, SWELL, depth=12.0)
-BRIEF = fo.Sea(SWELL, fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=6.0), direction=-30.0), depth=12.0)  # quick to integrate
-TABLE = fo.TabulatedSpectrum(frequency=(0.05, 0.08, 0.1, 0.15, 0.2, 0.3), density=(0.0, 1.0, 3.0, 1.2, 0.8, 0.1))
+BRIEF = fo.Sea(
+    SWELL,
+    fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=6.0), direction=-30.0),
+    depth=12.0,
+)  # quick to integrate
+TABLE = fo.TabulatedSpectrum(
+    frequency=(0.05, 0.08, 0.1, 0.15, 0.2, 0.3), density=(0.0, 1.0, 3.0, 1.2, 0.8, 0.1)
+)
 MEASURED = fo.Sea(fo.WaveSystem(spectrum=TABLE, spreading=fo.CosineSquared(), direction=200.0))
 WAVES = [(3, 1, 0.5, 0.2), (-3, -1, 0.3, 1.0), (0, -5, 0.2, 2.0)]
 
@@ -39,7 +54,9 @@ def measured():
 
 @pytest.fixture(scope="module")
 def given():
-    return fo.Ocean.from_modes(WAVES, n=(32, 24), size=(90.0, 70.0), depth=4.0, loop=25.0, dtype="float64")
+    return fo.Ocean.from_modes(
+        WAVES, n=(32, 24), size=(90.0, 70.0), depth=4.0, loop=25.0, dtype="float64"
+    )
 
 
 @pytest.fixture(scope="module")
@@ -69,10 +86,12 @@ def angular(k, ocean):
     return np.sqrt(9.80665 * k * np.tanh(k * ocean.depth))
 
 
-# --- the spectrum -----------------------------------------------------------------------------------------------------------
+# --- the spectrum
 
 
-@pytest.mark.parametrize("sea", [CROSSED, BRIEF, MEASURED], ids=["TMA and JONSWAP", "two JONSWAP", "measured"])
+@pytest.mark.parametrize(
+    "sea", [CROSSED, BRIEF, MEASURED], ids=["TMA and JONSWAP", "two JONSWAP", "measured"]
+)
 def test_the_spectrum_drawn_is_the_sea_s(sea):
     figure = drawn(plots.plot_spectrum, sea)
     omega, s = found(figure, "sea").get_data()
@@ -84,12 +103,17 @@ def test_the_spectrum_drawn_is_the_sea_s(sea):
     assert 2 * math.pi / x == pytest.approx(sea.tp)
     assert y == sea(x) >= np.max(s)
     hs = 4 * math.sqrt(np.trapezoid(s, omega))
-    assert 0.98 < hs / sea.hs < 1.0001  # all but a little is in the picture; trapezoids over some 1500 points are good to 1e-4
+    assert (
+        0.98 < hs / sea.hs < 1.0001
+    )  # all but a little is in the picture; trapezoids over some 1500 points are good to 1e-4
     assert f"{sea.hs:#.3g}" in words(figure)
 
 
 def test_where_a_spectrum_comes_from():
-    """TMA: the deep-water spectrum; JONSWAP: the same with gamma = 1, whose m0 is alpha g^2 / (5 omega_p^4)."""
+    """
+    TMA: the deep-water spectrum; JONSWAP: the same with gamma = 1, whose m0 is alpha g^2 / (5
+        omega_p^4).
+    """
     figure = drawn(plots.plot_spectrum, CROSSED)
     deep, under = found(figure, "in deep water 0"), found(figure, "Pierson-Moskowitz, γ = 1 1")
     assert np.array_equal(deep.get_ydata(), WIND.spectrum.spectrum(deep.get_xdata()))
@@ -110,10 +134,19 @@ def test_measured_points_are_drawn_where_they_were_measured():
 
 
 def test_many_systems_are_drawn_and_counted():
-    sea = fo.Sea(*[fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=4.0 + i), direction=40.0 * i) for i in range(7)])
+    sea = fo.Sea(
+        *[
+            fo.WaveSystem(
+                spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=4.0 + i), direction=40.0 * i
+            )
+            for i in range(7)
+        ]
+    )
     figure = plots.plot_spectrum(sea)
     total = sum(np.interp(1.1, *found(figure, f"system {i}").get_data()) for i in range(7))
-    assert total == pytest.approx(float(sea(1.1)), rel=1e-3)  # straight lines between points 0.01 apart
+    assert total == pytest.approx(
+        float(sea(1.1)), rel=1e-3
+    )  # straight lines between points 0.01 apart
     assert "7 wave systems" in words(figure)
 
 
@@ -124,7 +157,7 @@ def test_a_deep_water_spectrum_does_not_dwarf_the_sea():
     assert "in deep water" in words(figure)
 
 
-# --- the directions ---------------------------------------------------------------------------------------------------------
+# --- the directions
 
 
 def cells(mesh):
@@ -132,27 +165,51 @@ def cells(mesh):
     corners = mesh.get_coordinates()
     theta, f = corners[0, :, 0], corners[:, 0, 1]
     density = np.asarray(mesh.get_array()).reshape(f.size - 1, theta.size - 1)
-    return density, np.diff(f)[:, None] * np.degrees(np.diff(theta))[None, :], 0.5 * (theta[1:] + theta[:-1]), f[-1]
+    return (
+        density,
+        np.diff(f)[:, None] * np.degrees(np.diff(theta))[None, :],
+        0.5 * (theta[1:] + theta[:-1]),
+        f[-1],
+    )
 
 
-@pytest.mark.parametrize("spreading", [fo.Blend(), fo.CosinePower(s=1e5)], ids=["broad", "narrower than a cell"])
+@pytest.mark.parametrize(
+    "spreading", [fo.Blend(), fo.CosinePower(s=1e5)], ids=["broad", "narrower than a cell"]
+)
 def test_the_polar_mesh_holds_the_energy_of_its_disc(spreading):
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=9.0), spreading=spreading, direction=71.3))
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=9.0), spreading=spreading, direction=71.3
+        )
+    )
     density, area, theta, rim = cells(found(plots.plot_directions(sea), "density"))
     whole = fo.moments.moment(sea.systems[0].spectrum, 0, 0.0, 2 * math.pi * rim)
-    assert np.sum(density * area) == pytest.approx(whole, rel=2e-3)  # midpoints 0.15 degrees and rim/480 apart
+    assert np.sum(density * area) == pytest.approx(
+        whole, rel=2e-3
+    )  # midpoints 0.15 degrees and rim/480 apart
     mean = np.sum(density * area * np.exp(1j * theta))
     assert math.degrees(np.angle(mean)) == pytest.approx(71.3, abs=0.05)
     assert whole > 0.9 * sea.variance
 
 
 def test_the_compass_is_the_right_way_round():
-    """Our angle is counter-clockwise from east: E at 0, N at 90 degrees; the arrows point there, and go outward."""
+    """
+    Our angle is counter-clockwise from east: E at 0, N at 90 degrees; the arrows point there, and
+    go outward.
+    """
     figure = drawn(plots.plot_directions, BRIEF)
     axes = figure.axes[0]
     assert (axes.get_theta_offset(), axes.get_theta_direction()) == (0.0, 1)
-    letters = {round(math.degrees(t)): label.get_text() for t, label in zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)}
-    assert {angle: letters[angle][0] for angle in (0, 90, 180, 270)} == {0: "E", 90: "N", 180: "W", 270: "S"}
+    letters = {
+        round(math.degrees(t)): label.get_text()
+        for t, label in zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)
+    }
+    assert {angle: letters[angle][0] for angle in (0, 90, 180, 270)} == {
+        0: "E",
+        90: "N",
+        180: "W",
+        270: "S",
+    }
     arrows = [a for a in figure.findobj(Annotation) if a.get_gid() == "direction"]
     assert sorted(round(math.degrees(a.xy[0])) % 360 for a in arrows) == [110, 330]
     assert all(a.xy[1] > a.xyann[1] for a in arrows)
@@ -162,19 +219,33 @@ def test_the_compass_is_the_right_way_round():
 
 
 def test_a_sea_that_goes_all_round_has_no_mean_direction():
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=9.0), spreading=fo.CosinePower(s=0.0)))
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=9.0), spreading=fo.CosinePower(s=0.0)
+        )
+    )
     assert ordered(sea).spread > 80.0
     assert "all round" in words(plots.plot_directions(sea))
 
 
 @pytest.mark.parametrize(
-    ("direction", "point"), [(0, "E"), (90, "N"), (180, "W"), (-90, "S"), (25, "ENE"), (-35, "SE"), (359.0, "E"), (101, "N")]
+    ("direction", "point"),
+    [
+        (0, "E"),
+        (90, "N"),
+        (180, "W"),
+        (-90, "S"),
+        (25, "ENE"),
+        (-35, "SE"),
+        (359.0, "E"),
+        (101, "N"),
+    ],
 )
 def test_points_of_the_compass(direction, point):
     assert plots._compass(direction) == point
 
 
-# --- what was delivered -----------------------------------------------------------------------------------------------------
+# --- what was delivered
 
 
 @pytest.mark.parametrize("which", ["crossed", "measured"])
@@ -187,7 +258,9 @@ def test_the_steps_are_the_energy_of_the_waves(which, request):
     assert np.sum(density * np.diff(edges)) == pytest.approx(np.sum(energy), rel=1e-12)
     for i in range(density.size):
         inside = (m.omega >= edges[i]) & (m.omega < edges[i + 1])
-        assert density[i] * (edges[i + 1] - edges[i]) == pytest.approx(np.sum(energy[inside]), rel=1e-9, abs=1e-12 * np.sum(energy))
+        assert density[i] * (edges[i + 1] - edges[i]) == pytest.approx(
+            np.sum(energy[inside]), rel=1e-9, abs=1e-12 * np.sum(energy)
+        )
     omega, s = found(figure, "ordered").get_data()
     assert np.array_equal(s, ocean.sea(omega))
     if ocean.loop:  # edges half way between the loop's frequencies
@@ -207,16 +280,31 @@ def test_the_shade_is_where_the_tile_has_no_waves(measured):
 def test_the_table_says_what_measure_says(crossed):
     figure, s = drawn(plots.plot_delivered, crossed), fo.measure(crossed)
     text = words(figure)
-    assert figure.get_suptitle().startswith(f"Delivered: Hs {s.hs:#.3g} m of {s.ordered.hs:#.3g} m ordered, ")
-    for value in (f"{s.hs:#.3g} m", f"{s.ordered.hs:#.3g} m", f"{s.tp:#.3g} s", f"{s.spread:.1f}°", f"{s.ordered.spread:.1f}°"):
+    assert figure.get_suptitle().startswith(
+        f"Delivered: Hs {s.hs:#.3g} m of {s.ordered.hs:#.3g} m ordered, "
+    )
+    for value in (
+        f"{s.hs:#.3g} m",
+        f"{s.ordered.hs:#.3g} m",
+        f"{s.tp:#.3g} s",
+        f"{s.spread:.1f}°",
+        f"{s.ordered.spread:.1f}°",
+    ):
         assert value in text
     assert f"± {0.5 * s.sampling_error * 4 * math.sqrt(s.resolved):.2g} m" in text
     assert f"{100 * s.loop.rms:.2g} % rms" in text
 
 
 def test_the_expected_scatter_is_what_seeds_do():
-    """Each bin over 100 draws: its mean is good to a tenth of its scatter, its standard deviation to 1/sqrt(200) = 7 %."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=7.0), spreading=fo.CosinePower(s=0.0)))
+    """
+    Each bin over 100 draws: its mean is good to a tenth of its scatter, its standard deviation to
+    1/sqrt(200) = 7 %.
+    """
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=7.0), spreading=fo.CosinePower(s=0.0)
+        )
+    )
     edges, _, expected, scatter = plots._delivered_spectrum(fo.Ocean(sea, n=8, size=160.0))
     draws = []
     for seed in range(100):
@@ -224,9 +312,13 @@ def test_the_expected_scatter_is_what_seeds_do():
         draws.append(np.histogram(m.omega, edges, weights=m.amplitude**2 / 2)[0])
     strong = expected > 0.02 * np.sum(expected)
     assert np.count_nonzero(strong) >= 3
-    assert np.all(np.abs(np.mean(draws, axis=0) - expected)[strong] < 0.4 * scatter[strong])  # four of them
+    assert np.all(
+        np.abs(np.mean(draws, axis=0) - expected)[strong] < 0.4 * scatter[strong]
+    )  # four of them
     assert np.std(draws, axis=0)[strong] == pytest.approx(scatter[strong], rel=0.28)  # four of them
-    assert not np.any(plots._delivered_spectrum(fo.Ocean(sea, n=8, size=160.0, amplitudes="fixed"))[3])
+    assert not np.any(
+        plots._delivered_spectrum(fo.Ocean(sea, n=8, size=160.0, amplitudes="fixed"))[3]
+    )
 
 
 def test_a_tile_too_small_says_so():
@@ -237,7 +329,7 @@ def test_a_tile_too_small_says_so():
     assert "holds no wave" in words(plots.plot_dispersion(none))
 
 
-# --- the dispersion relation ------------------------------------------------------------------------------------------------
+# --- the dispersion relation
 
 
 def test_each_cell_of_the_ring_is_its_wave(given):
@@ -248,7 +340,10 @@ def test_each_cell_of_the_ring_is_its_wave(given):
     for mx, my, a, _ in WAVES:
         column = (mx * 2 * math.pi / 90.0 - left) / (right - left) * nx
         row = (my * 2 * math.pi / 70.0 - bottom) / (top - bottom) * ny
-        assert (column % 1, row % 1) == (pytest.approx(0.5), pytest.approx(0.5))  # in the middle of its cell
+        assert (column % 1, row % 1) == (
+            pytest.approx(0.5),
+            pytest.approx(0.5),
+        )  # in the middle of its cell
         assert energy[int(row), int(column)] == pytest.approx(a**2 / 2, rel=1e-12)
     assert energy.count() == len(WAVES)
 
@@ -256,15 +351,21 @@ def test_each_cell_of_the_ring_is_its_wave(given):
 def test_the_ring_holds_97_percent(crossed):
     energy = found(drawn(plots.plot_dispersion, crossed), "waves").get_array()
     m = crossed.modes()
-    assert 0.97 * np.sum(m.amplitude**2 / 2) < energy.sum() <= np.sum(m.amplitude**2 / 2) * (1 + 1e-12)
+    assert (
+        0.97 * np.sum(m.amplitude**2 / 2) < energy.sum() <= np.sum(m.amplitude**2 / 2) * (1 + 1e-12)
+    )
 
 
 def test_rings_are_circles_of_one_period(given):
     figure = drawn(plots.plot_dispersion, given)
-    rings = [a for a in figure.findobj(matplotlib.patches.Circle) if str(a.get_gid()).startswith("ring ")]
+    rings = [
+        a for a in figure.findobj(matplotlib.patches.Circle) if str(a.get_gid()).startswith("ring ")
+    ]
     assert len(rings) >= 2
     for ring in rings:
-        assert 2 * math.pi / angular(ring.radius, given) == pytest.approx(float(ring.get_gid().split()[1]), rel=1e-12)
+        assert 2 * math.pi / angular(ring.radius, given) == pytest.approx(
+            float(ring.get_gid().split()[1]), rel=1e-12
+        )
 
 
 def test_the_law_and_its_limits(given):
@@ -282,7 +383,10 @@ def test_the_law_and_its_limits(given):
 
 
 def test_the_frames_energy_is_found_where_the_waves_are(given):
-    """On a loop nothing leaks: each wave's a^2/2 is in its own cell of (k, omega), also of two that run against each other."""
+    """
+    On a loop nothing leaks: each wave's a^2/2 is in its own cell of (k, omega), also of two that
+    run against each other.
+    """
     measured = plots._measured_dispersion(given)
     m = given.modes()
     k, energy = np.hypot(m.kx, m.ky), m.amplitude**2 / 2
@@ -292,7 +396,9 @@ def test_the_frames_energy_is_found_where_the_waves_are(given):
     assert measured.on_curve == pytest.approx(1.0, abs=1e-12)
     assert measured.tolerance == pytest.approx(np.pi / 25.0)
     mesh = found(drawn(plots.plot_dispersion, given), "measured")
-    assert np.ma.filled(mesh.get_array(), 0.0).reshape(mine.shape) == pytest.approx(mine, abs=1e-5 * np.max(mine))
+    assert np.ma.filled(mesh.get_array(), 0.0).reshape(mine.shape) == pytest.approx(
+        mine, abs=1e-5 * np.max(mine)
+    )
 
 
 @pytest.mark.parametrize("loop", [None, 3600.0])
@@ -309,18 +415,31 @@ def test_a_sea_that_runs_free_is_seen_through_a_window(loop):
 
 
 def test_frames_that_disobey_are_found_out(monkeypatch):
-    """The frames of deep water, under the law of 2 m: the energy is measured, not computed from the law."""
+    """
+    The frames of deep water, under the law of 2 m: the energy is measured, not computed from the
+    law.
+    """
     system = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=8.0), direction=20.0)
-    deep, shallow = (fo.Ocean(fo.Sea(system, depth=depth), n=32, size=300.0, loop=80.0) for depth in (math.inf, 2.0))
+    deep, shallow = (
+        fo.Ocean(fo.Sea(system, depth=depth), n=32, size=300.0, loop=80.0)
+        for depth in (math.inf, 2.0)
+    )
     assert plots._measured_dispersion(shallow).on_curve > 0.999
     real = fo.Ocean.loop_frame
-    monkeypatch.setattr(fo.Ocean, "loop_frame", lambda _, *arguments, **options: real(deep, *arguments, **options))
+    monkeypatch.setattr(
+        fo.Ocean, "loop_frame", lambda _, *arguments, **options: real(deep, *arguments, **options)
+    )
     assert plots._measured_dispersion(shallow).on_curve < 0.1
 
 
-# --- the pictures -----------------------------------------------------------------------------------------------------------
+# --- the pictures
 
-DRAWN = {plots.plot_spectrum: "sea", plots.plot_directions: "sea", plots.plot_delivered: "ocean", plots.plot_dispersion: "ocean"}
+DRAWN = {
+    plots.plot_spectrum: "sea",
+    plots.plot_directions: "sea",
+    plots.plot_delivered: "ocean",
+    plots.plot_dispersion: "ocean",
+}
 
 
 def labels(figure):
@@ -333,7 +452,9 @@ def labels(figure):
 @pytest.mark.parametrize("plot", DRAWN, ids=lambda plot: plot.__name__)
 @pytest.mark.parametrize("which", ["crossed", "measured", "given", "flat"])
 def test_every_picture_can_be_read(plot, which, request):
-    """No warning (they are errors); a title; units; no label outside the picture or over another."""
+    """
+    No warning (they are errors); a title; units; no label outside the picture or over another.
+    """
     ocean = request.getfixturevalue(which)
     if DRAWN[plot] == "sea" and ocean.sea is None:
         return
@@ -348,15 +469,23 @@ def test_every_picture_can_be_read(plot, which, request):
         assert box.y1 <= height, text
     for axes in figure.axes:
         for label in axes.texts:
-            if isinstance(label, Annotation) and axes.name == "rectilinear":  # a curve's: not over the axis of periods
-                assert boxes[label.get_text()].y1 <= axes.get_window_extent().y1 + 1, label.get_text()
+            if (
+                isinstance(label, Annotation) and axes.name == "rectilinear"
+            ):  # a curve's: not over the axis of periods
+                assert boxes[label.get_text()].y1 <= axes.get_window_extent().y1 + 1, (
+                    label.get_text()
+                )
     for (a, first), (b, second) in combinations(boxes.items(), 2):
         assert not first.overlaps(second), (a, b)
     assert figure.get_suptitle()
     if which == "flat":
         assert "flat" in figure.get_suptitle()
     else:
-        named = [ax.get_xlabel() + ax.get_ylabel() for ax in figure.axes if ax.name == "rectilinear" and ax.axison]
+        named = [
+            ax.get_xlabel() + ax.get_ylabel()
+            for ax in figure.axes
+            if ax.name == "rectilinear" and ax.axison
+        ]
         assert all("[" in name for name in named if name)
         assert any(named)
 
@@ -368,7 +497,9 @@ def test_the_sheet_has_all_four(tmp_path, measured, given, flat):
     assert words(plots.plot_job(flat)).count("exactly flat") == 4
     sheet = plots.plot_job(given)
     assert "given waves" in words(sheet)
-    assert int.from_bytes(plots.save(sheet, tmp_path / "sheet.png").read_bytes()[16:20]) == 2400  # IHDR
+    assert (
+        int.from_bytes(plots.save(sheet, tmp_path / "sheet.png").read_bytes()[16:20]) == 2400
+    )  # IHDR
 
 
 def test_the_same_sea_gives_the_same_bytes_whatever_the_user_s_style(tmp_path):
@@ -380,7 +511,10 @@ def test_the_same_sea_gives_the_same_bytes_whatever_the_user_s_style(tmp_path):
     assert int.from_bytes(first[16:20]) == 1200
 
 
-@pytest.mark.parametrize(("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".PNG", b"\x89PNG")])
+@pytest.mark.parametrize(
+    ("suffix", "start"),
+    [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF"), (".PNG", b"\x89PNG")],
+)
 def test_files_of_each_kind_are_whole_and_the_same_each_time(tmp_path, suffix, start):
     one, two = (tmp_path / f"{i}{suffix}" for i in range(2))
     for path in (one, two):
@@ -433,7 +567,10 @@ def test_what_cannot_be_drawn_is_refused(crossed, tmp_path):
 
 def test_without_matplotlib_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(fo.ParameterError, match=r"plots need matplotlib: in a checkout of fftocean, pip install '\.\[plot\]'"):
+    with pytest.raises(
+        fo.ParameterError,
+        match=r"plots need matplotlib: in a checkout of fftocean, pip install '\.\[plot\]'",
+    ):
         plots.plot_spectrum(CROSSED)
 
 
@@ -446,22 +583,40 @@ assert not any(name.startswith("matplotlib") for name in sys.modules)
 plots.save(plots.plot_spectrum(fo.Sea()), {str(tmp_path / "a.png")!r})
 assert "matplotlib.pyplot" not in sys.modules
 """
-    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=600, env={**environment, "MPLBACKEND": "tkagg"})
+    environment = {
+        key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")
+    }
+    subprocess.run(
+        [sys.executable, "-c", code],
+        check=True,
+        timeout=600,
+        env={**environment, "MPLBACKEND": "tkagg"},
+    )
     assert (tmp_path / "a.png").is_file()
 
 
-# --- small things -----------------------------------------------------------------------------------------------------------
+# --- small things
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "0"), (5.8, "5.80"), (0.99999, "1.00"), (999.6, "1000"), (123.4, "123"), (1e-7, "1e-07"), (0.0123, "0.0123")]
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (5.8, "5.80"),
+        (0.99999, "1.00"),
+        (999.6, "1000"),
+        (123.4, "123"),
+        (1e-7, "1e-07"),
+        (0.0123, "0.0123"),
+    ],
 )
 def test_three_digits(value, text):
     assert plots._three(value) == text
 
 
-@pytest.mark.parametrize(("value", "text"), [(-0.01, "0.0°"), (-35.04, "−35.0°"), (180.0, "180.0°")])
+@pytest.mark.parametrize(
+    ("value", "text"), [(-0.01, "0.0°"), (-35.04, "−35.0°"), (180.0, "180.0°")]
+)
 def test_degrees(value, text):
     assert plots._degrees(value) == text
 
@@ -473,7 +628,10 @@ def test_nice_periods_are_round_in_range_and_apart(low, high):
     assert len(periods) >= 3
     assert np.all((omega >= low) & (omega <= high))
     assert np.all(np.diff(omega) >= 0.1 * (high - low))
-    assert all(len(f"{period:.1e}") == len("1.5e+00") and float(f"{period:.1e}") == period for period in periods)
+    assert all(
+        len(f"{period:.1e}") == len("1.5e+00") and float(f"{period:.1e}") == period
+        for period in periods
+    )
 
 
 @pytest.mark.parametrize(
@@ -481,12 +639,16 @@ def test_nice_periods_are_round_in_range_and_apart(low, high):
     [
         fo.LongCrested(),
         fo.CosinePower(s=1e6),
-        fo.CustomSpreading(lambda _, t, __: np.exp(-0.5 * ((t - 1.101) / 2e-3) ** 2), breaks=[1.101]),
+        fo.CustomSpreading(
+            lambda _, t, __: np.exp(-0.5 * ((t - 1.101) / 2e-3) ** 2), breaks=[1.101]
+        ),
     ],
     ids=["long-crested", "1e6", "beside"],
 )
 def test_the_picture_of_directions_keeps_the_energy_of_narrow_seas(spreading):
-    """Its cells add up to the integral of S, whatever the direction: midpoints in frequency, 1e-3."""
+    """
+    Its cells add up to the integral of S, whatever the direction: midpoints in frequency, 1e-3.
+    """
     spectrum = fo.JONSWAP.from_sea_state(hs=2.0, tp=8.0)
     sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=10.07))
     frequency, theta, density = plots._polar_spectrum(sea, 0.5)

@@ -1,4 +1,7 @@
-"""The proof proves: it passes on every ocean that is right, and each of its lines fails when what it looks at is broken."""
+"""
+The proof proves: it passes on every ocean that is right, and each of its lines fails when what it
+looks at is broken.
+"""
 
 import math
 import sys
@@ -17,21 +20,47 @@ pytestmark = [pytest.mark.nojit, pytest.mark.filterwarnings("ignore::fftocean.er
 DEEP = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
 SHALLOW = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=5.0, direction=-160.0)
 SWELL = fo.Sea(
-    fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=11.0, gamma=7.0), spreading=fo.CosinePower(s=40.0), direction=110.0),
-    fo.WaveSystem(spectrum=fo.TMA.from_sea_state(hs=1.0, tp=5.0, depth=30.0), spreading=fo.CosineSquared(), direction=-20.0),
+    fo.WaveSystem(
+        spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=11.0, gamma=7.0),
+        spreading=fo.CosinePower(s=40.0),
+        direction=110.0,
+    ),
+    fo.WaveSystem(
+        spectrum=fo.TMA.from_sea_state(hs=1.0, tp=5.0, depth=30.0),
+        spreading=fo.CosineSquared(),
+        direction=-20.0,
+    ),
     depth=30.0,
 )
-BOX = fo.Sea(fo.WaveSystem(spectrum=fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0]), spreading=fo.CosinePower(s=20.0), direction=34.0))
-WAVES = [(1, 0, 0.5, 0.3), (0, 2, 0.2, -1.0), (-3, 1, 0.1, 2.0), (2, -4, 0.05, 0.7), (-1, -1, 0.3, 0.0), (-1, 0, 0.2, 1.0)]
+BOX = fo.Sea(
+    fo.WaveSystem(
+        spectrum=fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0]),
+        spreading=fo.CosinePower(s=20.0),
+        direction=34.0,
+    )
+)
+WAVES = [
+    (1, 0, 0.5, 0.3),
+    (0, 2, 0.2, -1.0),
+    (-3, 1, 0.1, 2.0),
+    (2, -4, 0.05, 0.7),
+    (-1, -1, 0.3, 0.0),
+    (-1, 0, 0.2, 1.0),
+]
 
 
 def ocean(sea=DEEP, **arguments):
-    return fo.Ocean(sea, **{"n": 16, "size": 150.0, "seed": 3, "loop": 60.0, "dtype": "float64", **arguments})
+    return fo.Ocean(
+        sea, **{"n": 16, "size": 150.0, "seed": 3, "loop": 60.0, "dtype": "float64", **arguments}
+    )
 
 
 def few(**arguments):
     """A handful of given waves: everything but the sea's energy can be proven on them, at once."""
-    return fo.Ocean.from_modes(WAVES, **{"n": (16, 12), "size": (80.0, 60.0), "loop": 20.0, "dtype": "float64", **arguments})
+    return fo.Ocean.from_modes(
+        WAVES,
+        **{"n": (16, 12), "size": (80.0, 60.0), "loop": 20.0, "dtype": "float64", **arguments},
+    )
 
 
 def failed(ocean, t=3.7):
@@ -75,7 +104,19 @@ ENERGY = ["m0 of the frame", "energy held + lost", "m0 of this draw"]
         lambda: ocean(fo.Sea.from_wind(speed=0.0, fetch=1e4), dtype="float32"),
         lambda: ocean(BOX, n=64, size=63.3),
     ],
-    ids=["float32", "free", "31", "48x80 5 m", "float32 5 m fixed", "swell", "2", "3", "1x33", "flat", "cut"],
+    ids=[
+        "float32",
+        "free",
+        "31",
+        "48x80 5 m",
+        "float32 5 m fixed",
+        "swell",
+        "2",
+        "3",
+        "1x33",
+        "flat",
+        "cut",
+    ],
 )
 def test_an_ocean_of_a_sea_is_proven(case):
     assert failed(case()) == []
@@ -98,7 +139,9 @@ def test_an_ocean_of_a_sea_is_proven(case):
 )
 @pytest.mark.parametrize("t", [0.0, -1e6, 1e12])
 def test_an_ocean_of_given_waves_is_proven(arguments, dtype, t):
-    """At any time: what rounding omega t costs the direct sum is allowed for, in both precisions."""
+    """
+    At any time: what rounding omega t costs the direct sum is allowed for, in both precisions.
+    """
     assert failed(few(dtype=dtype, **arguments), t) == []
 
 
@@ -111,24 +154,46 @@ def test_an_ocean_without_waves_is_proven(n, dtype):
 @pytest.mark.parametrize("scale", [1e-20, 1e-35, 1e-50, 1e-200])
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 def test_waves_that_the_type_cannot_hold_are_none(dtype, scale):
-    """Amplitudes that float32 rounds to nothing, or to a few bits: a tile far from its sea's peak has such."""
-    tiny = fo.Ocean.from_modes([(mx, my, a * scale, p) for mx, my, a, p in WAVES], n=(16, 12), size=80.0, loop=20.0, dtype=dtype)
+    """
+    Amplitudes that float32 rounds to nothing, or to a few bits: a tile far from its sea's peak has
+    such.
+    """
+    tiny = fo.Ocean.from_modes(
+        [(mx, my, a * scale, p) for mx, my, a, p in WAVES],
+        n=(16, 12),
+        size=80.0,
+        loop=20.0,
+        dtype=dtype,
+    )
     assert failed(tiny) == []
 
 
 def test_a_tile_that_misses_its_sea_is_proven():
-    """Ripples of 2 m/s in a tile of a kilometre: what falls into its band is below the least number there is."""
+    """
+    Ripples of 2 m/s in a tile of a kilometre: what falls into its band is below the least number
+    there is.
+    """
     for size in (400.0, 1348.0):
-        assert failed(ocean(fo.Sea.from_wind(speed=2.0, fetch=2000.0), n=8, size=size, dtype="float32")) == []
+        assert (
+            failed(
+                ocean(fo.Sea.from_wind(speed=2.0, fetch=2000.0), n=8, size=size, dtype="float32")
+            )
+            == []
+        )
 
 
 @pytest.mark.parametrize("seed", range(60))
 def test_folds_do_not_fail_the_normals(seed):
-    """Where the surface is folded over to an edge a rounding turns its normal, and so it is weighted with the area."""
+    """
+    Where the surface is folded over to an edge a rounding turns its normal, and so it is weighted
+    with the area.
+    """
     rng = np.random.default_rng(seed)
     waves = [
         (int(mx), int(my), 0.02, float(p))
-        for mx, my, p in zip(rng.integers(1, 8, 20), rng.integers(-5, 6, 20), rng.uniform(0, 6, 20), strict=True)
+        for mx, my, p in zip(
+            rng.integers(1, 8, 20), rng.integers(-5, 6, 20), rng.uniform(0, 6, 20), strict=True
+        )
     ]
     folded = fo.Ocean.from_modes(waves, n=(16, 12), size=3.0, choppiness=3.0, dtype="float32")
     (check,) = [c for c in proof._fields(folded, 1.0) if c.name == "normal"]
@@ -137,7 +202,10 @@ def test_folds_do_not_fail_the_normals(seed):
 
 @pytest.mark.parametrize("tile", [(8, 60.0), (16, 150.0)])
 def test_a_likely_draw_is_one_that_is_drawn(tile):
-    """m0 of 2000 draws of few waves, exponential each: all within the bound, which is no more than three times what one in 1000 exceeds."""
+    """
+    m0 of 2000 draws of few waves, exponential each: all within the bound, which is no more than
+    three times what one in 1000 exceeds.
+    """
     base = ocean(n=tile[0], size=tile[1])
     bound, _ = proof._likely(base)
     a = base.amplitudes
@@ -148,7 +216,10 @@ def test_a_likely_draw_is_one_that_is_drawn(tile):
 
 
 def test_checks_have_names_reasons_and_bounds_that_mean_something():
-    """Every field within 1e-12 (1e-6 in float32), and no bound above a hundredth but for the one that is about chance."""
+    """
+    Every field within 1e-12 (1e-6 in float32), and no bound above a hundredth but for the one that
+    is about chance.
+    """
     double, single = fo.verify(ocean()), fo.verify(ocean(dtype="float32"))
     assert [c.name for c in double] == [c.name for c in single]
     assert sorted(c.name for c in double) == sorted([*NAMES, *ENERGY])
@@ -170,7 +241,10 @@ def test_nan_is_no_pass():
 
 
 def rendered(patch, change):
-    """Let every frame that an ocean renders pass through `change(ocean, frame)`, whichever way it was asked for."""
+    """
+    Let every frame that an ocean renders pass through `change(ocean, frame)`, whichever way it was
+    asked for.
+    """
     for name in ("frame", "loop_frame"):
         real = getattr(fo.Ocean, name)
 
@@ -225,7 +299,10 @@ def test_a_wrong_row_in_the_table_of_signs_fails_its_field(name, table):
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_a_flipped_sign_fails_its_field(name, monkeypatch):
-    """As a flipped sign in that row of the table would come out, with the products that are made of it."""
+    """
+    As a flipped sign in that row of the table would come out, with the products that are made of
+    it.
+    """
     of_it = {name, *(product for product, parts in POINTWISE.items() if name in parts)}
     of_it -= {"jacobian"} if name == "stretch_xy" else set()  # which has its square
 
@@ -295,41 +372,88 @@ def drifting(modes):
 
 
 BROKEN = {
-    "1/N^2 in the transform": (linear(lambda a: a / a.size), [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"]),
-    "a millionth too high": (linear(lambda a: a * 1.000001), [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"]),
-    "a doubled amplitude": (linear(lambda a: 2.0 * a), [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"]),
-    "one sample to the east": (linear(lambda a: np.roll(a, 1, axis=1)), [*FIELDS, "seam", "loop, frame j"]),
-    "the northmost row on top": (linear(lambda a: a[::-1].copy()), [*FIELDS, "seam", "loop, frame j"]),
-    "a mean level": (lambda patch: rendered(patch, lifted), ["mean level", "height", "Parseval", "seam", "loop, frame j"]),
-    "one NaN": (lambda patch: rendered(patch, one_nan), ["height", "seam", "loop, frame j + F", "loop, t = T", "Parseval", "mean level"]),
+    "1/N^2 in the transform": (
+        linear(lambda a: a / a.size),
+        [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"],
+    ),
+    "a millionth too high": (
+        linear(lambda a: a * 1.000001),
+        [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"],
+    ),
+    "a doubled amplitude": (
+        linear(lambda a: 2.0 * a),
+        [*FIELDS, "seam", "Parseval", "m0 of the frame", "loop, frame j"],
+    ),
+    "one sample to the east": (
+        linear(lambda a: np.roll(a, 1, axis=1)),
+        [*FIELDS, "seam", "loop, frame j"],
+    ),
+    "the northmost row on top": (
+        linear(lambda a: a[::-1].copy()),
+        [*FIELDS, "seam", "loop, frame j"],
+    ),
+    "a mean level": (
+        lambda patch: rendered(patch, lifted),
+        ["mean level", "height", "Parseval", "seam", "loop, frame j"],
+    ),
+    "one NaN": (
+        lambda patch: rendered(patch, one_nan),
+        ["height", "seam", "loop, frame j + F", "loop, t = T", "Parseval", "mean level"],
+    ),
     "e^{+i omega t}": (
         method("frame", lambda real: lambda self, t, *a, **k: real(self, -t, *a, **k)),
         [*FIELDS, "normal", "jacobian", "seam", "Parseval"],
     ),
     "frames of the loop too far apart": (
-        method("loop_frame", lambda real: lambda self, j, count, *a, **k: real(self, j % count, count - 1, *a, **k)),
+        method(
+            "loop_frame",
+            lambda real: lambda self, j, count, *a, **k: real(self, j % count, count - 1, *a, **k),
+        ),
         ["loop, frame j"],
     ),
     "the loop runs backwards": (
-        method("loop_frame", lambda real: lambda self, j, count, *a, **k: real(self, -j, count, *a, **k)),
+        method(
+            "loop_frame",
+            lambda real: lambda self, j, count, *a, **k: real(self, -j, count, *a, **k),
+        ),
         ["loop, frame j"],
     ),
     "the loop's frames by the second": (  # right at first, worn after a few billion frames
-        method("loop_frame", lambda _: lambda self, j, count, *a, **k: self.frame(self.loop * j / count, *a, **k)),
+        method(
+            "loop_frame",
+            lambda _: lambda self, j, count, *a, **k: self.frame(self.loop * j / count, *a, **k),
+        ),
         ["loop, frame j + F"],
     ),
     "a clock that does not come round": (
-        method("frame", lambda real: lambda self, t, *a, **k: real(self, t * (1.0 + 1e-7), *a, **k)),
+        method(
+            "frame", lambda real: lambda self, t, *a, **k: real(self, t * (1.0 + 1e-7), *a, **k)
+        ),
         ["loop, t = T"],
     ),
     "waves that do not close": (method("modes", drifting), ["loop of the waves"]),
-    "choppiness twice in the normals": (product("normal", with_choppiness(2.0, fo.normals)), ["normal"]),
-    "choppiness forgotten in the normals": (product("normal", with_choppiness(0.0, fo.normals)), ["normal"]),
-    "choppiness forgotten in the Jacobian": (product("jacobian", with_choppiness(0.0, fo.jacobian)), ["jacobian"]),
+    "choppiness twice in the normals": (
+        product("normal", with_choppiness(2.0, fo.normals)),
+        ["normal"],
+    ),
+    "choppiness forgotten in the normals": (
+        product("normal", with_choppiness(0.0, fo.normals)),
+        ["normal"],
+    ),
+    "choppiness forgotten in the Jacobian": (
+        product("jacobian", with_choppiness(0.0, fo.jacobian)),
+        ["jacobian"],
+    ),
     "normals that point down": (product("normal", lambda _, frame: -frame.normal), ["normal"]),
-    "normals of one unit too long": (product("normal", lambda _, frame: 1.00001 * frame.normal), ["normal"]),
+    "normals of one unit too long": (
+        product("normal", lambda _, frame: 1.00001 * frame.normal),
+        ["normal"],
+    ),
     "no Jacobian off the diagonal": (
-        product("jacobian", lambda _, f: (1.0 + f.choppiness * f.stretch_xx) * (1.0 + f.choppiness * f.stretch_yy)),
+        product(
+            "jacobian",
+            lambda _, f: (1.0 + f.choppiness * f.stretch_xx) * (1.0 + f.choppiness * f.stretch_yy),
+        ),
         ["jacobian"],
     ),
 }
@@ -338,7 +462,10 @@ BROKEN = {
 FAINT = "a millionth too high"  # below what float32 can show
 
 
-@pytest.mark.parametrize(("what", "dtype"), [(w, d) for w in BROKEN for d in ("float32", "float64") if (w, d) != (FAINT, "float32")])
+@pytest.mark.parametrize(
+    ("what", "dtype"),
+    [(w, d) for w in BROKEN for d in ("float32", "float64") if (w, d) != (FAINT, "float32")],
+)
 def test_what_is_broken_fails_under_its_name(what, dtype, monkeypatch):
     patch, names = BROKEN[what]
     assert failed(few(dtype=dtype, depth=6.0)) == []
@@ -346,7 +473,10 @@ def test_what_is_broken_fails_under_its_name(what, dtype, monkeypatch):
     assert set(names) <= set(failed(few(dtype=dtype, depth=6.0)))
 
 
-@pytest.mark.parametrize("what", ["choppiness twice in the normals", "no Jacobian off the diagonal", "the loop runs backwards"])
+@pytest.mark.parametrize(
+    "what",
+    ["choppiness twice in the normals", "no Jacobian off the diagonal", "the loop runs backwards"],
+)
 def test_a_fault_in_one_place_fails_that_line_alone(what, monkeypatch):
     """The proof points at the fault: what is right beside it still passes."""
     BROKEN[what][0](monkeypatch)
@@ -393,7 +523,9 @@ def test_wrong_energy_fails_under_its_name(what, monkeypatch):
 
 
 def test_every_line_of_the_proof_has_been_seen_to_fail():
-    seen = {name for _, names in BROKEN.values() for name in names} | {name for *_, name in ENERGY_BROKEN.values()}
+    seen = {name for _, names in BROKEN.values() for name in names} | {
+        name for *_, name in ENERGY_BROKEN.values()
+    }
     assert seen == {*NAMES, *ENERGY}
 
 
@@ -408,7 +540,9 @@ def test_the_command_proves_the_default_sea(capsys):
     assert not err
 
 
-@pytest.mark.parametrize("what", ["choppiness twice in the normals", "frames of the loop too far apart"])
+@pytest.mark.parametrize(
+    "what", ["choppiness twice in the normals", "frames of the loop too far apart"]
+)
 def test_the_command_fails_with_5_and_the_name(what, monkeypatch, capsys):
     BROKEN[what][0](monkeypatch)
     assert main(["verify", "--n", "16", "--dtype", "float32", "--t", "1e6"]) == 5

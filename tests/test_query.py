@@ -1,4 +1,7 @@
-"""Points of the world: the surface inverted another way, differences in time and space, folds, filters, shapes, threads, and bad input."""
+"""
+Points of the world: the surface inverted another way, differences in time and space, folds,
+filters, shapes, threads, and bad input.
+"""
 
 import copy
 import math
@@ -21,7 +24,10 @@ RNG = np.random.default_rng(11)
 
 
 def ocean(sea=SEA, **arguments):
-    return fo.Ocean(sea, **{"n": 32, "size": 60.0, "seed": 4, "dtype": "float64", "choppiness": 0.9, **arguments})
+    return fo.Ocean(
+        sea,
+        **{"n": 32, "size": 60.0, "seed": 4, "dtype": "float64", "choppiness": 0.9, **arguments},
+    )
 
 
 def cascade(**arguments):
@@ -37,12 +43,17 @@ SOURCES = {
     "looping": lambda: ocean(loop=40.0),
     "shallow": lambda: ocean(SHALLOW, choppiness=0.5),
     "oblong": lambda: ocean(n=(24, 20), size=(60.0, 37.0)),
-    "cascade": lambda: fo.Cascade(SEA, [(16, 60.0), (16, 23.0)], seed=2, dtype="float64", choppiness=0.7),
+    "cascade": lambda: fo.Cascade(
+        SEA, [(16, 60.0), (16, 23.0)], seed=2, dtype="float64", choppiness=0.7
+    ),
 }
 
 
 def slowly(source, x, y, t):
-    """The parameters of the water at (x, y), by a damped fixed point on `gerstner.surface` alone, with no Jacobian."""
+    """
+    The parameters of the water at (x, y), by a damped fixed point on `gerstner.surface` alone, with
+    no Jacobian.
+    """
     x0, y0 = x.copy(), y.copy()
     for _ in range(400):
         s = fo.gerstner.surface(source, x0, y0, t)
@@ -57,7 +68,10 @@ def slowly(source, x, y, t):
 
 @pytest.mark.parametrize("name", SOURCES)
 def test_exact_equals_an_independent_inversion(name):
-    """1e-10 in every quantity: round-off of some hundred waves, 1e-13, times the condition of the inversion; positions as they are."""
+    """
+    1e-10 in every quantity: round-off of some hundred waves, 1e-13, times the condition of the
+    inversion; positions as they are.
+    """
     source, t = SOURCES[name](), 3.7
     x, y = points(12, far=50.0)
     found = fo.Query(source, mode="exact").at(x, y, t)
@@ -68,7 +82,15 @@ def test_exact_equals_an_independent_inversion(name):
     assert np.max(np.abs(found.heights - truth.height)) < 1e-10
     assert np.max(np.abs(found.normals - truth.normal)) < 1e-10
     c = source.choppiness
-    assert np.max(np.abs(found.velocities - np.stack([c * truth.velocity_x, c * truth.velocity_y, truth.velocity_z], -1))) < 1e-10
+    assert (
+        np.max(
+            np.abs(
+                found.velocities
+                - np.stack([c * truth.velocity_x, c * truth.velocity_y, truth.velocity_z], -1)
+            )
+        )
+        < 1e-10
+    )
     assert np.max(found.residual) < 1e-10
     assert not np.any(found.folded)
 
@@ -76,7 +98,10 @@ def test_exact_equals_an_independent_inversion(name):
 def test_few_wave_models():
     """`Waves.at` inverted by the same damped fixed point; also as it starts from rest."""
     x, y = points(15)
-    for model, t in ((FEW, 4.1), (fo.gerstner.CWR(period=5.0, amplitude=0.5, steepness=0.7, tau=3.0), 2.0)):
+    for model, t in (
+        (FEW, 4.1),
+        (fo.gerstner.CWR(period=5.0, amplitude=0.5, steepness=0.7, tau=3.0), 2.0),
+    ):
         found = fo.Query(model).at(x, y, t)
         x0, y0 = x.copy(), y.copy()
         for _ in range(400):
@@ -87,7 +112,9 @@ def test_few_wave_models():
         assert np.max(np.abs(found.normals - s.normal)) < 1e-11
         assert np.max(np.abs(found.velocities - s.velocity)) < 1e-11
         assert np.array_equal(fo.Query(model.waves).at(x, y, t).heights, found.heights)
-    assert not np.any(fo.Query(fo.gerstner.CWR(period=5.0, amplitude=0.5, tau=3.0)).at(x, y, -1.0).heights)
+    assert not np.any(
+        fo.Query(fo.gerstner.CWR(period=5.0, amplitude=0.5, tau=3.0)).at(x, y, -1.0).heights
+    )
 
 
 def test_modes_are_a_source():
@@ -100,7 +127,10 @@ def test_modes_are_a_source():
 
 
 def test_bicubic_is_near_the_truth():
-    """U10 = 10 m/s, n = 256 over 200 m, choppiness 1: rms within 1.1 % of the standard deviation of the height, largest within 4.5 %."""
+    """
+    U10 = 10 m/s, n = 256 over 200 m, choppiness 1: rms within 1.1 % of the standard deviation of
+    the height, largest within 4.5 %.
+    """
     source = fo.Ocean(SEA, n=256, size=200.0, seed=1)
     x, y = points(300)
     query, sigma = fo.Query(source, mode="bicubic"), math.sqrt(source.amplitudes.variance)
@@ -110,14 +140,19 @@ def test_bicubic_is_near_the_truth():
     assert np.sqrt(np.mean(error**2)) < 0.011 * sigma
     assert np.max(np.abs(error)) < 0.045 * sigma
     apart = np.hypot(exact.x - x, exact.y - y)
-    assert np.sqrt(np.mean(apart**2)) < 0.02 * sigma  # two displacements with the height's own error
+    assert (
+        np.sqrt(np.mean(apart**2)) < 0.02 * sigma
+    )  # two displacements with the height's own error
     bilinear = fo.Query(source, mode="bilinear").at(found.x0[:1] * 0 + x[:1], y[:1], 3.7, "heights")
     assert abs(bilinear.heights[0] - found.heights[0]) < 0.1 * sigma
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
 def test_interpolated_modes_invert_what_they_return(mode):
-    """The surface is known at its vertices: a query at the place of one returns that vertex, as near as the residual allows (1e-7 m)."""
+    """
+    The surface is known at its vertices: a query at the place of one returns that vertex, as near
+    as the residual allows (1e-7 m).
+    """
     source = cascade(choppiness=0.6)
     single = source.oceans[0]
     frame = single.frame(5.0, ("height", "displace_x", "displace_y", "normal", "velocity_z"))
@@ -129,13 +164,18 @@ def test_interpolated_modes_invert_what_they_return(mode):
     assert np.max(np.abs(found.heights - frame.height[rows, columns])) < 1e-7
     assert np.max(np.abs(found.normals - frame.normal[rows, columns])) < 1e-6
     assert np.max(np.abs(found.velocities[:, 2] - frame.velocity_z[rows, columns])) < 1e-6
-    assert np.median(np.abs(found.heights - frame.height[rows, columns])) < 1e-10  # Newton mostly goes far beyond
+    assert (
+        np.median(np.abs(found.heights - frame.height[rows, columns])) < 1e-10
+    )  # Newton mostly goes far beyond
     assert np.max(found.residual) < 1e-9 * grid.lx
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
 def test_interpolation_converges(mode):
-    """Twice the samples: a 4th (linear) or 16th (cubic) of the error in height, half a power off; for waves that both resolve."""
+    """
+    Twice the samples: a 4th (linear) or 16th (cubic) of the error in height, half a power off; for
+    waves that both resolve.
+    """
     modes = [(1, 2, 0.3, 0.4), (-2, 1, 0.2, 1.0), (3, 0, 0.1, 2.0)]
     x, y = points(60)
     errors = []
@@ -143,7 +183,12 @@ def test_interpolation_converges(mode):
         source = fo.Ocean.from_modes(modes, n=n, size=40.0, dtype="float64")
         exact = fo.Query(source, mode="exact").at(x, y, 1.0)
         found = fo.Query(source, mode=mode).at(x, y, 1.0)
-        errors.append([np.max(np.abs(found[name] - exact[name])) for name in ("heights", "normals", "velocities", "accelerations")])
+        errors.append(
+            [
+                np.max(np.abs(found[name] - exact[name]))
+                for name in ("heights", "normals", "velocities", "accelerations")
+            ]
+        )
     ratios = np.array(errors[0]) / np.array(errors[1])
     order = 2 if mode == "bilinear" else 4
     assert np.all(ratios > 2.0 ** (order - 0.5))
@@ -151,7 +196,10 @@ def test_interpolation_converges(mode):
 
 
 def test_bicubic_of_a_cascade_is_near_exact():
-    """Three tiles, their displacements summed before inverting: heights within 2 % of sigma of the waves themselves."""
+    """
+    Three tiles, their displacements summed before inverting: heights within 2 % of sigma of the
+    waves themselves.
+    """
     source = cascade()
     x, y = points(40)
     exact = fo.Query(source, mode="exact").at(x, y, 9.0)
@@ -166,7 +214,8 @@ def test_bicubic_of_a_cascade_is_near_exact():
 @pytest.mark.parametrize("source", [ocean(), cascade(), FEW], ids=["ocean", "cascade", "few"])
 def test_velocity_is_the_rate_of_the_position(source):
     """
-    Of the particle found: central differences of its position converge as dt^2, twice dt four times the error; so do accelerations.
+    Of the particle found: central differences of its position converge as dt^2, twice dt four times
+    the error; so do accelerations.
 
     Positions are those of `gerstner.surface` or `Waves.at`, at the parameters found.
     """
@@ -182,8 +231,17 @@ def test_velocity_is_the_rate_of_the_position(source):
     assert np.max(np.abs(position(2.0) - np.stack([x, y, found.heights], axis=-1))) < 1e-10
     first, second = [], []
     for dt in (0.01, 0.02):
-        first.append(np.max(np.abs((position(2.0 + dt) - position(2.0 - dt)) / (2 * dt) - found.velocities)))
-        second.append(np.max(np.abs((position(2.0 + dt) - 2 * position(2.0) + position(2.0 - dt)) / dt**2 - found.accelerations)))
+        first.append(
+            np.max(np.abs((position(2.0 + dt) - position(2.0 - dt)) / (2 * dt) - found.velocities))
+        )
+        second.append(
+            np.max(
+                np.abs(
+                    (position(2.0 + dt) - 2 * position(2.0) + position(2.0 - dt)) / dt**2
+                    - found.accelerations
+                )
+            )
+        )
     assert first[1] / first[0] == pytest.approx(4.0, rel=0.1)
     assert second[1] / second[0] == pytest.approx(4.0, rel=0.1)
     assert first[0] < 1e-2 * np.max(np.abs(found.velocities))
@@ -191,7 +249,10 @@ def test_velocity_is_the_rate_of_the_position(source):
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
 def test_interpolated_velocity_is_the_rate_of_the_interpolated_position(mode):
-    """One texel's particle, followed through three queries: the central difference of where it is; dt^2/6 of the third derivative."""
+    """
+    One texel's particle, followed through three queries: the central difference of where it is;
+    dt^2/6 of the third derivative.
+    """
     source = ocean(choppiness=0.6)
     column, row, t, dt = 5, 9, 4.0, 1e-3
     frames = [source.frame(s, ("height", "displace_x", "displace_y")) for s in (t - dt, t, t + dt)]
@@ -211,11 +272,24 @@ def test_interpolated_velocity_is_the_rate_of_the_interpolated_position(mode):
 
 
 def test_normals_are_those_of_the_heights():
-    """Central differences of queried heights in the world: -dz/dx, -dz/dy, 1; h^2 of third derivatives."""
+    """
+    Central differences of queried heights in the world: -dz/dx, -dz/dy, 1; h^2 of third
+    derivatives.
+    """
     query, h = fo.Query(ocean(choppiness=0.6), mode="exact"), 1e-4
     x, y = points(10)
-    heights = {step: query.at(x + step[0], y + step[1], 1.0, "heights").heights for step in ((h, 0), (-h, 0), (0, h), (0, -h))}
-    normal = np.stack([-(heights[h, 0] - heights[-h, 0]) / (2 * h), -(heights[0, h] - heights[0, -h]) / (2 * h), np.ones(10)], axis=-1)
+    heights = {
+        step: query.at(x + step[0], y + step[1], 1.0, "heights").heights
+        for step in ((h, 0), (-h, 0), (0, h), (0, -h))
+    }
+    normal = np.stack(
+        [
+            -(heights[h, 0] - heights[-h, 0]) / (2 * h),
+            -(heights[0, h] - heights[0, -h]) / (2 * h),
+            np.ones(10),
+        ],
+        axis=-1,
+    )
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
     assert np.max(np.abs(normal - query.at(x, y, 1.0).normals)) < 1e-5
 
@@ -226,7 +300,10 @@ def test_normals_are_those_of_the_heights():
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
 @pytest.mark.parametrize("choppiness", [1.0, 1.3, 6.0])
 def test_residuals_are_small_or_flagged(mode, choppiness):
-    """Steep enough to fold: residuals at most 1e-9 of the tile, true by the direct sum; flags where the surface lies upside down."""
+    """
+    Steep enough to fold: residuals at most 1e-9 of the tile, true by the direct sum; flags where
+    the surface lies upside down.
+    """
     source = ocean(choppiness=choppiness, n=64)
     frame = source.frame(3.0, ("jacobian",))
     query = fo.Query(source, mode=mode)
@@ -255,7 +332,9 @@ def test_a_flag_where_nothing_was_found(monkeypatch):
         arguments[-4][:], arguments[-3][:] = 0.0, 0.0
 
     monkeypatch.setattr(kernels, "follow", lazy)
-    assert not np.any(fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights").folded)  # the patient one finds them
+    assert not np.any(
+        fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights").folded
+    )  # the patient one finds them
     monkeypatch.setattr(kernels, "invert", lazy)
     found = fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights")
     assert np.all(found.folded)
@@ -265,16 +344,25 @@ def test_a_flag_where_nothing_was_found(monkeypatch):
 
 
 def test_waves_shorter_than_asked_are_ignored():
-    """One long and one short wave: with the filter, what the long one alone gives, in every mode; without, it is not."""
+    """
+    One long and one short wave: with the filter, what the long one alone gives, in every mode;
+    without, it is not.
+    """
     long, short = (2, 1, 0.4, 0.3), (9, 4, 0.1, 1.0)
-    both, alone = (fo.Ocean.from_modes(modes, n=32, size=50.0, dtype="float64", choppiness=0.9) for modes in ([long, short], [long]))
+    both, alone = (
+        fo.Ocean.from_modes(modes, n=32, size=50.0, dtype="float64", choppiness=0.9)
+        for modes in ([long, short], [long])
+    )
     x, y = points(20)
     for mode in ("bilinear", "bicubic", "exact"):
         expected = fo.Query(alone, mode=mode).at(x, y, 2.0)
         found = fo.Query(both, mode=mode, shortest=10.0).at(x, y, 2.0)
         for name in ("heights", "normals", "velocities", "accelerations"):
             assert np.max(np.abs(found[name] - expected[name])) < 1e-11
-        assert np.max(np.abs(fo.Query(both, mode=mode).at(x, y, 2.0).heights - expected.heights)) > 0.05
+        assert (
+            np.max(np.abs(fo.Query(both, mode=mode).at(x, y, 2.0).heights - expected.heights))
+            > 0.05
+        )
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
@@ -293,7 +381,11 @@ def test_a_filter_drops_whole_tiles():
     shortest = 1.6 * 2 * math.pi / source.bands[1][0]
     x, y = points(5)
     found = fo.Query(source, shortest=shortest).at(x, y, 1.0)
-    assert np.allclose(found.heights, fo.Query(source.oceans[0], shortest=shortest).at(x, y, 1.0).heights, atol=1e-13)
+    assert np.allclose(
+        found.heights,
+        fo.Query(source.oceans[0], shortest=shortest).at(x, y, 1.0).heights,
+        atol=1e-13,
+    )
 
 
 # Shapes and coordinates
@@ -314,12 +406,18 @@ def test_any_shape(mode):
     assert np.allclose(several.heights[[0, 1], [0, 1]], one.heights, atol=1e-13)
     assert several.heights[0, 1] == several.heights[1, 0] != one.heights
     x = np.asfortranarray(RNG.uniform(-9, 9, (4, 5)))
-    assert np.array_equal(query.at(x[:, ::2], x[:, ::2].T[0, 0], 1.5).heights, query.at(x, x[0, 0], 1.5).heights[:, ::2])
+    assert np.array_equal(
+        query.at(x[:, ::2], x[:, ::2].T[0, 0], 1.5).heights,
+        query.at(x, x[0, 0], 1.5).heights[:, ::2],
+    )
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
 def test_far_away_and_negative(mode):
-    """Whole periods away: as near the origin, to the rounding of the coordinate itself times the steepest slope."""
+    """
+    Whole periods away: as near the origin, to the rounding of the coordinate itself times the
+    steepest slope.
+    """
     source = ocean()
     query = fo.Query(source, mode=mode)
     x, y = points(10, far=30.0)
@@ -340,7 +438,10 @@ def test_years_later():
     assert abs(fo.Query(source, mode="exact").at(x, y, 1e8).heights - frame.height[3, 7]) < 1e-9
     looping = ocean(loop=40.0)
     exact = fo.Query(looping, mode="exact")
-    assert abs(exact.at(1.0, 2.0, 40.0 * 2**30 + 1.5).heights - exact.at(1.0, 2.0, 1.5).heights) < 1e-12
+    assert (
+        abs(exact.at(1.0, 2.0, 40.0 * 2**30 + 1.5).heights - exact.at(1.0, 2.0, 1.5).heights)
+        < 1e-12
+    )
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
@@ -390,7 +491,11 @@ def test_only_what_is_asked_is_there():
 def test_one_time_is_synthesised_once(monkeypatch):
     calls = []
     frame = fo.Ocean.frame
-    monkeypatch.setattr(fo.Ocean, "frame", lambda self, t, *rest, **more: (calls.append(t), frame(self, t, *rest, **more))[1])
+    monkeypatch.setattr(
+        fo.Ocean,
+        "frame",
+        lambda self, t, *rest, **more: (calls.append(t), frame(self, t, *rest, **more))[1],
+    )
     query = fo.Query(ocean())
     for _ in range(3):
         query.at(1.0, 2.0, 0.5, ("heights", "normals"))
@@ -417,7 +522,9 @@ def test_many_threads_share_a_query():
     times = [0.1 * (i % 5) for i in range(40)]
     alone = {t: query.at(x, y, t).accelerations for t in set(times)}
     with ThreadPoolExecutor(8) as pool:
-        for t, found in zip(times, pool.map(lambda t: query.at(x, y, t).accelerations, times), strict=True):
+        for t, found in zip(
+            times, pool.map(lambda t: query.at(x, y, t).accelerations, times), strict=True
+        ):
             assert np.array_equal(found, alone[t])
 
 
@@ -463,7 +570,12 @@ def test_a_forked_child_can_ask_too():
         (lambda: fo.Query(ocean(), choppiness=1.0, mode="exact"), "go with Modes only"),
         (lambda: fo.Query(ocean().modes(), depth=-1.0), "depth"),
         (lambda: fo.Query(ocean().modes()._replace(kx=np.array([math.nan]))), "columns of finite"),
-        (lambda: fo.Query(ocean().modes()._replace(kx=0 * ocean().modes().kx, ky=0 * ocean().modes().kx)), "above 0"),
+        (
+            lambda: fo.Query(
+                ocean().modes()._replace(kx=0 * ocean().modes().kx, ky=0 * ocean().modes().kx)
+            ),
+            "above 0",
+        ),
         (lambda: fo.Query(ocean()).at("a", 0.0, 0.0), "x must be numbers"),
         (lambda: fo.Query(ocean()).at(1.0, 1j, 0.0), "y must be numbers"),
         (lambda: fo.Query(ocean()).at(1.0, None, 0.0), "y must be numbers"),
@@ -494,7 +606,9 @@ def test_nobody_may_ask():
 
 def test_where_the_sum_is_no_number_the_answer_is_none():
     """k x overflows: not what was in the memory before, but NaN, and flagged."""
-    modes = Modes(np.array([10.0]), np.array([0.0]), np.array([0.01]), np.array([0.0]), np.array([9.0]))
+    modes = Modes(
+        np.array([10.0]), np.array([0.0]), np.array([0.01]), np.array([0.0]), np.array([9.0])
+    )
     with np.errstate(all="ignore"):
         found = fo.Query(modes).at([1.7e308, 1.0], [0.0, 0.0], 0.0, ("heights",))
     assert np.isnan(found.heights[0])
@@ -512,7 +626,11 @@ def test_what_is_masked_is_not_asked_for():
 
 @pytest.mark.parametrize(
     ("arguments", "rule"),
-    [(([[1], [1, 2]], 1, 0), "x must be numbers"), ((1, 1, 0, 5), "fields must be"), ((1, 1, 0, (["heights"],)), "fields must be")],
+    [
+        (([[1], [1, 2]], 1, 0), "x must be numbers"),
+        ((1, 1, 0, 5), "fields must be"),
+        ((1, 1, 0, (["heights"],)), "fields must be"),
+    ],
 )
 def test_what_is_no_question_is_refused(arguments, rule):
     query = fo.Query(fo.Ocean.from_modes([(1, 2, 0.1, 0.3)], n=8, size=20.0))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import fftocean as fo
-from fftocean.bake import pictures
+from fftocean.baking.previews import previews as pictures
 from fftocean.physics import presets
 
 ROOT = Path(__file__).parent.parent
@@ -17,7 +17,11 @@ ROOT = Path(__file__).parent.parent
 
 def after(marker, language):
     """The fenced block that follows a marker."""
-    match = re.search(rf"<!-- {marker} -->\n```{language}\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    match = re.search(
+        rf"<!-- {marker} -->\n```{language}\n(.*?)```",
+        (ROOT / "README.md").read_text(encoding="utf-8"),
+        re.DOTALL,
+    )
     assert match, f"README.md has no {language} block after <!-- {marker} -->"
     return match.group(1)
 
@@ -28,22 +32,33 @@ def test_the_ten_lines_run(capsys):
     shape, *_, hs = capsys.readouterr().out.strip().splitlines()
     assert shape.startswith("(256, 256) ")
     delivered, ordered = map(float, hs.split())
-    assert delivered == pytest.approx(ordered, rel=0.3)  # one draw of a tile of 500 m scatters by 7 %
+    assert delivered == pytest.approx(
+        ordered, rel=0.3
+    )  # one draw of a tile of 500 m scatters by 7 %
 
 
 def test_the_two_commands_are_one_line_each():
     assert "fftocean bake" in after("run", "bash")
     assert "pytest" in after("test", "bash")
-    assert len(after("run", "bash").strip().splitlines()) == len(after("test", "bash").strip().splitlines()) == 1
+    assert (
+        len(after("run", "bash").strip().splitlines())
+        == len(after("test", "bash").strip().splitlines())
+        == 1
+    )
 
 
 DEFAULT = ("README.md", "fftocean/bake/default.toml")
 
 
-@pytest.mark.parametrize("name", [*DEFAULT, *(f"examples/{p.name}" for p in sorted((ROOT / "examples").glob("*.toml")))])
+@pytest.mark.parametrize(
+    "name", [*DEFAULT, *(f"examples/{p.name}" for p in sorted((ROOT / "examples").glob("*.toml")))]
+)
 @pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 def test_waves_in_prose_are_those_of_the_job(name):
-    """Each "waves of H m (Hs) and T s (Tp)", to the digits given; and a breeze, gale or storm by the name of its wind."""
+    """
+    Each "waves of H m (Hs) and T s (Tp)", to the digits given; and a breeze, gale or storm by the
+    name of its wind.
+    """
     text = " ".join((ROOT / name).read_text(encoding="utf-8").replace("#", " ").split())
     job = fo.Job.default() if name in DEFAULT else fo.Job.read(ROOT / name)
     waves = re.findall(r"waves of (\d+\.?\d*) m \(Hs\) and (\d+\.?\d*) s \(Tp\)", text)
@@ -53,7 +68,9 @@ def test_waves_in_prose_are_those_of_the_job(name):
         for said, true in zip(given, (job.sea().hs, job.sea().tp), strict=True):
             assert said == f"{true:.{len(said.partition('.')[2])}f}"
     scale = {row.name.lower(): row.number for row in presets.beaufort_table()}
-    for wind in re.findall(r"\ba ((?:\w+ )?(?:breeze|gale|storm)) (?:on a|that has|\(beaufort)", text.lower()):
+    for wind in re.findall(
+        r"\ba ((?:\w+ )?(?:breeze|gale|storm)) (?:on a|that has|\(beaufort)", text.lower()
+    ):
         assert scale[wind] == pictures.beaufort_of(job.settings["sea.wind.speed"])
         named.append(wind)
     assert named or name not in DEFAULT
@@ -65,14 +82,23 @@ def test_linked_files_exist():
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "notebooks").glob("*.ipynb")), ids=lambda p: p.name)
-@pytest.mark.filterwarnings("ignore")  # of the kernel's own libraries; the notebook asserts what it claims
+@pytest.mark.filterwarnings(
+    "ignore"
+)  # of the kernel's own libraries; the notebook asserts what it claims
 def test_notebooks_run(path):
     import nbclient
     import nbformat
 
     notebook = nbformat.read(path, as_version=4)
-    nbclient.NotebookClient(notebook, timeout=1200, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}).execute()
-    assert not any(output.output_type == "error" for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs)
+    nbclient.NotebookClient(
+        notebook, timeout=1200, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}
+    ).execute()
+    assert not any(
+        output.output_type == "error"
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+        for output in cell.outputs
+    )
 
 
 def test_every_test_that_the_errata_name_is_there():
@@ -86,7 +112,8 @@ def test_every_test_that_the_errata_name_is_there():
     rows = [
         line
         for line in text.splitlines()
-        if line.startswith("| ") and not line.startswith(("| where", "| printed", "| as often written", "|---"))
+        if line.startswith("| ")
+        and not line.startswith(("| where", "| printed", "| as often written", "|---"))
     ]
     assert [row for row in rows if "test_" not in row] == []
 
@@ -98,7 +125,14 @@ def test_the_box_rides_with_and_without_matplotlib(tmp_path, there):
     script += "" if there else "sys.modules.update(matplotlib=None); "
     script += f"runpy.run_path({str(ROOT / 'examples/buoyancy.py')!r}, run_name='__main__')"
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "MPLBACKEND": "Agg"}
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
     assert done.returncode == 0, done.stderr
     assert "10 steps at 50 Hz" in done.stdout
     assert (tmp_path / "box.png").exists() == there

@@ -27,18 +27,29 @@ def test_the_example_is_the_buoy_s_record(record):
 
 
 def test_ordered_height_is_the_buoy_s_own(record):
-    """The buoy's 4 sqrt(m0) sums bands of 0.01 Hz; straight lines between the points differ by half a band at either end: 0.2 %."""
+    """
+    The buoy's 4 sqrt(m0) sums bands of 0.01 Hz; straight lines between the points differ by half a
+    band at either end: 0.2 %.
+    """
     buoy = 4.0 * math.sqrt(np.sum(record[1]) * 0.01)
     assert fo.Job.read(EXAMPLE).sea().hs == pytest.approx(buoy, rel=2e-3)
 
 
 def test_baked_height_is_the_buoy_s_own(record, tmp_path):
     """
-    Fixed amplitudes hold the tile's m0 in every draw; the mean over the frames of a loop averages what beats. Left are the band
-    edges (0.2 %), what the tile cannot hold, and the beats of waves with equal loop frequencies (1 % here).
+    Fixed amplitudes hold the tile's m0 in every draw; the mean over the frames of a loop averages
+    what beats. Left are the band edges (0.2 %), what the tile cannot hold, and the beats of waves
+    with equal loop frequencies (1 % here).
     """
-    job = fo.Job.read(EXAMPLE).replaced({"ocean.n": 128, "ocean.amplitudes": "fixed", "bake.frames": 40, "bake.maps": ["height"]})
+    job = fo.Job.read(EXAMPLE).replaced(
+        {"ocean.n": 128, "ocean.amplitudes": "fixed", "bake.frames": 40, "bake.maps": ["height"]}
+    )
     manifest = fo.bake(job, tmp_path / "sea")
-    frames = [exr.decode((tmp_path / "sea" / row["files"]["height"]["path"]).read_bytes())[0].astype(float) for row in manifest["frames"]]
+    frames = [
+        exr.decode((tmp_path / "sea" / row["files"]["height"]["path"]).read_bytes())[0].astype(
+            float
+        )
+        for row in manifest["frames"]
+    ]
     buoy = 4.0 * math.sqrt(np.sum(record[1]) * 0.01)
     assert 4.0 * math.sqrt(np.mean(np.square(frames))) == pytest.approx(buoy, rel=0.02)

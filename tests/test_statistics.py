@@ -19,7 +19,10 @@ def ocean(**arguments):
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("loop", [None, 40.0])
 def test_the_output_s_energy_is_that_of_its_waves(loop, dtype):
-    """Forward FFT of height and its rate tells +k from -k: m0, direction and spread equal those of modes(), which it does not read."""
+    """
+    Forward FFT of height and its rate tells +k from -k: m0, direction and spread equal those of
+    modes(), which it does not read.
+    """
     o = ocean(loop=loop, dtype=dtype)
     s, m = fo.measure(o), o.modes()
     energy, theta = m.amplitude**2 / 2, np.arctan2(m.ky, m.kx)
@@ -27,7 +30,9 @@ def test_the_output_s_energy_is_that_of_its_waves(loop, dtype):
     assert s.m0 == pytest.approx(np.sum(energy), rel=rel)
     assert s.hs == pytest.approx(4 * math.sqrt(np.sum(energy)), rel=rel)
     mean = np.sum(energy * np.exp(1j * theta)) / np.sum(energy)
-    assert s.mean_direction == pytest.approx(math.degrees(np.angle(mean)), abs=1e-4 if dtype == "float32" else 1e-9)
+    assert s.mean_direction == pytest.approx(
+        math.degrees(np.angle(mean)), abs=1e-4 if dtype == "float32" else 1e-9
+    )
     assert s.spread == pytest.approx(math.degrees(math.sqrt(2 - 2 * abs(mean))), rel=1e-5)
 
 
@@ -39,23 +44,46 @@ def test_one_wave_is_measured_as_itself():
     assert s.spread == pytest.approx(0.0, abs=1e-4)  # sqrt(2 - 2) of roundings
     assert s.tp == pytest.approx(2 * math.pi / o.modes().omega[0], rel=1e-12)
     assert s.ordered is None
-    assert (s.sampling_error, s.snapshot_error, s.energy_below, s.energy_above) == (0.0, 0.0, 0.0, 0.0)
+    assert (s.sampling_error, s.snapshot_error, s.energy_below, s.energy_above) == (
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
 
 
 def test_ordered_is_what_was_ordered():
-    """Hs as from_sea_state took it, Tp to the curve's own resolution, direction as given; spread of cos^2 is 1 - 8/(3 pi) exactly."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=3.0, tp=9.0), spreading=fo.CosineSquared(), direction=-130.0))
+    """
+    Hs as from_sea_state took it, Tp to the curve's own resolution, direction as given; spread of
+    cos^2 is 1 - 8/(3 pi) exactly.
+    """
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=3.0, tp=9.0),
+            spreading=fo.CosineSquared(),
+            direction=-130.0,
+        )
+    )
     state = ordered(sea)
     assert state.hs == pytest.approx(3.0, abs=1e-9)
     assert state.tp == pytest.approx(9.0, rel=1e-5)
     assert state.mean_direction == pytest.approx(-130.0, abs=1e-6)
-    assert state.spread == pytest.approx(math.degrees(math.sqrt(2.0 * (1.0 - 8.0 / (3.0 * math.pi)))), rel=1e-5)
+    assert state.spread == pytest.approx(
+        math.degrees(math.sqrt(2.0 * (1.0 - 8.0 / (3.0 * math.pi)))), rel=1e-5
+    )
 
 
 @pytest.mark.parametrize("size", [30.0, 120.0, 2000.0])
 def test_energy_outside_the_band_in_one_direction(size):
-    """A narrow sea along x makes the band one-dimensional: the energy below dk/2 and above (n - 1)/2 dk is a band moment of S."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=7.0), spreading=fo.CosinePower(s=1e6)))
+    """
+    A narrow sea along x makes the band one-dimensional: the energy below dk/2 and above (n - 1)/2
+    dk is a band moment of S.
+    """
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=7.0), spreading=fo.CosinePower(s=1e6)
+        )
+    )
     below, above = outside_band(sea, Grid.of(32, size))
     low, high = (fo.dispersion.angular_frequency(2 * math.pi / size * m) for m in (0.5, 15.5))
     spectrum, m0 = sea.systems[0].spectrum, sea.variance
@@ -67,9 +95,19 @@ def test_energy_outside_the_band_in_one_direction(size):
 
 @pytest.mark.parametrize("draw", ["gaussian", "fixed"])
 def test_expected_scatter_is_what_seeds_do(draw):
-    """Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good to 7 % each, four of them."""
-    sea = fo.Sea(fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=6.0), spreading=fo.CosinePower(s=2.0)))
-    oceans = [fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=draw, dtype="float64") for seed in range(100)]
+    """
+    Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good
+    to 7 % each, four of them.
+    """
+    sea = fo.Sea(
+        fo.WaveSystem(
+            spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=6.0), spreading=fo.CosinePower(s=2.0)
+        )
+    )
+    oceans = [
+        fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=draw, dtype="float64")
+        for seed in range(100)
+    ]
     s = fo.measure(oceans[0])
     m0 = [np.sum(o.modes().amplitude ** 2) / 2 for o in oceans]
     variance = [np.mean(o.frame(0.0, fields=("height",)).height ** 2) for o in oceans]
@@ -92,16 +130,22 @@ def test_loop_error_by_hand():
     waves = [(1, 0, 1.0, 0.0), (4, 2, 0.5, 0.0), (0, -3, 0.7, 1.0)]
     o = fo.Ocean.from_modes(waves, n=16, size=200.0, loop=23.0)
     free = fo.Ocean.from_modes(waves, n=16, size=200.0).modes()
-    relative = np.maximum(1, np.rint(free.omega * 23.0 / (2 * np.pi))) * 2 * np.pi / 23.0 / free.omega - 1
+    relative = (
+        np.maximum(1, np.rint(free.omega * 23.0 / (2 * np.pi))) * 2 * np.pi / 23.0 / free.omega - 1
+    )
     energy = free.amplitude**2
     e = fo.measure(o).loop
     assert e is not None
-    assert e.rms == pytest.approx(math.sqrt(np.sum(energy * relative**2) / np.sum(energy)), rel=1e-9)
+    assert e.rms == pytest.approx(
+        math.sqrt(np.sum(energy * relative**2) / np.sum(energy)), rel=1e-9
+    )
     assert e.bias == pytest.approx(np.sum(energy * relative) / np.sum(energy), rel=1e-9)
     assert e.better_rms <= e.rms
     assert abs(e.better_period / 23.0 - 1) <= 0.1 + 1e-9
     better = fo.Ocean.from_modes(waves, n=16, size=200.0, loop=e.better_period)
-    assert loop_error(better.amplitudes, e.better_period).rms == pytest.approx(e.better_rms, rel=1e-6)
+    assert loop_error(better.amplitudes, e.better_period).rms == pytest.approx(
+        e.better_rms, rel=1e-6
+    )
 
 
 @pytest.mark.parametrize("period", [1e-2, 1e9])
@@ -121,20 +165,28 @@ def test_a_flat_sea_measures_as_nothing():
 
 
 def test_folds_are_measured_over_the_loop():
-    ocean = fo.Ocean(fo.Sea.from_wind(speed=12.0, fetch=100e3), n=32, size=80.0, loop=60.0, choppiness=2.5)
+    ocean = fo.Ocean(
+        fo.Sea.from_wind(speed=12.0, fetch=100e3), n=32, size=80.0, loop=60.0, choppiness=2.5
+    )
     assert fo.measure(ocean).folding == fo.folding(ocean.loop_frame(0, 1))
     several = fo.folding(ocean.loop_frames(6))
-    assert fo.measure(ocean, frames=6).folding.min_jacobian == pytest.approx(several.min_jacobian, abs=1e-5)  # float32
+    assert fo.measure(ocean, frames=6).folding.min_jacobian == pytest.approx(
+        several.min_jacobian, abs=1e-5
+    )  # float32
     for wrong in (ocean.sea, ocean.frame(0.0), fo.Ocean, "sea"):
-        with pytest.raises(fo.ParameterError, match="what is measured must be an Ocean or a Cascade, got "):
+        with pytest.raises(
+            fo.ParameterError, match="what is measured must be an Ocean or a Cascade, got "
+        ):
             fo.measure(wrong)
 
 
 def test_folds_of_a_cascade_are_those_of_its_sum():
     """
-    Two tiles of which neither folds, and whose sum does: crests of 0.6 and of 0.7 in steepness, one within the other.
+    Two tiles of which neither folds, and whose sum does: crests of 0.6 and of 0.7 in steepness, one
+    within the other.
 
-    The share is that of cos f + 7/6 cos g > 1/0.6 over both phases, by quadrature; the smallest Jacobian is 1 - 1.3 within 2 %.
+    The share is that of cos f + 7/6 cos g > 1/0.6 over both phases, by quadrature; the smallest
+    Jacobian is 1 - 1.3 within 2 %.
     """
     large = fo.Ocean.from_modes([(1, 0, 0.6 * 64.0 / (2 * np.pi), 0.0)], n=64, size=64.0)
     small = fo.Ocean.from_modes([(1, 0, 0.7 * 4.1 / (2 * np.pi), 0.0)], n=32, size=4.1)
@@ -144,6 +196,8 @@ def test_folds_of_a_cascade_are_those_of_its_sum():
     cascade._set_up(None, 0, (large, small))
     found = fo.measure(cascade).folding
     f, g = np.meshgrid(*[(np.arange(1000) + 0.5) * (2 * np.pi / 1000)] * 2)
-    assert found.share == pytest.approx(np.mean(0.6 * np.cos(f) + 0.7 * np.cos(g) > 1.0), abs=5e-3)  # 65536 draws
+    assert found.share == pytest.approx(
+        np.mean(0.6 * np.cos(f) + 0.7 * np.cos(g) > 1.0), abs=5e-3
+    )  # 65536 draws
     assert found.min_jacobian == pytest.approx(-0.3, abs=0.02)
     assert found.largest_choppiness == pytest.approx(1.0 / 1.3, rel=0.02)

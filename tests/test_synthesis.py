@@ -19,14 +19,19 @@ FULL = ("height", "displace_x", "displace_y", "normal", "jacobian")
 
 
 def by_the_table(ocean, name, t):
-    """A field as `fields.py` reads: h(k, t), or its rate, times the multiplier, and numpy's inverse transform."""
+    """
+    A field as `fields.py` reads: h(k, t), or its rate, times the multiplier, and numpy's inverse
+    transform.
+    """
     a = ocean.amplitudes
     phase = np.exp(-1j * a.running_omega * t)
     h = a.forward * phase + a.backward * np.conj(phase)
     if FIELDS[name].dt:
         h = -1j * a.running_omega * (a.forward * phase - a.backward * np.conj(phase))
     kx, ky = np.broadcast_arrays(ocean.grid.kx[None, :], ocean.grid.ky[:, None])
-    return np.fft.irfft2(multiplier(FIELDS[name], kx, ky, ocean.depth) * h, s=ocean.grid.shape, norm="forward")
+    return np.fft.irfft2(
+        multiplier(FIELDS[name], kx, ky, ocean.depth) * h, s=ocean.grid.shape, norm="forward"
+    )
 
 
 @pytest.mark.parametrize("threads", [1, 3])
@@ -46,11 +51,20 @@ def test_every_field_is_its_row_of_the_table(n, threads):
 @pytest.mark.parametrize("size", [0.02, 1.0, 1e3, 1e5])
 def test_fields_of_unlike_size_do_not_spoil_each_other(size, depth):
     """
-    Heights of metres beside slopes of 1e-5, or of 0.1 mm beside slopes of 1: in float32 each field is good to 1e-6 of its own largest
-    value. Two share a complex row and its rounding errors; without their weights this fails by a factor of thousands.
+    Heights of metres beside slopes of 1e-5, or of 0.1 mm beside slopes of 1: in float32 each field
+    is good to 1e-6 of its own largest value. Two share a complex row and its rounding errors;
+    without their weights this fails by a factor of thousands.
     """
-    waves = [(1, 0, 1e-3 * size, 0.3), (3, 2, 5e-4 * size, 1.0), (-2, 5, 3e-4 * size, 2.0), (0, -4, 2e-4 * size, 4.0)]
-    single, double = (fo.Ocean.from_modes(waves, n=24, size=size, depth=depth, dtype=dtype) for dtype in ("float32", "float64"))
+    waves = [
+        (1, 0, 1e-3 * size, 0.3),
+        (3, 2, 5e-4 * size, 1.0),
+        (-2, 5, 3e-4 * size, 2.0),
+        (0, -4, 2e-4 * size, 4.0),
+    ]
+    single, double = (
+        fo.Ocean.from_modes(waves, n=24, size=size, depth=depth, dtype=dtype)
+        for dtype in ("float32", "float64")
+    )
     a, b = single.frame(1.0, tuple(FIELDS)), double.frame(1.0, tuple(FIELDS))
     for name in FIELDS:
         assert np.max(np.abs(a[name] - b[name])) < 1e-6 * np.max(np.abs(b[name])), name
@@ -61,17 +75,29 @@ def test_fields_of_unlike_size_do_not_spoil_each_other(size, depth):
 @pytest.mark.parametrize("backend", [name for name in BACKENDS if library(name)])
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 def test_any_number_of_threads_gives_the_same_bytes(dtype, backend):
-    oceans = [fo.Ocean(SEA, n=(130, 70), size=150.0, dtype=dtype, backend=backend, threads=threads) for threads in (1, 2, 5)]
+    oceans = [
+        fo.Ocean(SEA, n=(130, 70), size=150.0, dtype=dtype, backend=backend, threads=threads)
+        for threads in (1, 2, 5)
+    ]
     frames = [ocean.frame(8.1, (*FIELDS, "normal", "jacobian")) for ocean in oceans]
     for frame in frames[1:]:
         assert all(np.array_equal(frame[name], frames[0][name]) for name in frame.fields)
 
 
-@pytest.mark.parametrize(("wave", "size"), [((1, 100), 60.0), ((100, 1), 60.0), ((3, 5), (1e5, 10.0)), ((3, 5), (10.0, 1e5))])
+@pytest.mark.parametrize(
+    ("wave", "size"),
+    [((1, 100), 60.0), ((100, 1), 60.0), ((3, 5), (1e5, 10.0)), ((3, 5), (10.0, 1e5))],
+)
 def test_waves_nearly_along_an_axis_do_not_spoil_the_derivatives_along_the_other(wave, size):
-    """kx and ky of one wave a factor of a hundred or of ten thousand apart: float32 is good to 1e-6 of each field's largest value."""
+    """
+    kx and ky of one wave a factor of a hundred or of ten thousand apart: float32 is good to 1e-6 of
+    each field's largest value.
+    """
     waves = [(*wave, 1e-4, 0.3)]
-    single, double = (fo.Ocean.from_modes(waves, n=256, size=size, dtype=dtype) for dtype in ("float32", "float64"))
+    single, double = (
+        fo.Ocean.from_modes(waves, n=256, size=size, dtype=dtype)
+        for dtype in ("float32", "float64")
+    )
     a, b = single.frame(1.0, tuple(FIELDS)), double.frame(1.0, tuple(FIELDS))
     for name in FIELDS:
         assert np.max(np.abs(a[name] - b[name])) < 1e-6 * np.max(np.abs(b[name])), name
@@ -84,8 +110,13 @@ def test_weights_are_powers_of_two():
 
 
 def test_no_wave_is_subnormal():
-    """A narrow swell on a large tile has waves far below what float32 can hold; as subnormal numbers they would cost ten times the time."""
-    swell = fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=12.0), spreading=fo.CosinePower(s=1000.0))
+    """
+    A narrow swell on a large tile has waves far below what float32 can hold; as subnormal numbers
+    they would cost ten times the time.
+    """
+    swell = fo.WaveSystem(
+        spectrum=fo.JONSWAP.from_sea_state(hs=2.0, tp=12.0), spreading=fo.CosinePower(s=1000.0)
+    )
     waves = np.abs(fo.Ocean(fo.Sea(swell), n=64, size=5000.0)._synthesis._waves)
     assert np.count_nonzero(waves) > 100
     assert np.min(waves[waves > 0.0]) > np.finfo(np.float32).tiny
@@ -103,7 +134,18 @@ def test_a_field_has_the_same_bits_whatever_is_asked_beside_it(n, dtype):
 
 
 def test_five_passes_then_four_for_eight_fields():
-    plan = plan_of(("height", "displace_x", "displace_y", "slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy"))
+    plan = plan_of(
+        (
+            "height",
+            "displace_x",
+            "displace_y",
+            "slope_x",
+            "slope_y",
+            "stretch_xx",
+            "stretch_xy",
+            "stretch_yy",
+        )
+    )
     assert (len(plan.spectra), len(plan.rows)) == (5, 4)
     full = plan_of(FULL)
     assert (len(full.spectra), len(full.rows), len(full.linear)) == (5, 4, 8)
@@ -121,7 +163,10 @@ def test_buffers_do_not_depend_on_what_is_asked():
 
 
 def test_what_a_narrow_block_leaves_behind_is_harmless():
-    """The last block is narrower than its buffers: the rows beyond it stay finite, and frames stay the same."""
+    """
+    The last block is narrower than its buffers: the rows beyond it stay finite, and frames stay the
+    same.
+    """
     ocean = fo.Ocean(SEA, n=(90, 70), size=100.0, dtype="float32")
     first = ocean.frame(1.0)
     for t in range(50):
@@ -160,7 +205,10 @@ def test_bad_thread_counts_are_refused(threads):
 
 
 def fields_against_the_direct_sum(ocean):
-    """Hold every field to 1e-6 (1e-12 in double precision) of its own largest value; return the largest value of each."""
+    """
+    Hold every field to 1e-6 (1e-12 in double precision) of its own largest value; return the
+    largest value of each.
+    """
     omega = float(np.max(ocean.modes().omega, initial=1.0))
     t = 0.37 / omega
     x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
@@ -168,17 +216,31 @@ def fields_against_the_direct_sum(ocean):
     frame = ocean.frame(t, (*FIELDS, "normal", "jacobian"))
     assert all(np.all(np.isfinite(frame[name])) for name in frame.fields)
     top = {name: float(np.max(np.abs(getattr(truth, name)))) for name in FIELDS}
-    # Waves below 1e-30 of the largest are left out in single precision (1e-154 in double), and so is what they make of a field, be it
-    # all of it; 1e-22 (1e-140) of its partner in the complex row or its kind allows for wavenumbers far apart.
-    bound, floor, least = (1e-6, 1e-22, 1e-36) if ocean.dtype == "float32" else (1e-12, 1e-140, 1e-302)
+    # Waves below 1e-30 of the largest are left out in single precision (1e-154 in double), and so
+    # is what they make of a field, be it
+    # all of it; 1e-22 (1e-140) of its partner in the complex row or its kind allows for wavenumbers
+    # far apart.
+    bound, floor, least = (
+        (1e-6, 1e-22, 1e-36) if ocean.dtype == "float32" else (1e-12, 1e-140, 1e-302)
+    )
     for pair in PAIRS:
         for name in pair:
-            near = {*pair, *(other for other in FIELDS if other.partition("_")[0] == name.partition("_")[0])}
+            near = {
+                *pair,
+                *(other for other in FIELDS if other.partition("_")[0] == name.partition("_")[0]),
+            }
             allowed = max(bound * top[name], floor * max(top[other] for other in near), least)
-            assert np.max(np.abs(frame[name].astype(np.float64) - getattr(truth, name))) <= allowed, (name, ocean.dtype)
+            assert (
+                np.max(np.abs(frame[name].astype(np.float64) - getattr(truth, name))) <= allowed
+            ), (name, ocean.dtype)
     c, xx, xy, yy = ocean.choppiness, truth.stretch_xx, truth.stretch_xy, truth.stretch_yy
-    largest = np.max((1.0 + c * np.abs(xx)) * (1.0 + c * np.abs(yy)) + (c * xy) ** 2)  # a difference of two products
-    assert np.max(np.abs(frame.jacobian - ((1.0 + c * xx) * (1.0 + c * yy) - (c * xy) ** 2))) <= 4.0 * bound * largest
+    largest = np.max(
+        (1.0 + c * np.abs(xx)) * (1.0 + c * np.abs(yy)) + (c * xy) ** 2
+    )  # a difference of two products
+    assert (
+        np.max(np.abs(frame.jacobian - ((1.0 + c * xx) * (1.0 + c * yy) - (c * xy) ** 2)))
+        <= 4.0 * bound * largest
+    )
     assert np.linalg.norm(frame.normal.astype(np.float64), axis=-1) == pytest.approx(1.0, rel=1e-5)
     return top
 
@@ -187,21 +249,39 @@ def fields_against_the_direct_sum(ocean):
 @pytest.mark.parametrize("beside", [0.0, 1e-300, 1e-200, 1e-60, 1e-40, 1e-30, 1e-20, 1e-10, 1e-3])
 @pytest.mark.parametrize("along", ["x", "y"])
 def test_a_field_that_is_tiny_beside_its_partner_is_finite_and_right(along, beside, dtype):
-    """One wave along an axis, another along the other one of any size: single precision overflowed where they were 1e-38 apart."""
-    a, b = [(3, 0, 1.0, 0.3), (0, 2, beside, 1.0)] if along == "x" else [(0, 3, 1.0, 0.3), (2, 0, beside, 1.0)]
-    top = fields_against_the_direct_sum(fo.Ocean.from_modes([a, b], n=(16, 12), size=(60.0, 90.0), dtype=dtype))
+    """
+    One wave along an axis, another along the other one of any size: single precision overflowed
+    where they were 1e-38 apart.
+    """
+    a, b = (
+        [(3, 0, 1.0, 0.3), (0, 2, beside, 1.0)]
+        if along == "x"
+        else [(0, 3, 1.0, 0.3), (2, 0, beside, 1.0)]
+    )
+    top = fields_against_the_direct_sum(
+        fo.Ocean.from_modes([a, b], n=(16, 12), size=(60.0, 90.0), dtype=dtype)
+    )
     assert top["slope_y" if along == "x" else "slope_x"] <= beside
 
 
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("amplitude", [1e-310, 1e-300, 1e-44, 1e-38, 1e-20, 1e4])
 def test_waves_at_the_ends_of_the_range(amplitude, dtype):
-    fields_against_the_direct_sum(fo.Ocean.from_modes([(1, 2, amplitude, 0.3), (-3, 1, 0.1 * amplitude, 2.0)], n=16, size=1e3, dtype=dtype))
+    fields_against_the_direct_sum(
+        fo.Ocean.from_modes(
+            [(1, 2, amplitude, 0.3), (-3, 1, 0.1 * amplitude, 2.0)], n=16, size=1e3, dtype=dtype
+        )
+    )
 
 
 def test_no_wave_across_makes_no_field_across():
-    frame = fo.Ocean.from_modes([(3, 0, 1.0, 0.3), (-5, 0, 0.3, 1.0)], n=16, size=60.0).frame(1.0, tuple(FIELDS))
-    assert not any(np.any(frame[name]) for name in ("slope_y", "displace_y", "stretch_xy", "stretch_yy", "velocity_y"))
+    frame = fo.Ocean.from_modes([(3, 0, 1.0, 0.3), (-5, 0, 0.3, 1.0)], n=16, size=60.0).frame(
+        1.0, tuple(FIELDS)
+    )
+    assert not any(
+        np.any(frame[name])
+        for name in ("slope_y", "displace_y", "stretch_xy", "stretch_yy", "velocity_y")
+    )
 
 
 SAMPLES = st.one_of(st.sampled_from([1, 2, 3, 5, 8, 13]), st.integers(1, 24))
@@ -209,7 +289,9 @@ SPREADINGS = st.one_of(
     st.floats(-1.0, 2.2).map(lambda x: fo.WrappedNormal(spread=10.0**x)),
     st.floats(-3.0, 6.0).map(lambda x: fo.CosinePower(s=10.0**x)),
     st.floats(0.0, 1.0).map(lambda w: fo.Blend(fo.LongCrested(), fo.CosineSquared(), weight=w)),
-    st.sampled_from([fo.LongCrested(), fo.DonelanBanner(), fo.CosineN(n=0.0), fo.Mitsuyasu(speed=10.0)]),
+    st.sampled_from(
+        [fo.LongCrested(), fo.DonelanBanner(), fo.CosineN(n=0.0), fo.Mitsuyasu(speed=10.0)]
+    ),
 )
 DEPTHS = st.sampled_from([math.inf, 1e-6, 0.01, 1.0, 30.0])
 
@@ -230,26 +312,54 @@ def widths(low, high):
     choppiness=st.floats(0.0, 10.0),
     draw=st.sampled_from(["gaussian", "fixed"]),
 )
-def test_every_sea_has_finite_fields_that_are_right(n, lengths, aspect, spreading, direction, tp, depth, choppiness, draw):
-    """Any tile, odd, prime, oblong or of one sample; any spreading and direction: a refusal, or fields that are the direct sum's."""
+def test_every_sea_has_finite_fields_that_are_right(
+    n, lengths, aspect, spreading, direction, tp, depth, choppiness, draw
+):
+    """
+    Any tile, odd, prime, oblong or of one sample; any spreading and direction: a refusal, or fields
+    that are the direct sum's.
+    """
     wavelength = 9.80665 * tp**2 / (2.0 * math.pi)
     spectrum = fo.JONSWAP.from_sea_state(hs=min(0.02 * wavelength, 100.0), tp=tp)
-    sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction), depth=depth)
+    sea = fo.Sea(
+        fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction), depth=depth
+    )
     size = tuple(min(max(lengths * wavelength * a, 1e-3), 1e7) for a in (1.0, aspect))
     for dtype in ("float32", "float64"):
-        fields_against_the_direct_sum(fo.Ocean(sea, n=n, size=size, choppiness=choppiness, dtype=dtype, amplitudes=draw))
+        fields_against_the_direct_sum(
+            fo.Ocean(sea, n=n, size=size, choppiness=choppiness, dtype=dtype, amplitudes=draw)
+        )
 
 
 WAVES = st.lists(
-    st.tuples(st.integers(-11, 11), st.integers(-11, 11), st.one_of(st.just(0.0), widths(1e-300, 1e4)), st.floats(-7.0, 7.0)), max_size=6
+    st.tuples(
+        st.integers(-11, 11),
+        st.integers(-11, 11),
+        st.one_of(st.just(0.0), widths(1e-300, 1e4)),
+        st.floats(-7.0, 7.0),
+    ),
+    max_size=6,
 )
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
-@given(n=st.tuples(SAMPLES, SAMPLES), size=st.tuples(widths(1e-3, 1e7), widths(1e-3, 1e7)), depth=DEPTHS, waves=WAVES)
+@given(
+    n=st.tuples(SAMPLES, SAMPLES),
+    size=st.tuples(widths(1e-3, 1e7), widths(1e-3, 1e7)),
+    depth=DEPTHS,
+    waves=WAVES,
+)
 def test_all_given_waves_have_finite_fields_that_are_right(n, size, depth, waves):
-    """Waves of any size beside each other: a refusal where a field would overflow, or fields that are the direct sum's."""
-    held = [w for w in waves if (w[0] or w[1]) and all(abs(m) <= (samples - 1) // 2 for m, samples in zip(w[:2], n, strict=True))]
+    """
+    Waves of any size beside each other: a refusal where a field would overflow, or fields that are
+    the direct sum's.
+    """
+    held = [
+        w
+        for w in waves
+        if (w[0] or w[1])
+        and all(abs(m) <= (samples - 1) // 2 for m, samples in zip(w[:2], n, strict=True))
+    ]
     for dtype in ("float32", "float64"):
         try:
             ocean = fo.Ocean.from_modes(held, n=n, size=size, depth=depth, dtype=dtype)

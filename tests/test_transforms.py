@@ -23,7 +23,9 @@ def by_long_double(rows):
 
 def noise(shape, dtype):
     rng = np.random.default_rng(sum(shape))
-    return (rng.standard_normal(shape) + 1j * rng.standard_normal(shape)).astype(np.complex64 if dtype == "float32" else np.complex128)
+    return (rng.standard_normal(shape) + 1j * rng.standard_normal(shape)).astype(
+        np.complex64 if dtype == "float32" else np.complex128
+    )
 
 
 BACKENDS = [name for name in transforms.BACKENDS if transforms.library(name)]  # MKL is an extra
@@ -33,7 +35,10 @@ BACKENDS = [name for name in transforms.BACKENDS if transforms.library(name)]  #
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("n", [1, 2, 8, 9, 31, 48, 80, 97, 256, 1009, 1024])
 def test_accuracy(n, dtype, backend):
-    """Relative L2 <= 1.5 eps sqrt(log2 n) (Higham 2002, ch. 24, random errors, with a margin of 1.5), plus the storing: eps/2."""
+    """
+    Relative L2 <= 1.5 eps sqrt(log2 n) (Higham 2002, ch. 24, random errors, with a margin of 1.5),
+    plus the storing: eps/2.
+    """
     transform = inverse_rows((3, n), dtype, backend=backend)
     rows = noise((3, n), dtype)
     truth = by_long_double(rows)
@@ -41,7 +46,9 @@ def test_accuracy(n, dtype, backend):
     transform()
     assert np.array_equal(transform.source, rows)  # left as it is
     eps = np.finfo(dtype).eps
-    hard = 3.0 if n in (97, 1009) else 1.0  # large primes go through Rader's or Bluestein's algorithm: three transforms in one
+    hard = (
+        3.0 if n in (97, 1009) else 1.0
+    )  # large primes go through Rader's or Bluestein's algorithm: three transforms in one
     error = float(np.linalg.norm(transform.result - truth) / np.linalg.norm(truth))
     assert error <= eps * (0.5 + 1.5 * hard * math.sqrt(math.log2(n)))
     assert transform.result.dtype == rows.dtype
@@ -50,7 +57,10 @@ def test_accuracy(n, dtype, backend):
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_each_row_is_transformed_on_its_own(backend):
-    """The same row gives the same bits wherever it stands in the buffer, and whatever stands beside it."""
+    """
+    The same row gives the same bits wherever it stands in the buffer, and whatever stands beside
+    it.
+    """
     rows = noise((16, 60), "float32")
     transform = inverse_rows((16, 60), "float32", backend=backend)
     transform.source[:] = rows
@@ -107,9 +117,14 @@ def test_libraries_say_which_they_are():
     assert transforms.library("scipy").startswith("pocketfft (scipy 1.")
 
 
-@pytest.mark.parametrize("contents", [b"", b"{}", b"not json", b'{"key": {}, "sha256": "", "wisdom": []}', b"\xff\xfe", b"[1]"])
+@pytest.mark.parametrize(
+    "contents",
+    [b"", b"{}", b"not json", b'{"key": {}, "sha256": "", "wisdom": []}', b"\xff\xfe", b"[1]"],
+)
 def test_wisdom_is_kept_and_a_bent_file_is_done_without(tmp_path, monkeypatch, contents):
-    """The first plan leaves a file and the second uses it; what is no wisdom is replaced, with a note."""
+    """
+    The first plan leaves a file and the second uses it; what is no wisdom is replaced, with a note.
+    """
     monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
     rows = noise((4, 24), "float32")
 
@@ -146,23 +161,34 @@ def test_wisdom_of_another_library_is_not_used(tmp_path, monkeypatch):
 def test_a_cache_that_cannot_be_written_stops_nothing(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path / "file" / "below"))
-    assert inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
+    assert (
+        inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
+    )
 
 
 def test_pyfftw_is_imported_without_dask(monkeypatch):
-    """dask.array, if it is not there yet, is neither imported on the way nor left blocked behind."""
+    """
+    dask.array, if it is not there yet, is neither imported on the way nor left blocked behind.
+    """
     monkeypatch.delitem(sys.modules, "dask.array", raising=False)
     monkeypatch.delitem(sys.modules, "pyfftw", raising=False)
     seen = []
     real = transforms.importlib.import_module
-    monkeypatch.setattr(transforms.importlib, "import_module", lambda _: seen.append("dask.array" in sys.modules) or real("numpy"))
+    monkeypatch.setattr(
+        transforms.importlib,
+        "import_module",
+        lambda _: seen.append("dask.array" in sys.modules) or real("numpy"),
+    )
     transforms._pyfftw()
     assert seen == [True]
     assert "dask.array" not in sys.modules
 
 
 def test_an_estimate_is_the_same_whatever_was_measured_before(tmp_path, monkeypatch):
-    """FFTW would plan by what it knows: a viewer that measures and then bakes would bake other bytes. What the user knows is kept."""
+    """
+    FFTW would plan by what it knows: a viewer that measures and then bakes would bake other bytes.
+    What the user knows is kept.
+    """
     import pyfftw
 
     monkeypatch.setenv("FFTOCEAN_CACHE", str(tmp_path))
@@ -180,7 +206,9 @@ def test_an_estimate_is_the_same_whatever_was_measured_before(tmp_path, monkeypa
     for planning in ("measure", "patient"):
         inverse_rows((32, 96), "float32", backend="pyfftw", planning=planning)
     assert np.array_equal(estimated(), before)
-    pyfftw.FFTW(mine, other, flags=("FFTW_PATIENT", "FFTW_WISDOM_ONLY"))  # raises where nothing is known
+    pyfftw.FFTW(
+        mine, other, flags=("FFTW_PATIENT", "FFTW_WISDOM_ONLY")
+    )  # raises where nothing is known
 
 
 def test_the_first_who_has_measured_decides(tmp_path, monkeypatch):
@@ -222,7 +250,9 @@ def test_a_user_without_a_home_measures_every_time(monkeypatch):
         raise RuntimeError("Could not determine home directory.")
 
     monkeypatch.setattr(wisdom, "folder", homeless)
-    assert inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
+    assert (
+        inverse_rows((4, 20), "float32", backend="pyfftw", planning="measure").backend == "pyfftw"
+    )
 
 
 def test_pyfftw_is_whole_for_whoever_asks_first():

@@ -1,4 +1,7 @@
-"""Public values show themselves briefly, and public functions refuse what is none of theirs by its name."""
+"""
+Public values show themselves briefly, and public functions refuse what is none of theirs by its
+name.
+"""
 
 import warnings
 from pathlib import Path
@@ -88,7 +91,10 @@ def test_what_they_show(values):
     assert "3 frames of height 3 x 16 x 16 x 1, normal 3 x 16 x 16 x 3" in repr(values["bake"])
     assert "forward=<32 x 17 complex128>" in repr(values["amplitudes"])
     assert "13 more systems" in repr(values["sea"])
-    assert "a wind sea, n=16, size=100.0, 3 frames of height, normal, jacobian as exr for canonical" in repr(values["job"])
+    assert (
+        "a wind sea, n=16, size=100.0, 3 frames of height, normal, jacobian as exr for canonical"
+        in repr(values["job"])
+    )
     assert "TabulatedSpectrum(64 frequencies, 0.05 to 0.5 Hz" in repr(values["system"])
 
 
@@ -131,7 +137,9 @@ DOORS = {
 
 @pytest.mark.parametrize("door", DOORS)
 def test_wrong_objects_are_refused_by_name(values, door, tmp_path, monkeypatch):
-    """Anything that is not theirs: an error of the package's own, on one line, that says what it got."""
+    """
+    Anything that is not theirs: an error of the package's own, on one line, that says what it got.
+    """
     monkeypatch.chdir(tmp_path)
     call, welcome = DOORS[door]
     others = {
@@ -154,7 +162,9 @@ def test_wrong_objects_are_refused_by_name(values, door, tmp_path, monkeypatch):
 
 
 def test_messages_name_what_came(values):
-    with pytest.raises(fo.ParameterError, match=r"must be an Ocean or a Cascade, got Sea\(TabulatedSpectrum"):
+    with pytest.raises(
+        fo.ParameterError, match=r"must be an Ocean or a Cascade, got Sea\(TabulatedSpectrum"
+    ):
         fo.measure(values["sea"])
     with pytest.raises(fo.ParameterError, match="sea must be a Sea, got TabulatedSpectrum"):
         fo.Ocean(TABLE, n=8, size=50.0)

@@ -30,7 +30,9 @@ def summed(cascade, x, y, times):
     """
     w = cascade.modes()
     k = np.hypot(w.kx, w.ky)
-    place = w.amplitude * np.exp(1j * (np.outer(x, w.kx) + np.outer(y, w.ky) - w.phase))  # (points, waves)
+    place = w.amplitude * np.exp(
+        1j * (np.outer(x, w.kx) + np.outer(y, w.ky) - w.phase)
+    )  # (points, waves)
     turn = np.exp(-1j * np.outer(times, w.omega))
     factors = {
         "height": np.ones_like(k), "displace_x": 1j * w.kx / k, "displace_y": 1j * w.ky / k, "slope_x": 1j * w.kx, "slope_y": 1j * w.ky,
@@ -79,10 +81,14 @@ def test_normals_and_jacobian_are_made_from_the_sums(cascade):
     truth = np.cross(along, up)
     assert off(frame.jacobian.ravel() - 1.0, truth[:, 2] - 1.0) < 5e-3
     truth /= np.linalg.norm(truth, axis=-1, keepdims=True)
-    assert np.sqrt(np.mean((frame.normal.reshape(-1, 3) - truth) ** 2)) < 5e-3 * np.sqrt(np.mean(truth[:, :2] ** 2))
+    assert np.sqrt(np.mean((frame.normal.reshape(-1, 3) - truth) ** 2)) < 5e-3 * np.sqrt(
+        np.mean(truth[:, :2] ** 2)
+    )
     assert np.array_equal(frame.normal, fo.normals(frame))
     assert np.array_equal(frame.jacobian, fo.jacobian(frame))
-    found = fo.Query(cascade, mode="exact").at(x + c * s["displace_x"], y + c * s["displace_y"], 5.3)
+    found = fo.Query(cascade, mode="exact").at(
+        x + c * s["displace_x"], y + c * s["displace_y"], 5.3
+    )
     calm = ~found.folded
     assert np.mean(calm) > 0.95
     assert np.max(np.abs(found.normals[calm] - truth[calm])) < 1e-5
@@ -111,7 +117,10 @@ def test_short_waves_are_left_out(cascade):
     w = cascade.modes()
     long = np.hypot(w.kx, w.ky) * 12.0 <= 2.0 * np.pi
     x, y = places(window)
-    k, phase = np.hypot(w.kx, w.ky)[long], np.outer(x, w.kx[long]) + np.outer(y, w.ky[long]) - w.omega[long] * 2.0 - w.phase[long]
+    k, phase = (
+        np.hypot(w.kx, w.ky)[long],
+        np.outer(x, w.kx[long]) + np.outer(y, w.ky[long]) - w.omega[long] * 2.0 - w.phase[long],
+    )
     truth = -np.cos(phase) @ (w.amplitude[long] * w.kx[long] ** 2 / k)
     assert off(window.frame(2.0, ("stretch_xx",)).stretch_xx.ravel(), truth) < 5e-3
 
@@ -132,7 +141,9 @@ def test_the_foam_of_a_cascade_is_that_of_the_summed_squeeze(cascade):
                             np.stack([c * s["stretch_xy"], 1 + c * s["stretch_yy"]], -1)], -1)  # fmt: skip
     source = 40.0 * np.maximum(0.8 - np.linalg.eigvalsh(deformation)[..., 0], 0.0)
     memory = np.exp(-np.arange(dense) * (LOOP / dense) / 2.0) / (1.0 - math.exp(-LOOP / 2.0))
-    made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[:: dense // count] * (LOOP / dense)
+    made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[
+        :: dense // count
+    ] * (LOOP / dense)
     truth = 1.0 - np.exp(-made)
     ours = np.stack([cover.ravel() for cover in foam.loop(window, count)])
     assert np.mean(truth) > 0.02  # there is foam to speak of
@@ -169,8 +180,13 @@ def test_a_window_by_its_arguments(cascade):
 
 @pytest.mark.parametrize("name", ["normal", "jacobian"])
 def test_a_cascade_gives_no_field_that_does_not_add_up(cascade, name):
-    for call in (lambda: cascade.frame(1.0, ("height", name)), lambda: cascade.loop_frame(1, 4, (name,))):
-        with pytest.raises(fo.ParameterError, match=rf"must add up over its tiles, got '{name}'.*fo\.Window"):
+    for call in (
+        lambda: cascade.frame(1.0, ("height", name)),
+        lambda: cascade.loop_frame(1, 4, (name,)),
+    ):
+        with pytest.raises(
+            fo.ParameterError, match=rf"must add up over its tiles, got '{name}'.*fo\.Window"
+        ):
             call()
 
 

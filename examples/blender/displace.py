@@ -25,7 +25,10 @@ SAMPLES = "u = X / size_x + 0.5 / nx, v = Y / size_y + 0.5 / ny, repeated"  # wh
 
 
 def read_bake(folder):
-    """Return the manifest of a bake that this script understands; leave with the reason if it does not."""
+    """
+    Return the manifest of a bake that this script understands; leave with the reason if it does
+    not.
+    """
     try:
         manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -41,18 +44,32 @@ def read_bake(folder):
     if tool != "fftocean":
         sys.exit(f"{folder}/manifest.json must be of fftocean, got {tool!r}")
     if not axes.startswith("X east, Y north, Z up") or conventions["unit"] != "m":
-        sys.exit(f"{folder} is not in Blender's axes and metres ({axes}): bake with --engine blender")
+        sys.exit(
+            f"{folder} is not in Blender's axes and metres ({axes}): bake with --engine blender"
+        )
     if samples != SAMPLES:
-        sys.exit(f"{folder} must be sampled at {SAMPLES}, got {samples}: bake with --engine blender")
+        sys.exit(
+            f"{folder} must be sampled at {SAMPLES}, got {samples}: bake with --engine blender"
+        )
     if "displacement" not in maps:
-        sys.exit(f"{folder} must have displacement maps, got {', '.join(maps)}: bake with --maps displacement")
+        sys.exit(
+            f"{folder} must have displacement maps, got {', '.join(maps)}: bake with --maps displacement"
+        )
     if maps["displacement"]["format"] not in FORMATS:
         got = maps["displacement"]["format"]
-        sys.exit(f"{folder} must have the format {' or '.join(FORMATS)}, got {got}: bake with --format exr")
-    if maps["displacement"]["unit"] != "m" or list(maps["displacement"]["channels"]) != ["R", "G", "B"]:
+        sys.exit(
+            f"{folder} must have the format {' or '.join(FORMATS)}, got {got}: bake with --format exr"
+        )
+    if maps["displacement"]["unit"] != "m" or list(maps["displacement"]["channels"]) != [
+        "R",
+        "G",
+        "B",
+    ]:
         sys.exit(f"{folder} must have displacements in metres in R, G and B")
     if subset != "all" or len(rows) != count:
-        sys.exit(f"{folder} must hold the whole loop, got frames {subset} of {count}: bake without start:stop:step")
+        sys.exit(
+            f"{folder} must hold the whole loop, got frames {subset} of {count}: bake without start:stop:step"
+        )
     if [row["frame"] for row in rows] != list(range(count)):
         sys.exit(f"{folder} must hold frames 0 to {count - 1} in order")
     return manifest
@@ -72,7 +89,9 @@ def sea_mesh(n, size):
     uv = np.stack([(i + 0.5) / nx, (j + 0.5) / ny], axis=-1).reshape(-1, 2)
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
-    mesh.uv_layers.new(name="texels").data.foreach_set("uv", uv[corners].astype(np.float32).reshape(-1))
+    mesh.uv_layers.new(name="texels").data.foreach_set(
+        "uv", uv[corners].astype(np.float32).reshape(-1)
+    )
     mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     return mesh
 
@@ -88,10 +107,17 @@ def sequence_texture(files):
     texture = bpy.data.textures.new("displacement", "IMAGE")
     texture.image = image
     texture.use_clamp = False  # else what is below 0 becomes 0
-    texture.use_interpolation = False  # at a texel's middle there is nothing to interpolate; for a finer grid switch it on
+    texture.use_interpolation = (
+        False  # at a texel's middle there is nothing to interpolate; for a finer grid switch it on
+    )
     texture.extension = "REPEAT"
     user = texture.image_user
-    user.frame_start, user.frame_duration, user.use_cyclic, user.use_auto_refresh = 1, len(files), True, True
+    user.frame_start, user.frame_duration, user.use_cyclic, user.use_auto_refresh = (
+        1,
+        len(files),
+        True,
+        True,
+    )
     user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, ours 0: -1
     return texture
 
@@ -135,7 +161,9 @@ def light_and_camera(size, height):
 
 
 def animated_sea(folder):
-    """Return the object with its modifier in a scene of its own, and the manifest it was made from."""
+    """
+    Return the object with its modifier in a scene of its own, and the manifest it was made from.
+    """
     manifest = read_bake(folder)
     import bpy
 
@@ -146,7 +174,9 @@ def animated_sea(folder):
     scene = bpy.context.scene
     scene.collection.objects.link(sea)
     modifier = sea.modifiers.new("waves", "DISPLACE")
-    modifier.texture = sequence_texture([folder / row["files"]["displacement"]["path"] for row in manifest["frames"]])
+    modifier.texture = sequence_texture(
+        [folder / row["files"]["displacement"]["path"] for row in manifest["frames"]]
+    )
     modifier.texture_coords, modifier.uv_layer = "UV", "texels"
     modifier.direction, modifier.mid_level, modifier.strength = "RGB_TO_XYZ", 0.0, 1.0
     light_and_camera(size, manifest["extremes"]["max_height"])
@@ -177,20 +207,40 @@ def report_distances(sea, manifest, path):
     still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
     sea.data.vertices.foreach_get("co", still)
     expected = np.load(path).reshape(len(manifest["frames"]), -1, 3).astype(np.float64)
-    apart = [np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e) for j, e in enumerate(expected)]
-    again = np.abs(vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0))  # one past the end is the beginning
-    height, width = np.max(np.abs(expected[..., 2])), np.max(np.hypot(expected[..., 0], expected[..., 1]))
-    step = np.spacing(np.abs(expected).astype(np.float16)).astype(np.float64)  # of a half: what a half map may be off by half of
-    print(f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, horizontal to {width:.3f} m")
+    apart = [
+        np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e)
+        for j, e in enumerate(expected)
+    ]
+    again = np.abs(
+        vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0)
+    )  # one past the end is the beginning
+    height, width = (
+        np.max(np.abs(expected[..., 2])),
+        np.max(np.hypot(expected[..., 0], expected[..., 1])),
+    )
+    step = np.spacing(np.abs(expected).astype(np.float16)).astype(
+        np.float64
+    )  # of a half: what a half map may be off by half of
+    print(
+        f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, horizontal to {width:.3f} m"
+    )
     print(f"largest distance along an axis: {np.max(apart):.3g} m")
-    print(f"beyond the half step that a half may be off: {max(0.0, np.max(apart - 0.5 * step)):.3g} m")
+    print(
+        f"beyond the half step that a half may be off: {max(0.0, np.max(apart - 0.5 * step)):.3g} m"
+    )
     print(f"frame F against frame 0: {np.max(again):.3g} m")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("folder", type=Path, help="a bake for Blender, with displacement maps")
-    parser.add_argument("--expected", type=Path, help="the displacements that the vertices must show, (frames, ny, nx, 3) [m]")
+    parser.add_argument(
+        "--expected",
+        type=Path,
+        help="the displacements that the vertices must show, (frames, ny, nx, 3) [m]",
+    )
     parser.add_argument("--save", type=Path, help="write the scene to this .blend file")
     options = parser.parse_args()
     sea, manifest = animated_sea(options.folder)

@@ -29,7 +29,8 @@ def main(
         console: where the table goes.
         seconds: about how long to measure [s].
         sizes: samples a side of the frames; None for 128 to 1024.
-        picture: a .png, .svg or .pdf to write, or None; without matplotlib there is none, and a line that says so.
+        picture: a .png, .svg or .pdf to write, or None; without matplotlib there is none, and a
+            line that says so.
         json: a file for every reading with its quartiles, or None.
         status: where a progress bar goes while it measures; None for none.
 
@@ -45,8 +46,12 @@ def main(
     from fftocean.bench import quick, shown
     from fftocean.bench.pictures import SUFFIXES
 
-    if picture is not None and picture.suffix.lower() not in SUFFIXES:  # before two minutes have gone by
-        raise ParameterError(f"a picture's name must end in {', '.join(SUFFIXES)}, got {picture.name!r:.80}")
+    if (
+        picture is not None and picture.suffix.lower() not in SUFFIXES
+    ):  # before two minutes have gone by
+        raise ParameterError(
+            f"a picture's name must end in {', '.join(SUFFIXES)}, got {picture.name!r:.80}"
+        )
     columns = (TextColumn("measuring {task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=status, disable=status is None, transient=True) as bar:
         task = bar.add_task("", total=1.0)

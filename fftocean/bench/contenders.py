@@ -1,9 +1,10 @@
 """
 The same water by other means: what a frame costs is measured against these.
 
-Each takes an ocean and returns a function of nothing that makes the ocean's next frame, at other times in each call. What it makes
-is compared with the ocean's own frame before anything is timed (`same_water`): a contender that computes something else is no contender.
-None of them shares a line with the fast path.
+Each takes an ocean and returns a function of nothing that makes the ocean's next frame, at other
+times in each call. What it makes is compared with the ocean's own frame before anything is timed
+(`same_water`): a contender that computes something else is no contender. None of them shares a line
+with the fast path.
 """
 
 import ctypes
@@ -31,7 +32,10 @@ T0 = 3.7  # [s], at which waters are compared
 
 
 class Contender(Protocol):
-    """Makes one frame a call, each at a later time; `at` makes the frame of a given time and returns its fields by name."""
+    """
+    Makes one frame a call, each at a later time; `at` makes the frame of a given time and returns
+    its fields by name.
+    """
 
     def __call__(self) -> object: ...
     def at(self, t: float) -> Mapping[str, Real]: ...
@@ -58,7 +62,10 @@ class Fast:
 
 
 class Textbook:
-    """NumPy as tutorials write it: eight complex128 `ifft2` of filtered spectra, then normals and Jacobian, all in arrays of n x n."""
+    """
+    NumPy as tutorials write it: eight complex128 `ifft2` of filtered spectra, then normals and
+    Jacobian, all in arrays of n x n.
+    """
 
     def __init__(self, ocean: Ocean) -> None:
         self._h0, self._mirrored, self._omega, kx, ky, factor = spectrum(ocean)
@@ -83,10 +90,18 @@ class Textbook:
         linear = [np.fft.ifft2(f * h).real * h.size for f in self._filters]
         height, dx, dy, sx, sy, xx, xy, yy = linear
         c = self._choppiness
-        normal = np.cross(np.stack([1 + c * xx, c * xy, sx], -1), np.stack([c * xy, 1 + c * yy, sy], -1))
+        normal = np.cross(
+            np.stack([1 + c * xx, c * xy, sx], -1), np.stack([c * xy, 1 + c * yy, sy], -1)
+        )
         normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
         jacobian = (1 + c * xx) * (1 + c * yy) - (c * xy) ** 2
-        return {"height": height, "displace_x": dx, "displace_y": dy, "normal": normal, "jacobian": jacobian}
+        return {
+            "height": height,
+            "displace_x": dx,
+            "displace_y": dy,
+            "normal": normal,
+            "jacobian": jacobian,
+        }
 
     def transforms(self) -> Callable[[], object]:
         """Only its eight `np.fft.ifft2`: what no rewriting of the lines around them could save."""
@@ -95,7 +110,10 @@ class Textbook:
 
 
 class Careful:
-    """NumPy and SciPy as one writes them with care: half spectra in complex64, `scipy.fft.irfft2`, cross product by components."""
+    """
+    NumPy and SciPy as one writes them with care: half spectra in complex64, `scipy.fft.irfft2`,
+    cross product by components.
+    """
 
     def __init__(self, ocean: Ocean) -> None:
         h0, mirrored, omega, kx, ky, factor = spectrum(ocean)
@@ -104,7 +122,15 @@ class Careful:
         self._h0, self._mirrored = (h[:, half].astype(np.complex64) for h in (h0, mirrored))
         self._omega = omega[:, half]
         kx, ky, factor = (a[:, half] for a in (kx, ky, factor))
-        rows = [factor * 1j * kx, factor * 1j * ky, 1j * kx, 1j * ky, -kx * kx * factor, -kx * ky * factor, -ky * ky * factor]
+        rows = [
+            factor * 1j * kx,
+            factor * 1j * ky,
+            1j * kx,
+            1j * ky,
+            -kx * kx * factor,
+            -kx * ky * factor,
+            -ky * ky * factor,
+        ]
         self._filters = [row.astype(np.complex64) for row in rows]
         self._choppiness, self._times = np.float32(ocean.choppiness), times()
 
@@ -114,11 +140,14 @@ class Careful:
     def at(self, t: float) -> Mapping[str, Real]:
         from scipy import fft
 
-        angle = np.remainder(self._omega * t, 2 * np.pi).astype(np.float32)  # reduced in float64, cast once
+        angle = np.remainder(self._omega * t, 2 * np.pi).astype(
+            np.float32
+        )  # reduced in float64, cast once
         phase = np.cos(angle) - 1j * np.sin(angle)
         h = self._h0 * phase + self._mirrored * np.conj(phase)
         height, dx, dy, sx, sy, xx, xy, yy = (
-            fft.irfft2(spectrum, s=self._shape, norm="forward", workers=1) for spectrum in (h, *(f * h for f in self._filters))
+            fft.irfft2(spectrum, s=self._shape, norm="forward", workers=1)
+            for spectrum in (h, *(f * h for f in self._filters))
         )
         c = self._choppiness
         a, b, d = 1 + c * xx, c * xy, 1 + c * yy
@@ -128,14 +157,22 @@ class Careful:
         per_length = 1 / np.sqrt(x * x + y * y + jacobian * jacobian)
         for i, component in enumerate((x, y, jacobian)):
             np.multiply(component, per_length, out=normal[..., i])
-        return {"height": height, "displace_x": dx, "displace_y": dy, "normal": normal, "jacobian": jacobian}
+        return {
+            "height": height,
+            "displace_x": dx,
+            "displace_y": dy,
+            "normal": normal,
+            "jacobian": jacobian,
+        }
 
 
 class DirectSum:
     """
-    Every wave at every point, compiled, float64, one thread: the eight linear fields, at some points of the grid or at all.
+    Every wave at every point, compiled, float64, one thread: the eight linear fields, at some
+    points of the grid or at all.
 
-    `share` is the part of the grid's points that one call sums: its cost is exactly proportional to them.
+    `share` is the part of the grid's points that one call sums: its cost is exactly proportional to
+    them.
     """
 
     def __init__(self, ocean: Ocean, points: int | None = None) -> None:
@@ -165,16 +202,21 @@ class _Waves:
 
 def spectrum(ocean: Ocean) -> tuple[Complex, Complex, Real, Real, Real, Real]:
     """
-    Return the h0 of an ocean as textbooks have it, made from the list of its waves: arrays (ny, nx) in FFT order.
+    Return the h0 of an ocean as textbooks have it, made from the list of its waves: arrays (ny, nx)
+    in FFT order.
 
     Returns:
-        h0, conj(h0(-k)), omega [rad/s], kx, ky [rad/m], and 1 / (k tanh kh) [m], which is 0 at k = 0.
+        h0, conj(h0(-k)), omega [rad/s], kx, ky [rad/m], and 1 / (k tanh kh) [m], which is 0 at k =
+        0.
     """
     grid, waves = ocean.grid, ocean.modes()
     x, y = np.fft.fftfreq(grid.nx, grid.lx / grid.nx), np.fft.fftfreq(grid.ny, grid.ly / grid.ny)
     kx, ky = np.meshgrid(2 * np.pi * x, 2 * np.pi * y)
     k = np.hypot(kx, ky)
-    mx, my = (np.rint(k1 * length / (2 * np.pi)).astype(int) for k1, length in ((waves.kx, grid.lx), (waves.ky, grid.ly)))
+    mx, my = (
+        np.rint(k1 * length / (2 * np.pi)).astype(int)
+        for k1, length in ((waves.kx, grid.lx), (waves.ky, grid.ly))
+    )
     h0, omega = np.zeros(grid.shape, dtype=np.complex128), np.zeros(grid.shape)
     np.add.at(h0, (my, mx), 0.5 * waves.amplitude * np.exp(-1j * waves.phase))
     omega[my, mx] = omega[-my, -mx] = waves.omega
@@ -186,7 +228,8 @@ def spectrum(ocean: Ocean) -> tuple[Complex, Complex, Real, Real, Real, Real]:
 
 def same_water(ocean: Ocean, contender: Contender, t: float = T0) -> float:
     """
-    Return how far a contender's fields are from the ocean's own at time t, at worst, relative to each field's largest value.
+    Return how far a contender's fields are from the ocean's own at time t, at worst, relative to
+    each field's largest value.
 
     A contender that makes only some points, the first of the grid, is compared there.
     """
@@ -197,12 +240,16 @@ def same_water(ocean: Ocean, contender: Contender, t: float = T0) -> float:
         own = ours[name].astype(np.float64)
         largest = float(np.max(np.abs(own))) or 1.0
         other = np.asarray(field, dtype=np.float64)
-        apart = own - other if other.shape == own.shape else own.ravel()[: other.size] - other.ravel()
+        apart = (
+            own - other if other.shape == own.shape else own.ravel()[: other.size] - other.ravel()
+        )
         worst = max(worst, float(np.max(np.abs(apart))) / largest)
     return worst
 
 
-def require_same_water(ocean: Ocean, contenders: Mapping[str, Contender], *, within: float) -> float:
+def require_same_water(
+    ocean: Ocean, contenders: Mapping[str, Contender], *, within: float
+) -> float:
     """
     Return how far the contenders are from the ocean at worst.
 
@@ -212,16 +259,21 @@ def require_same_water(ocean: Ocean, contenders: Mapping[str, Contender], *, wit
     apart = {name: same_water(ocean, contender) for name, contender in contenders.items()}
     for name, figure in apart.items():
         if not figure <= within:
-            raise AssertionError(f"{name} shows other water: {figure:.1e} of the largest value apart, {within:.0e} allowed")
+            raise AssertionError(
+                f"{name} shows other water: {figure:.1e} of the largest value apart, {within:.0e} allowed"
+            )
     return max(apart.values(), default=0.0)
 
 
-# --- the floor: bare transforms of the same library ---------------------------------------------------------------------------
+# --- the floor: bare transforms of the same library
 
 
 @dataclass(frozen=True, slots=True)
 class Floor:
-    """Eight bare real transforms of n x n by one library, and one copy of what they make: no water, only the work under it."""
+    """
+    Eight bare real transforms of n x n by one library, and one copy of what they make: no water,
+    only the work under it.
+    """
 
     library: str
     how: str  # "all at once" or "one by one": whichever turned out faster here
@@ -238,10 +290,12 @@ class Floor:
 
 def floor(n: int, library: str, count: int = 8) -> Floor:
     """
-    Plan `count` inverse real transforms of n x n, float32, on one thread, with FFTW_MEASURE where the library plans.
+    Plan `count` inverse real transforms of n x n, float32, on one thread, with FFTW_MEASURE where
+    the library plans.
 
-    They are planned all at once and one by one, and the faster way is kept. The buffers hold zeros, on which arithmetic takes as long
-    as on anything; what a transform leaves in its input would grow without end.
+    They are planned all at once and one by one, and the faster way is kept. The buffers hold zeros,
+    on which arithmetic takes as long as on anything; what a transform leaves in its input would
+    grow without end.
 
     Raises:
         ParameterError: an unknown library, or one that is not installed.
@@ -292,11 +346,15 @@ def _with_pyfftw() -> Planner:
     try:
         import pyfftw
     except ImportError as error:
-        raise ParameterError(f"library 'pyfftw' must be installed (pip install pyfftw): {error}") from None
+        raise ParameterError(
+            f"library 'pyfftw' must be installed (pip install pyfftw): {error}"
+        ) from None
     flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")
 
     def plan(spectra: Complex, fields: Real) -> Callable[[], object]:
-        made = pyfftw.FFTW(spectra, fields, axes=(1, 2), direction="FFTW_BACKWARD", flags=flags, threads=1)
+        made = pyfftw.FFTW(
+            spectra, fields, axes=(1, 2), direction="FFTW_BACKWARD", flags=flags, threads=1
+        )
         run: Callable[[], object] = made.execute
         return run
 
@@ -310,7 +368,9 @@ def _with_mkl() -> Planner:
         count, n, half = spectra.shape
         source, target = spectra.ctypes.data, fields.ctypes.data
         shape = (ctypes.c_int * 2)(n, n)
-        made = library.fftwf_plan_many_dft_c2r(2, shape, count, source, None, 1, n * half, target, None, 1, n * n, 0)
+        made = library.fftwf_plan_many_dft_c2r(
+            2, shape, count, source, None, 1, n * half, target, None, 1, n * n, 0
+        )
         if not made:
             raise ParameterError(f"MKL has no plan for {count} transforms of {n} x {n}")
         return lambda: library.fftwf_execute(made)
@@ -331,7 +391,9 @@ def _mkl() -> Any:
         except OSError:
             continue
         if hasattr(library, "MKL_Set_Threading_Layer"):
-            library.MKL_Set_Threading_Layer(1)  # sequential; without effect where somebody was here before
+            library.MKL_Set_Threading_Layer(
+                1
+            )  # sequential; without effect where somebody was here before
         if hasattr(library, "MKL_Set_Num_Threads_Local"):
             library.MKL_Set_Num_Threads_Local(1)
         integer, pointer = ctypes.c_int, ctypes.c_void_p
@@ -348,15 +410,26 @@ def _mkl() -> Any:
     raise ParameterError("library 'mkl' must be installed (pip install mkl), and is not")
 
 
-_PLANNERS: dict[str, Callable[[], Planner]] = {"pyfftw": _with_pyfftw, "mkl": _with_mkl, "scipy": _with_scipy}
+_PLANNERS: dict[str, Callable[[], Planner]] = {
+    "pyfftw": _with_pyfftw,
+    "mkl": _with_mkl,
+    "scipy": _with_scipy,
+}
 
 
 def mkl_candidates() -> list[Path]:
-    """Where MKL's runtime library may lie: where its wheel says, then where environments keep their libraries."""
+    """
+    Where MKL's runtime library may lie: where its wheel says, then where environments keep their
+    libraries.
+    """
     found: list[Path] = []
     try:
         files = metadata.files("mkl") or []
-        found += [Path(str(file.locate())) for file in files if file.name.startswith(("libmkl_rt", "mkl_rt"))]
+        found += [
+            Path(str(file.locate()))
+            for file in files
+            if file.name.startswith(("libmkl_rt", "mkl_rt"))
+        ]
     except metadata.PackageNotFoundError:
         pass
     for folder, pattern in (("lib", "libmkl_rt*"), ("Library/bin", "mkl_rt*.dll")):

@@ -1,4 +1,7 @@
-"""Which law a cost follows: its exponent with the standard error, what it costs to call at all, and where two costs cross."""
+"""
+Which law a cost follows: its exponent with the standard error, what it costs to call at all, and
+where two costs cross.
+"""
 
 import math
 from collections.abc import Callable
@@ -24,7 +27,10 @@ class PowerLaw:
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """y = overhead + factor law(N): what a call costs before it does anything, and what each unit of work adds."""
+    """
+    y = overhead + factor law(N): what a call costs before it does anything, and what each unit of
+    work adds.
+    """
 
     overhead: float
     factor: float
@@ -33,12 +39,17 @@ class Cost:
     points: int
 
     def __call__(self, work: RealLike) -> Real:
-        return np.asarray(self.overhead + self.factor * self.law(np.asarray(work, dtype=np.float64)))
+        return np.asarray(
+            self.overhead + self.factor * self.law(np.asarray(work, dtype=np.float64))
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """Where one cost undercuts another for good: between two measured sizes, and at a point between them."""
+    """
+    Where one cost undercuts another for good: between two measured sizes, and at a point between
+    them.
+    """
 
     below: float  # the largest size at which it is still the dearer one
     above: float  # the next: from here on it is the cheaper one
@@ -90,7 +101,8 @@ def cost(work: RealLike, y: RealLike, law: Callable[[Real], Real]) -> Cost:
 
 def crossover(sizes: RealLike, challenger: RealLike, champion: RealLike) -> Crossing | None:
     """
-    Find from which size on the challenger costs less than the champion, at every larger size measured; None if it never does.
+    Find from which size on the challenger costs less than the champion, at every larger size
+    measured; None if it never does.
 
     Where it is the cheaper one from the first size on, `below` and `at` are that size.
 
@@ -99,7 +111,9 @@ def crossover(sizes: RealLike, challenger: RealLike, champion: RealLike) -> Cros
         challenger, champion: what each costs at these sizes, > 0.
     """
     n = np.asarray(sizes, dtype=np.float64)
-    lead = np.log(_positive(champion) / _positive(challenger))  # > 0 where the challenger costs less
+    lead = np.log(
+        _positive(champion) / _positive(challenger)
+    )  # > 0 where the challenger costs less
     if n.ndim != 1 or n.size != lead.size or np.any(np.diff(n) <= 0.0):
         raise ValueError("sizes must rise, one for each cost")
     if n.size == 0 or lead[-1] <= 0.0:
@@ -120,7 +134,10 @@ def _positive(values: RealLike) -> Real:
 
 
 def _not_negative(columns: Real) -> tuple[float, float]:
-    """The (a, b) >= 0 for which columns @ (a, b) comes nearest to 1: of the two unknowns, one may have to be 0."""
+    """
+    The (a, b) >= 0 for which columns @ (a, b) comes nearest to 1: of the two unknowns, one may have
+    to be 0.
+    """
     ones = np.ones(columns.shape[0])
     a, b = (float(v) for v in np.linalg.lstsq(columns, ones, rcond=None)[0])
     if a >= 0.0 and b >= 0.0:

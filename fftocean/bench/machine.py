@@ -33,9 +33,14 @@ def describe() -> dict[str, Any]:
 
 
 def moment() -> dict[str, Any]:
-    """Say how busy the machine is now: the load is that of the last minute, this measurement included."""
+    """
+    Say how busy the machine is now: the load is that of the last minute, this measurement included.
+    """
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else None
-    return {"utc": time.strftime("%Y-%m-%d %H:%M", time.gmtime()), "load": None if load is None else round(load, 2)}
+    return {
+        "utc": time.strftime("%Y-%m-%d %H:%M", time.gmtime()),
+        "load": None if load is None else round(load, 2),
+    }
 
 
 def instructions() -> list[str]:
@@ -43,7 +48,11 @@ def instructions() -> list[str]:
     for line in host.read("/proc/cpuinfo").splitlines():
         if line.startswith(("flags", "Features")):
             flags = set(line.partition(":")[2].split())
-            return [name for name in ("sse2", "avx", "avx2", "fma", "avx512f", "asimd", "sve") if name in flags]
+            return [
+                name
+                for name in ("sse2", "avx", "avx2", "fma", "avx512f", "asimd", "sve")
+                if name in flags
+            ]
     return []
 
 
@@ -75,12 +84,21 @@ def versions() -> dict[str, str]:
 
 
 def fft_libraries() -> dict[str, str]:
-    """The FFT libraries that an ocean can use here, the default first, with what they call themselves."""
-    return {backend: name for backend in transforms.BACKENDS if (name := transforms.library(backend)) is not None}
+    """
+    The FFT libraries that an ocean can use here, the default first, with what they call themselves.
+    """
+    return {
+        backend: name
+        for backend in transforms.BACKENDS
+        if (name := transforms.library(backend)) is not None
+    }
 
 
 def backends() -> tuple[str, ...]:
-    """The FFT libraries that an ocean can use here, the default first, by the names that it knows them by."""
+    """
+    The FFT libraries that an ocean can use here, the default first, by the names that it knows them
+    by.
+    """
     return tuple(fft_libraries())
 
 

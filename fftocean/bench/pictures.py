@@ -1,4 +1,7 @@
-"""Pictures of costs: logarithmic axes, labels at the ends of lines, the same colours for the same contenders everywhere."""
+"""
+Pictures of costs: logarithmic axes, labels at the ends of lines, the same colours for the same
+contenders everywhere.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -23,7 +26,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 GREEN, PURPLE, BROWN, SLATE = SYSTEMS[1:]
-COLOURS: Mapping[str, str] = {"fft": BLUE, "textbook": VERMILION, "careful": BROWN, "direct": PURPLE, "floor": SLATE, "other": GREEN}
+COLOURS: Mapping[str, str] = {
+    "fft": BLUE,
+    "textbook": VERMILION,
+    "careful": BROWN,
+    "direct": PURPLE,
+    "floor": SLATE,
+    "other": GREEN,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +52,16 @@ class Line:
 
 
 @contextmanager
-def sheet(path: Path, title: str, result: Result, *, width: float = 9.0, height: float = 5.2) -> Iterator["Figure"]:
+def sheet(
+    path: Path, title: str, result: Result, *, width: float = 9.0, height: float = 5.2
+) -> Iterator["Figure"]:
     """
-    Yield an empty figure to draw on; write it, with its title and the machine at its foot, when that is done.
+    Yield an empty figure to draw on; write it, with its title and the machine at its foot, when
+    that is done.
 
     Raises:
-        ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg, .pdf.
+        ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg,
+            .pdf.
         OutputError: the file could not be written.
     """
     with plots.style():
@@ -69,14 +83,34 @@ def foot(result: Result) -> str:
     return f"{machine.one_line(dict(result.machine))}\n{result.before['utc']} UTC{busy}; medians of alternating runs"
 
 
-def curves(ax: "Axes", lines: Sequence[Line], *, xlabel: str, ylabel: str, sizes: Sequence[float] = ()) -> None:
-    """Draw curves on logarithmic axes, each named at its right end; labels that would overlap move apart."""
+def curves(
+    ax: "Axes", lines: Sequence[Line], *, xlabel: str, ylabel: str, sizes: Sequence[float] = ()
+) -> None:
+    """
+    Draw curves on logarithmic axes, each named at its right end; labels that would overlap move
+    apart.
+    """
     ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
     for line in lines:
         x, y = np.asarray(line.x, dtype=float), np.asarray(line.y, dtype=float)
-        ax.plot(x, y, linestyle=line.style, color=line.colour, marker=line.marker, markersize=4.5, linewidth=line.width)
+        ax.plot(
+            x,
+            y,
+            linestyle=line.style,
+            color=line.colour,
+            marker=line.marker,
+            markersize=4.5,
+            linewidth=line.width,
+        )
         if line.low is not None and line.high is not None:
-            ax.fill_between(x, np.asarray(line.low), np.asarray(line.high), color=line.colour, alpha=0.18, linewidth=0.0)
+            ax.fill_between(
+                x,
+                np.asarray(line.low),
+                np.asarray(line.high),
+                color=line.colour,
+                alpha=0.18,
+                linewidth=0.0,
+            )
     ax.minorticks_off()
     if sizes:
         ax.set_xticks(list(sizes), [f"{size:g}" for size in sizes])
@@ -93,13 +127,19 @@ def bars(ax: "Axes", rows: Sequence[tuple[str, float, str, str]], *, xlabel: str
         ax.text(value, -i, f"  {words}", va="center", ha="left", fontsize=9.5, color=INK)
     ax.set_yticks([-i for i in range(len(rows))], [name for name, *_ in rows])
     ax.tick_params(axis="y", length=0)
-    ax.set(xlabel=xlabel, xlim=(0.0, 1.6 * max(value for _, value, *_ in rows)), xticks=[] if not xlabel else ax.get_xticks())
+    ax.set(
+        xlabel=xlabel,
+        xlim=(0.0, 1.6 * max(value for _, value, *_ in rows)),
+        xticks=[] if not xlabel else ax.get_xticks(),
+    )
     for side in ("left", *(() if xlabel else ("bottom",))):
         ax.spines[side].set_visible(False)
 
 
 def plain(value: float) -> str:
-    """A number as one says it: 0.5, 20, 3,000; powers of ten only where nobody could count the zeros."""
+    """
+    A number as one says it: 0.5, 20, 3,000; powers of ten only where nobody could count the zeros.
+    """
     if value == 0.0:
         return "0"
     if not 1e-4 <= abs(value) < 1e7:
@@ -109,7 +149,13 @@ def plain(value: float) -> str:
 
 def duration(milliseconds: float) -> str:
     """A time in the unit in which one would say it."""
-    for unit, length, limit in (("µs", 1e-3, 1.0), ("ms", 1.0, 1e3), ("s", 1e3, 120e3), ("min", 60e3, 7200e3), ("h", 3600e3, 172800e3)):
+    for unit, length, limit in (
+        ("µs", 1e-3, 1.0),
+        ("ms", 1.0, 1e3),
+        ("s", 1e3, 120e3),
+        ("min", 60e3, 7200e3),
+        ("h", 3600e3, 172800e3),
+    ):
         if milliseconds < 0.9995 * limit:  # 0.9996 ms are 1.00 ms, not 1,000 µs
             return f"{_two(milliseconds / length)} {unit}"
     return f"{_two(milliseconds / 86400e3)} days"
@@ -117,15 +163,27 @@ def duration(milliseconds: float) -> str:
 
 def _two(value: float) -> str:
     """At least two digits."""
-    return f"{value:,.0f}" if value >= 99.5 else f"{value:#.3g}".rstrip(".") if value < 9.995 else f"{value:.1f}"
+    return (
+        f"{value:,.0f}"
+        if value >= 99.5
+        else f"{value:#.3g}".rstrip(".")
+        if value < 9.995
+        else f"{value:.1f}"
+    )
 
 
 def _name_at_ends(ax: "Axes", lines: Sequence[Line]) -> None:
-    """Write each line's name right of its last point, pushed up or down until none covers another."""
-    named = sorted((line for line in lines if line.label), key=lambda line: float(np.asarray(line.y)[-1]))
+    """
+    Write each line's name right of its last point, pushed up or down until none covers another.
+    """
+    named = sorted(
+        (line for line in lines if line.label), key=lambda line: float(np.asarray(line.y)[-1])
+    )
     if not named:
         return
-    cast("Figure", ax.figure).draw_without_rendering()  # the limits must stand before places are given out
+    cast(
+        "Figure", ax.figure
+    ).draw_without_rendering()  # the limits must stand before places are given out
     to_pixels, height = ax.transData, 11.5 * DPI / 72.0
     places: list[list[Any]] = []
     for line in named:

@@ -1,4 +1,7 @@
-"""The two-minute version: what a frame costs on this machine, how much faster than the usual ways that is, and what two threads help."""
+"""
+The two-minute version: what a frame costs on this machine, how much faster than the usual ways that
+is, and what two threads help.
+"""
 
 import time
 import warnings
@@ -21,8 +24,12 @@ SIZES = (128, 256, 512, 1024)
 DIRECT_SIZES = (4, 6, 8, 10, 12, 16, 24, 32, 48, 64, 128)
 SECONDS = Quantity("s", 0.0, 86400.0)
 ASKS = "What does a frame of water cost here, and what would it cost by other means?"
-DIRECT_CALL = 2.5e7  # waves x points that one call of the direct sum may take, about half a second; beyond, it sums a part of the points
-WITHIN = 1e-5  # of the largest value: float32 has 1e-7, a transform's rounding grows it tenfold, normals more; another sea is apart by 1
+# waves x points that one call of the direct sum may take, about half a second; beyond, it sums a
+# part of the points
+DIRECT_CALL = 2.5e7
+# of the largest value: float32 has 1e-7, a transform's rounding grows it tenfold, normals more;
+# another sea is apart by 1
+WITHIN = 1e-5
 
 
 def sea() -> Sea:
@@ -31,12 +38,27 @@ def sea() -> Sea:
 
 
 def ocean(
-    n: int, *, size: float = 300.0, dtype: str = "float32", backend: str = "auto", planning: str = "measure", threads: int = 1
+    n: int,
+    *,
+    size: float = 300.0,
+    dtype: str = "float32",
+    backend: str = "auto",
+    planning: str = "measure",
+    threads: int = 1,
 ) -> Ocean:
     """The tile of all benchmarks, n x n."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SeaWarning)
-        return Ocean(sea(), n=n, size=size, seed=7, dtype=dtype, backend=backend, planning=planning, threads=threads)
+        return Ocean(
+            sea(),
+            n=n,
+            size=size,
+            seed=7,
+            dtype=dtype,
+            backend=backend,
+            planning=planning,
+            threads=threads,
+        )
 
 
 def quick(
@@ -47,7 +69,8 @@ def quick(
     progress: Callable[[str, float], object] | None = None,
 ) -> Result:
     """
-    Measure for about `seconds`; the least that can be told takes some ten, of which most is the largest size.
+    Measure for about `seconds`; the least that can be told takes some ten, of which most is the
+    largest size.
 
     Args:
         seconds: how long, compiling and planning included [s].
@@ -82,7 +105,12 @@ def quick(
     if cross := crossing(readings):
         readings.append(cross)
     say("done")
-    settings = {"seconds": seconds, "sizes": list(sizes), "direct_sizes": list(direct_sizes), "planning": "measure"}
+    settings = {
+        "seconds": seconds,
+        "sizes": list(sizes),
+        "direct_sizes": list(direct_sizes),
+        "planning": "measure",
+    }
     return answer("bench", ASKS, readings, settings, before)
 
 
@@ -100,27 +128,51 @@ def frames(n: int, seconds: float, tick: Callable[[], object]) -> list[Reading]:
     readings = race([full, height, *others], pairs, clock="cpu", seconds=0.65 * seconds, tick=tick)
     if host.cores() > 1:
         two = Entry("full frame", Fast(ocean(n, threads=2)), {**at, "threads": 2})
-        readings += race([full, two], [Pair("one thread / two", full, two)], clock="wall", seconds=0.35 * seconds, tick=tick)
+        readings += race(
+            [full, two],
+            [Pair("one thread / two", full, two)],
+            clock="wall",
+            seconds=0.35 * seconds,
+            tick=tick,
+        )
     return readings
 
 
 def direct(n: int, seconds: float) -> list[Reading]:
-    """Time the eight linear fields by FFT against summing all waves at all points, or at as many as can be waited for."""
+    """
+    Time the eight linear fields by FFT against summing all waves at all points, or at as many as
+    can be waited for.
+    """
     own = ocean(n)
     waves = max(1, own.modes().kx.size)
-    slow = DirectSum(own, points=max(1, int(DIRECT_CALL / waves)) if waves * n * n > DIRECT_CALL else None)
+    slow = DirectSum(
+        own, points=max(1, int(DIRECT_CALL / waves)) if waves * n * n > DIRECT_CALL else None
+    )
     require_same_water(own, {"direct sum": slow}, within=WITHIN)
     fft = Entry("eight fields, FFT", Fast(own, EIGHT), {"n": n, "dtype": "float32"})
-    summed = Entry("eight fields, direct sum", slow, {"n": n, "points": round(slow.share * n * n), "waves": waves})
-    readings = race([fft, summed], [Pair("direct sum / FFT", summed, fft)], clock="cpu", seconds=seconds)
+    summed = Entry(
+        "eight fields, direct sum",
+        slow,
+        {"n": n, "points": round(slow.share * n * n), "waves": waves},
+    )
+    readings = race(
+        [fft, summed], [Pair("direct sum / FFT", summed, fft)], clock="cpu", seconds=seconds
+    )
     return [r.scaled(1.0 / slow.share) if "direct sum" in r.what else r for r in readings]
 
 
 def crossing(readings: Sequence[Reading]) -> Reading | None:
-    """From which n on the FFT costs less than the direct sum, of readings by `direct`; None if it never does."""
+    """
+    From which n on the FFT costs less than the direct sum, of readings by `direct`; None if it
+    never does.
+    """
     ratios = sorted((r for r in readings if r.what == "direct sum / FFT"), key=lambda r: r.at["n"])
     if len(ratios) < 2:
         return None
     sizes = [float(r.at["n"]) for r in ratios]
     cross = crossover(sizes, np.ones(len(ratios)), [r.median for r in ratios])
-    return None if cross is None else Reading("crossover", "n", cross.at, cross.below, cross.above, len(ratios), "cpu", {})
+    return (
+        None
+        if cross is None
+        else Reading("crossover", "n", cross.at, cross.below, cross.above, len(ratios), "cpu", {})
+    )

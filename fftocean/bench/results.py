@@ -1,4 +1,7 @@
-"""What was measured, as a file that explains itself: the question, the machine, the settings, and every reading with its spread."""
+"""
+What was measured, as a file that explains itself: the question, the machine, the settings, and
+every reading with its spread.
+"""
 
 import json
 import math
@@ -7,10 +10,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fftocean.bake.files import as_json, write_whole
 from fftocean.bench import machine
 from fftocean.bench.timing import Clock, Summary, alternate, summary
 from fftocean.errors import ReaderError
+from fftocean.files import as_json, write_whole
 
 SCHEMA = 1
 UNITS = ("s", "ms", "ns", "MiB", "x", "%", "1/s", "m", "1", "n")
@@ -21,7 +24,9 @@ Condition = str | int | float | bool
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """One measured quantity: its median with quartiles, by which clock, and under which conditions."""
+    """
+    One measured quantity: its median with quartiles, by which clock, and under which conditions.
+    """
 
     what: str
     unit: str
@@ -30,28 +35,47 @@ class Reading:
     high: float
     count: int
     clock: str = ""  # "cpu", "wall", or "" for what no clock shows
-    at: Mapping[str, Condition] = field(default_factory=dict)  # n, backend, dtype, threads, fields, ...
+    at: Mapping[str, Condition] = field(
+        default_factory=dict
+    )  # n, backend, dtype, threads, fields, ...
 
     def __post_init__(self) -> None:
         numbers = (self.low, self.median, self.high)
         if not all(math.isfinite(v) for v in numbers) or not self.low <= self.median <= self.high:
-            raise ReaderError(f"{self.what}: low <= median <= high must hold, finite, got {numbers}")
+            raise ReaderError(
+                f"{self.what}: low <= median <= high must hold, finite, got {numbers}"
+            )
         if self.count < 1 or self.unit not in UNITS or self.clock not in CLOCKS:
-            raise ReaderError(f"{self.what}: count, unit or clock is none of ours, got {self.count}, {self.unit!r}, {self.clock!r}")
+            raise ReaderError(
+                f"{self.what}: count, unit or clock is none of ours, got {self.count}, {self.unit!r}, {self.clock!r}"
+            )
 
     @classmethod
-    def of(cls, what: str, unit: str, s: Summary, at: Mapping[str, Condition], *, scale: float = 1.0, clock: str = "") -> "Reading":
+    def of(
+        cls,
+        what: str,
+        unit: str,
+        s: Summary,
+        at: Mapping[str, Condition],
+        *,
+        scale: float = 1.0,
+        clock: str = "",
+    ) -> "Reading":
         """A reading from a summary, each of its numbers times `scale`."""
         return cls(what, unit, scale * s.median, scale * s.low, scale * s.high, s.count, clock, at)
 
     @classmethod
-    def single(cls, what: str, unit: str, value: float, at: Mapping[str, Condition], *, clock: str = "") -> "Reading":
+    def single(
+        cls, what: str, unit: str, value: float, at: Mapping[str, Condition], *, clock: str = ""
+    ) -> "Reading":
         """A reading without spread: counted, reckoned, or measured once."""
         return cls(what, unit, float(value), float(value), float(value), 1, clock, at)
 
     def scaled(self, factor: float) -> "Reading":
         """The same, each of its numbers times a factor: what a part cost, for the whole."""
-        return replace(self, median=factor * self.median, low=factor * self.low, high=factor * self.high)
+        return replace(
+            self, median=factor * self.median, low=factor * self.low, high=factor * self.high
+        )
 
     def plain(self) -> dict[str, Any]:
         """As JSON has it."""
@@ -129,24 +153,51 @@ class Pair(NamedTuple):
 
 
 def race(
-    entries: Sequence[Entry], pairs: Sequence[Pair] = (), *, clock: Clock, seconds: float, tick: Callable[[], object] | None = None
+    entries: Sequence[Entry],
+    pairs: Sequence[Pair] = (),
+    *,
+    clock: Clock,
+    seconds: float,
+    tick: Callable[[], object] | None = None,
 ) -> list[Reading]:
-    """Let contenders take turns: the milliseconds of each, and the ratios of pairs, round by round, under the fast one's conditions."""
+    """
+    Let contenders take turns: the milliseconds of each, and the ratios of pairs, round by round,
+    under the fast one's conditions.
+    """
     names = {entry: str(i) for i, entry in enumerate(entries)}
     rounds = alternate({names[entry]: entry.run for entry in entries}, seconds=seconds, tick=tick)
-    readings = [Reading.of(e.what, "ms", rounds.seconds(names[e], clock), e.at, scale=1e3, clock=clock) for e in entries]
+    readings = [
+        Reading.of(e.what, "ms", rounds.seconds(names[e], clock), e.at, scale=1e3, clock=clock)
+        for e in entries
+    ]
     for pair in pairs:
         ratio = rounds.ratio(names[pair.slow], names[pair.fast], clock)
         readings.append(Reading.of(pair.what, "x", ratio, pair.fast.at, clock=clock))
     if clock == "cpu":  # 1 where the work had its core to itself, more where others took it away
         first = names[entries[0]]
-        readings.append(Reading.of(BUSY, "x", summary(rounds.wall[first] / rounds.cpu[first]), entries[0].at))
+        readings.append(
+            Reading.of(BUSY, "x", summary(rounds.wall[first] / rounds.cpu[first]), entries[0].at)
+        )
     return readings
 
 
-def answer(question: str, asks: str, readings: Iterable[Reading], settings: Mapping[str, Any], before: Mapping[str, Any]) -> Result:
+def answer(
+    question: str,
+    asks: str,
+    readings: Iterable[Reading],
+    settings: Mapping[str, Any],
+    before: Mapping[str, Any],
+) -> Result:
     """Put readings together with the machine that they were taken on."""
-    return Result(question, asks, tuple(readings), dict(settings), machine.describe(), before, machine.moment())
+    return Result(
+        question,
+        asks,
+        tuple(readings),
+        dict(settings),
+        machine.describe(),
+        before,
+        machine.moment(),
+    )
 
 
 def read(path: Path) -> Result:
@@ -183,21 +234,31 @@ def parse(tree: Any, source: str = "result") -> Result:
     }
     for key, kind in kinds.items():
         if not isinstance(tree.get(key), kind):
-            raise ReaderError(f"{source}: {key} must be a {kind.__name__}, got {tree.get(key)!r:.40}")
+            raise ReaderError(
+                f"{source}: {key} must be a {kind.__name__}, got {tree.get(key)!r:.40}"
+            )
     if extra := sorted(tree.keys() - kinds.keys() - {"schema"}):
         raise ReaderError(f"{source}: nothing is known of {', '.join(extra)}")
-    readings = tuple(_reading(row, f"{source}: readings[{i}]") for i, row in enumerate(tree["readings"]))
+    readings = tuple(
+        _reading(row, f"{source}: readings[{i}]") for i, row in enumerate(tree["readings"])
+    )
     return Result(readings=readings, **{key: tree[key] for key in kinds if key != "readings"})
 
 
 def _reading(row: Any, source: str) -> Reading:
     try:
         rest = dict(row)
-        what, unit, median, count, clock = (rest.pop(key) for key in ("what", "unit", "median", "count", "clock"))
+        what, unit, median, count, clock = (
+            rest.pop(key) for key in ("what", "unit", "median", "count", "clock")
+        )
         low, high = rest.pop("quartiles")
         words, numbers = (what, unit, clock), (median, low, high)
         whole = all(isinstance(word, str) for word in words) and all(_is_number(v) for v in numbers)
-        if not whole or type(count) is not int or not all(isinstance(v, str | int | float) for v in rest.values()):
+        if (
+            not whole
+            or type(count) is not int
+            or not all(isinstance(v, str | int | float) for v in rest.values())
+        ):
             raise TypeError("a value of another kind")
         return Reading(what, unit, float(median), float(low), float(high), count, clock, rest)
     except (KeyError, TypeError, ValueError) as error:  # a ReaderError is a ValueError

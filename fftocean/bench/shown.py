@@ -1,4 +1,7 @@
-"""The two-minute version, told to somebody who knows nothing of it: a table, a few sentences, one picture."""
+"""
+The two-minute version, told to somebody who knows nothing of it: a table, a few sentences, one
+picture.
+"""
 
 import math
 from pathlib import Path
@@ -37,19 +40,30 @@ def sentences(result: Result) -> list[str]:
         f"That is {gains['textbook']:.1f} times as fast as NumPy as the textbooks write it, and {gains['careful']:.1f} times as fast "
         f"as NumPy and SciPy with care. The height alone costs {100 * height:.0f} % of it.",
     ]
-    said += [f"Two threads make it {two.median:.2f} times as fast." for two in result.all("one thread / two", n=n)]
+    said += [
+        f"Two threads make it {two.median:.2f} times as fast."
+        for two in result.all("one thread / two", n=n)
+    ]
     last = max(result.all("direct sum / FFT"), key=lambda r: r.at["n"])
     m = int(last.at["n"])
     slow = result.find("eight fields, direct sum", n=m)
-    part = "" if slow.at["points"] == m * m else f" (reckoned from {slow.at['points']} of its {m * m} points)"
-    said.append(f"Summed wave by wave, {m} x {m} takes {duration(slow.median)}{part}: {plain(last.median)} times as long as by FFT.")
+    part = (
+        ""
+        if slow.at["points"] == m * m
+        else f" (reckoned from {slow.at['points']} of its {m * m} points)"
+    )
+    said.append(
+        f"Summed wave by wave, {m} x {m} takes {duration(slow.median)}{part}: {plain(last.median)} times as long as by FFT."
+    )
     for cross in result.all("crossover"):
         where = "at every n tried" if cross.low == cross.high else f"from n = {cross.high:g} on"
         said.append(f"The FFT wins {where}; fewer waves than that are better summed one by one.")
     if not result.all("crossover"):
         said.append(f"Up to n = {m} the direct sum is never the dearer one.")
     if (busy := float(np.median([r.median for r in result.all(BUSY)]))) > 1.1:
-        said.append(f"The machine was busy: a second of work took {busy:.1f} s. Trust the ratios; two threads gain more on a quiet one.")
+        said.append(
+            f"The machine was busy: a second of work took {busy:.1f} s. Trust the ratios; two threads gain more on a quiet one."
+        )
     return said
 
 
@@ -60,13 +74,26 @@ def table(result: Result) -> "RenderableType":
     from rich.text import Text
 
     rows = Table(title=Text(result.asks), title_justify="left", box=None, pad_edge=False)
-    for heading in ("samples", "full frame", "frames/s", "two threads", "height only", "careful SciPy", "textbook NumPy", "direct sum"):
+    for heading in (
+        "samples",
+        "full frame",
+        "frames/s",
+        "two threads",
+        "height only",
+        "careful SciPy",
+        "textbook NumPy",
+        "direct sum",
+    ):
         rows.add_column(heading, justify="left" if heading == "samples" else "right")
     for n in result.settings["sizes"]:
         full = _full(result, n).median
         cells = [f"{n} x {n}", duration(full), plain(1e3 / full)]
         two = result.all("one thread / two", n=n)
-        cells.append(f"{duration(_on_two_threads(result, n))}  {1.0 / two[0].median:.2f} x" if two else "one core only")
+        cells.append(
+            f"{duration(_on_two_threads(result, n))}  {1.0 / two[0].median:.2f} x"
+            if two
+            else "one core only"
+        )
         cells.append(duration(result.find("height only", n=n).median))
         for name in OTHERS:
             ratio = result.find(f"{name} / full frame", n=n).median
@@ -84,7 +111,8 @@ def picture(result: Result, path: Path) -> None:
     Draw the answer.
 
     Raises:
-        ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg, .pdf.
+        ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg,
+            .pdf.
         OutputError: the file could not be written.
     """
     with sheet(path, title(result), result, width=12.0, height=5.6) as figure:
@@ -94,7 +122,10 @@ def picture(result: Result, path: Path) -> None:
 
 
 def direct_sum(result: Result, n: int) -> tuple[float, bool]:
-    """What the direct sum takes for n x n [ms], and whether all its points were measured; else it is reckoned, as n^4 or by points."""
+    """
+    What the direct sum takes for n x n [ms], and whether all its points were measured; else it is
+    reckoned, as n^4 or by points.
+    """
     sums = result.all("eight fields, direct sum")
     for row in sums:
         if row.at["n"] == n:
@@ -113,9 +144,23 @@ def _draw_costs(ax: "Axes", result: Result) -> None:
     ):
         rows = [result.find(what, n=n, clock="cpu") for n in sizes]
         low, high = [r.low for r in rows], [r.high for r in rows]
-        lines.append(Line(label, sizes, [r.median for r in rows], colour, low, high, width=2.6 if colour == BLUE else 2.0))
+        lines.append(
+            Line(
+                label,
+                sizes,
+                [r.median for r in rows],
+                colour,
+                low,
+                high,
+                width=2.6 if colour == BLUE else 2.0,
+            )
+        )
     if result.all("one thread / two"):
-        lines.append(Line("two threads", sizes, [_on_two_threads(result, n) for n in sizes], BLUE, style="--"))
+        lines.append(
+            Line(
+                "two threads", sizes, [_on_two_threads(result, n) for n in sizes], BLUE, style="--"
+            )
+        )
     fft = _by_size(result, "eight fields, FFT")
     for rows, label, style, colour in (
         (_by_size(result, "eight fields, direct sum"), "direct sum", "-", COLOURS["direct"]),
@@ -127,16 +172,44 @@ def _draw_costs(ax: "Axes", result: Result) -> None:
     ticks = sorted(n for n in tried if n & (n - 1) == 0) or sorted(tried)
     curves(ax, lines, xlabel="samples a side, n", ylabel="one frame [ms]", sizes=ticks)
     start = (float(fft[0].at["n"]), fft[0].median)
-    ax.annotate("by FFT", start, xytext=(2, 6), textcoords="offset points", fontsize=8.5, color=BLUE)
+    ax.annotate(
+        "by FFT", start, xytext=(2, 6), textcoords="offset points", fontsize=8.5, color=BLUE
+    )
     level, edge = 1e3 / 60.0, ax.get_xlim()[0]
     ax.axhline(level, color=FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
-    ax.annotate("60 frames a second", (edge, level), xytext=(4, 3), textcoords="offset points", fontsize=8.5, color=FAINT)
+    ax.annotate(
+        "60 frames a second",
+        (edge, level),
+        xytext=(4, 3),
+        textcoords="offset points",
+        fontsize=8.5,
+        color=FAINT,
+    )
     for cross in result.all("crossover"):
         n, sums = cross.median, COLOURS["direct"]
-        height = float(np.interp(math.log(n), [math.log(float(r.at["n"])) for r in fft], [r.median for r in fft]))
-        ax.plot([n], [height], "o", markersize=11, markerfacecolor="none", markeredgecolor=sums, markeredgewidth=1.6)
+        height = float(
+            np.interp(
+                math.log(n), [math.log(float(r.at["n"])) for r in fft], [r.median for r in fft]
+            )
+        )
+        ax.plot(
+            [n],
+            [height],
+            "o",
+            markersize=11,
+            markerfacecolor="none",
+            markeredgecolor=sums,
+            markeredgewidth=1.6,
+        )
         words = f"they cross\nat n = {n:.0f}"
-        ax.annotate(words, (n, height), xytext=(9, -28), textcoords="offset points", fontsize=9.0, color=sums)
+        ax.annotate(
+            words,
+            (n, height),
+            xytext=(9, -28),
+            textcoords="offset points",
+            fontsize=9.0,
+            color=sums,
+        )
     ax.set_title("What a frame costs, and how that grows")
 
 
@@ -144,19 +217,29 @@ def _draw_one_frame(ax: "Axes", result: Result) -> None:
     """What one frame costs, by all means that can be drawn to one scale."""
     n = _spoken_of(result)
     full, height = _full(result, n).median, result.find("height only", n=n).median
-    rows = [("fftocean", full, duration(full), BLUE), ("its height only", height, duration(height), PALE)]
+    rows = [
+        ("fftocean", full, duration(full), BLUE),
+        ("its height only", height, duration(height), PALE),
+    ]
     for two in result.all("one thread / two", n=n):
         both = _on_two_threads(result, n)
-        rows.append(("on two threads", both, f"{duration(both)}, {two.median:.2f} times as fast", PALE))
+        rows.append(
+            ("on two threads", both, f"{duration(both)}, {two.median:.2f} times as fast", PALE)
+        )
     for name, label in OTHERS.items():
-        other, ratio = result.find(name, n=n).median, result.find(f"{name} / full frame", n=n).median
+        other, ratio = (
+            result.find(name, n=n).median,
+            result.find(f"{name} / full frame", n=n).median,
+        )
         rows.append((label, other, f"{duration(other)}, {ratio:.1f} times as long", COLOURS[name]))
     bars(ax, rows)
     ax.set_title(f"One frame of {n} x {n}")
     slow, measured = direct_sum(result, n)
     taken = f"{'' if measured else 'about '}{duration(slow)}"
     words = f"The direct sum is not drawn: it takes {taken},\na bar {plain(slow / full)} times as long as the first."
-    ax.text(0.0, -0.02, words, transform=ax.transAxes, fontsize=9.0, color=COLOURS["direct"], va="top")
+    ax.text(
+        0.0, -0.02, words, transform=ax.transAxes, fontsize=9.0, color=COLOURS["direct"], va="top"
+    )
 
 
 def _full(result: Result, n: int) -> Reading:
@@ -165,7 +248,10 @@ def _full(result: Result, n: int) -> Reading:
 
 
 def _on_two_threads(result: Result, n: int) -> float:
-    """What a full frame takes on two threads [ms]: that of one thread, over what the two gained side by side on the wall's clock."""
+    """
+    What a full frame takes on two threads [ms]: that of one thread, over what the two gained side
+    by side on the wall's clock.
+    """
     return _full(result, n).median / result.find("one thread / two", n=n).median
 
 

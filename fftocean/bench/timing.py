@@ -1,8 +1,9 @@
 """
 Who is faster, and by how much: contenders that take turns, and ratios taken turn by turn.
 
-A machine is never the same for two seconds: clocks rise and sink, others come and go. So the contenders run in turn, each ratio is
-taken between two that ran side by side, and what is reported is the median of these ratios with its quartiles, not a ratio of best times.
+A machine is never the same for two seconds: clocks rise and sink, others come and go. So the
+contenders run in turn, each ratio is taken between two that ran side by side, and what is reported
+is the median of these ratios with its quartiles, not a ratio of best times.
 """
 
 import time
@@ -15,9 +16,14 @@ import numpy as np
 from fftocean.arrays import Real
 
 Clock = Literal["cpu", "wall"]
-"""`cpu`: the time of all threads of this process, which others cannot lengthen much. `wall`: what a clock on the wall shows."""
+"""
+`cpu`: the time of all threads of this process, which others cannot lengthen much. `wall`: what a
+clock on the wall shows.
+"""
 
-SAMPLE = 5e-3  # [s] that one sample takes at least: far above the clocks' own 1e-6, and several frames of what fits the cache
+# [s] that one sample takes at least: far above the clocks' own 1e-6, and several frames of what
+# fits the cache
+SAMPLE = 5e-3
 ROUNDS = 3  # at least
 
 
@@ -33,7 +39,10 @@ class Summary:
 
 @dataclass(frozen=True, slots=True)
 class Rounds:
-    """The samples of contenders that took turns: seconds a call, (rounds,) for each, of both clocks; entry i of all is from round i."""
+    """
+    The samples of contenders that took turns: seconds a call, (rounds,) for each, of both clocks;
+    entry i of all is from round i.
+    """
 
     cpu: Mapping[str, Real]
     wall: Mapping[str, Real]
@@ -77,8 +86,9 @@ def alternate(
     """
     Time contenders in turn, warmed up, for about `seconds`.
 
-    Each first runs twice untimed: once to compile and plan, once to see how many calls make a sample. Every other round goes
-    backwards, so that nobody always inherits the same neighbour's cache.
+    Each first runs twice untimed: once to compile and plan, once to see how many calls make a
+    sample. Every other round goes backwards, so that nobody always inherits the same neighbour's
+    cache.
 
     Args:
         contenders: what to call, by name.
@@ -106,11 +116,17 @@ def alternate(
         done += 1
         if tick:
             tick()
-    return Rounds({name: np.array(t) for name, t in cpu.items()}, {name: np.array(t) for name, t in wall.items()})
+    return Rounds(
+        {name: np.array(t) for name, t in cpu.items()},
+        {name: np.array(t) for name, t in wall.items()},
+    )
 
 
 def _calls_a_sample(run: Callable[[], object], sample: float) -> int:
-    """Warm up, and count how many calls fill a sample [s]. A call that takes a quarter of a second needs no second one to be warm."""
+    """
+    Warm up, and count how many calls fill a sample [s]. A call that takes a quarter of a second
+    needs no second one to be warm.
+    """
     once = _seconds(run)
     if once < 0.25:
         once = _seconds(run)

@@ -45,7 +45,9 @@ def tiles(frames: int, rows: int, columns: int, gutter: int = 0) -> tuple[int, i
     fitting = [
         (across, frames // across)
         for across in range(1, frames + 1)
-        if frames % across == 0 and across * wide <= LARGEST_SIDE and frames // across * high <= LARGEST_SIDE
+        if frames % across == 0
+        and across * wide <= LARGEST_SIDE
+        and frames // across * high <= LARGEST_SIDE
     ]
     if not fitting:
         raise ParameterError(
@@ -111,7 +113,9 @@ def _encode(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
     return halves(pixels).astype("<f2", copy=False).tobytes()
 
 
-def _decode(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+def _decode(
+    data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
+) -> list[npt.NDArray[Any]]:
     rows, columns, count = require_shape(shape, "exr-atlas")
     require_size(data, 2 * rows * columns * count, "exr-atlas")
     words = np.frombuffer(data, dtype="<f2").reshape(rows, columns, count)

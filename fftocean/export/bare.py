@@ -65,7 +65,9 @@ def decoder(
 ) -> Callable[[bytes, tuple[int, int, int] | None, Scale, int], list[npt.NDArray[Any]]]:
     """Return the inverse of `encode_rgba`, for messages under a format's name."""
 
-    def decode(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, levels: int) -> list[npt.NDArray[Any]]:
+    def decode(
+        data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, levels: int
+    ) -> list[npt.NDArray[Any]]:
         rows, columns, count = require_shape(shape, name)
         sizes = level_sizes(rows, columns, levels)
         require_size(data, sum(TEXEL * r * c for r, c in sizes), name)
@@ -74,7 +76,9 @@ def decoder(
             words = np.frombuffer(data, dtype="<f2", count=4 * r * c, offset=at)
             texels = words.reshape(r, c, 4).astype(np.float16)
             if count < 4 and np.any(texels[..., 3] != 1.0):
-                raise IntegrityError(f"format {name} must have a 1 in A where a map has {count} channels")
+                raise IntegrityError(
+                    f"format {name} must have a 1 in A where a map has {count} channels"
+                )
             held = texels if count == 4 else texels[..., :3]
             found.append(finite_again(counted(held, (r, c, count))))
             at += TEXEL * r * c
@@ -136,7 +140,9 @@ def _encode_words(pixels: Real, scale: Scale, _levels: Sequence[Real]) -> bytes:
     return quantised.to_steps(pixels, scale.lo, scale.hi).astype("<u2").tobytes()
 
 
-def _decode_words(data: bytes, shape: tuple[int, int, int] | None, scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+def _decode_words(
+    data: bytes, shape: tuple[int, int, int] | None, scale: Scale, _levels: int
+) -> list[npt.NDArray[Any]]:
     rows, columns, count = require_shape(shape, "r16")
     require_size(data, 2 * rows * columns * count, "r16")
     words = np.frombuffer(data, dtype="<u2").reshape(rows, columns, count)

@@ -1,8 +1,10 @@
 """
-CRC-32C, the checksum of a Zarr chunk, without a compiled library: many lanes side by side, then folded into one.
+CRC-32C, the checksum of a Zarr chunk, without a compiled library: many lanes side by side, then
+folded into one.
 
-A cyclic redundancy check is the remainder of a polynomial over two elements, and so linear: the lanes are computed as if each stood
-alone, and a lane's remainder moves past the n bytes that follow it by a multiplication with x^(8n). Leading zeros change nothing.
+A cyclic redundancy check is the remainder of a polynomial over two elements, and so linear: the
+lanes are computed as if each stood alone, and a lane's remainder moves past the n bytes that follow
+it by a multiplication with x^(8n). Leading zeros change nothing.
 """
 
 import functools
@@ -20,8 +22,9 @@ def checksum(data: bytes | memoryview) -> int:
     """
     Return the CRC-32C of at least four bytes.
 
-    Source: Castagnoli, Braeuer & Herrmann, IEEE Trans. Communications 41 (1993); RFC 3720, appendix B.4, has the test vectors.
-    Pinned by tests/export/test_crc32c.py, against the bitwise definition, the vectors and another library.
+    Source: Castagnoli, Braeuer & Herrmann, IEEE Trans. Communications 41 (1993); RFC 3720, appendix
+    B.4, has the test vectors. Pinned by tests/export/test_crc32c.py, against the bitwise
+    definition, the vectors and another library.
     """
     columns = -(-len(data) // (4 * LANES))
     padded = np.zeros(4 * LANES * columns, dtype=np.uint8)
@@ -43,7 +46,9 @@ def checksum(data: bytes | memoryview) -> int:
 
 @functools.cache
 def _tables() -> tuple[Words, Words]:
-    """Return the images, four bytes on, of the register's two low bytes, and of its two high ones."""
+    """
+    Return the images, four bytes on, of the register's two low bytes, and of its two high ones.
+    """
     half = np.arange(2**16, dtype=np.uint32)
     return _moved(_past(4), half), _moved(_past(4), half << np.uint32(16))
 

@@ -113,7 +113,10 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
     },
     "gltf": {
         **_WEB,
-        **{name: _loader("no texture of core glTF: by an EXR loader with row 0 at v = 0") for name in _PICTURES},
+        **{
+            name: _loader("no texture of core glTF: by an EXR loader with row 0 at v = 0")
+            for name in _PICTURES
+        },
         "ktx2": Refusal("KHR_texture_basisu takes Basis Universal alone", "bin"),
     },
     "three": {
@@ -125,12 +128,16 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         **{name: _loader("by EXRLoader") for name in _PICTURES},
         **{name: _upload("for your own tools on the way") for name in _ARRAYS},
         **{
-            name: Refusal("its rows are those of EXRLoader; engine three has the others", "exr") for name in ("png16", "r16", "bin", "ktx2")
+            name: Refusal("its rows are those of EXRLoader; engine three has the others", "exr")
+            for name in ("png16", "r16", "bin", "ktx2")
         },
     },
     "babylon": {
         **_WEB,
-        **{name: _loader("by Texture, whose invertY is true", first_row="north", first_v=1) for name in _PICTURES},
+        **{
+            name: _loader("by Texture, whose invertY is true", first_row="north", first_v=1)
+            for name in _PICTURES
+        },
         "ktx2": Refusal(_NO_KTX2, "bin"),
     },
     "houdini": _row(
@@ -198,7 +205,9 @@ def profile_for(engine: str, format_name: str, normals: str = "engine") -> Profi
         raise ParameterError(f"format must be one of {known}, got {format_name!r:.40}")
     cell = TABLE[engine, format_name]
     if isinstance(cell, Refusal):
-        raise ParameterError(f"engine {engine} cannot use format {format_name}: {cell.reason}; choose format {cell.instead}")
+        raise ParameterError(
+            f"engine {engine} cannot use format {format_name}: {cell.reason}; choose format {cell.instead}"
+        )
     choices: dict[str, Normals] = {"engine": cell.normals, "signed": "signed", "packed": "packed"}
     if normals not in choices:
         raise ParameterError(f"normals must be one of {', '.join(choices)}, got {normals!r:.40}")

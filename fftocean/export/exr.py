@@ -1,7 +1,9 @@
 """
-OpenEXR in the one profile that opens everywhere: single part, scanline, ZIP, channels named R, G, B (, A), half or single precision.
+OpenEXR in the one profile that opens everywhere: single part, scanline, ZIP, channels named R, G, B
+(, A), half or single precision.
 
-OpenEXR compresses without the GIL, so that threads can encode side by side; ZIP is nine tenths of the time.
+OpenEXR compresses without the GIL, so that threads can encode side by side; ZIP is nine tenths of
+the time.
 """
 
 import io
@@ -33,7 +35,8 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
     Encode pixels as they shall stand in the file, row 0 on top, marked as data, not colour.
 
     Args:
-        pixels: (rows, columns, 1, 3 or 4), float16 or float32, every value finite. One channel is written as R, G and B alike.
+        pixels: (rows, columns, 1, 3 or 4), float16 or float32, every value finite. One channel is
+            written as R, G and B alike.
         periodic: mark it as repeating without a seam.
     """
     import OpenEXR
@@ -41,8 +44,16 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
     # OpenEXR writes wrong pixels from any array that is not C-contiguous, and does not say so
     pixels = np.ascontiguousarray(pixels)
     one = pixels.shape[2] == 1
-    channels = dict.fromkeys("RGB", np.ascontiguousarray(pixels[..., 0])) if one else {"RGBA"[: pixels.shape[2]]: pixels}
-    header: dict[str, Any] = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, "colorInteropID": "data"}
+    channels = (
+        dict.fromkeys("RGB", np.ascontiguousarray(pixels[..., 0]))
+        if one
+        else {"RGBA"[: pixels.shape[2]]: pixels}
+    )
+    header: dict[str, Any] = {
+        "compression": OpenEXR.ZIP_COMPRESSION,
+        "type": OpenEXR.scanlineimage,
+        "colorInteropID": "data",
+    }
     if periodic:
         header["wrapmodes"] = "periodic,periodic"
     stream = io.BytesIO()
@@ -52,14 +63,16 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
 
 def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
     """
-    Return the pixels of a file as they stand in it, (rows, columns, 3 or 4), in the precision they are stored in.
+    Return the pixels of a file as they stand in it, (rows, columns, 3 or 4), in the precision they
+    are stored in.
 
     Args:
         data: the file.
         shape: what (rows, columns) must be; asked before any pixel is read.
 
     Raises:
-        IntegrityError: the file is cut or bent, or another shape, or no such file as `encode` writes.
+        IntegrityError: the file is cut or bent, or another shape, or no such file as `encode`
+            writes.
     """
     import OpenEXR
 
@@ -68,11 +81,15 @@ def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
             low, high = OpenEXR.File(io.BytesIO(data), header_only=True).header()["dataWindow"]
             found = int(high[1]) - int(low[1]) + 1, int(high[0]) - int(low[0]) + 1
             if found != tuple(shape):
-                raise IntegrityError(f"an EXR picture must be {shape[0]} rows of {shape[1]}, got {found[0]} of {found[1]}")
+                raise IntegrityError(
+                    f"an EXR picture must be {shape[0]} rows of {shape[1]}, got {found[0]} of {found[1]}"
+                )
         channels = OpenEXR.File(io.BytesIO(data), separate_channels=True).channels()
         planes = [channels[name].pixels for name in ("RGBA" if len(channels) == 4 else "RGB")]
         if len(channels) != len(planes) or len({plane.dtype for plane in planes}) != 1:
-            raise IntegrityError(f"an EXR picture must have channels R, G, B (, A) of one type, got {', '.join(channels)}")
+            raise IntegrityError(
+                f"an EXR picture must have channels R, G, B (, A) of one type, got {', '.join(channels)}"
+            )
         return np.stack(planes, axis=-1)
     except IntegrityError:
         raise
@@ -93,14 +110,17 @@ def encode_half(red: Real, green: Real, blue: Real) -> bytes:
     for name, values in (("R", red), ("G", green), ("B", blue)):
         extreme = float(np.max(np.abs(values), initial=0.0))
         if not extreme <= HALF_MAX:
-            raise OutputError(f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, got {extreme:g}")
+            raise OutputError(
+                f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, got {extreme:g}"
+            )
         halves.append(values[::-1].astype(np.float16))
     return encode(np.stack(halves, axis=-1))
 
 
 def decode(data: bytes) -> tuple[Real, Real, Real]:
     """
-    Return the three channels of an EXR file, row 0 south again, in the precision they are stored in.
+    Return the three channels of an EXR file, row 0 south again, in the precision they are stored
+    in.
 
     Raises:
         IntegrityError: the file is cut or bent.
@@ -126,7 +146,9 @@ def _format(
     def encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
         return encode(rounded(pixels))
 
-    def decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+    def decode_frame(
+        data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
+    ) -> list[npt.NDArray[Any]]:
         pixels = read(data, None if shape is None else shape[:2])
         if pixels.dtype != stored:
             raise IntegrityError(f"format {name} must hold {stored}, got {pixels.dtype}")

@@ -174,7 +174,9 @@ def halves(pixels: Real) -> npt.NDArray[np.float16]:
     if pixels.dtype != np.float16:
         extreme = float(np.max(np.abs(pixels), initial=0.0))
         if not extreme <= HALF_MAX:
-            raise OutputError(f"values must stay within +-{HALF_MAX:g} to be half floats, got {extreme:g}")
+            raise OutputError(
+                f"values must stay within +-{HALF_MAX:g} to be half floats, got {extreme:g}"
+            )
     return finite(pixels, np.float16)
 
 
@@ -201,7 +203,9 @@ def counted(pixels: npt.NDArray[Any], shape: tuple[int, int, int] | None) -> npt
         return pixels
     alike = pixels.shape[2] == 3 and shape[2] == 1 and bool(np.all(pixels == pixels[..., :1]))
     if pixels.shape[:2] != tuple(shape[:2]) or not alike:
-        raise IntegrityError(f"a picture must hold a map of shape {tuple(shape)}, got {pixels.shape}")
+        raise IntegrityError(
+            f"a picture must hold a map of shape {tuple(shape)}, got {pixels.shape}"
+        )
     return np.ascontiguousarray(pixels[..., :1])
 
 

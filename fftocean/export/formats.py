@@ -26,7 +26,9 @@ from fftocean.export.profiles import PROFILES, Kind, Profile
 from fftocean.export.quantised import Limit
 from fftocean.export.zarr3 import ZARR
 
-FORMATS: dict[str, Format] = {one.name: one for one in (EXR, EXR_FLOAT, PNG16, R16, NPZ, BIN, KTX2, EXR_ATLAS, ZARR)}
+FORMATS: dict[str, Format] = {
+    one.name: one for one in (EXR, EXR_FLOAT, PNG16, R16, NPZ, BIN, KTX2, EXR_ATLAS, ZARR)
+}
 
 __all__ = [
     "FORMATS", "Format", "assemble", "atlas", "decode", "decode_levels", "encode", "payloads",
@@ -39,7 +41,9 @@ SCHEMA = 1
 """Version of the sidecars: what a reader of another one must not guess at."""
 
 
-def require(name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gutter: int = 0) -> None:
+def require(
+    name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gutter: int = 0
+) -> None:
     """
     Refuse what a format cannot hold, before anything is baked.
 
@@ -56,22 +60,29 @@ def require(name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gut
         raise ParameterError(f"format must be one of {', '.join(FORMATS)}, got {name!r:.40}")
     frames, rows, columns, channels = shape
     if min(shape) < 1:
-        raise ParameterError(f"a map must have at least one frame, row, column and channel, got {shape}")
+        raise ParameterError(
+            f"a map must have at least one frame, row, column and channel, got {shape}"
+        )
     form = FORMATS[name]
     if channels not in form.channels:
         allowed = " or ".join(map(str, form.channels))
         others = ", ".join(one.name for one in FORMATS.values() if channels in one.channels)
         raise ParameterError(
-            f"format {name} holds maps of {allowed} channels, got {channels}" + (f"; choose one of {others}" if others else "")
+            f"format {name} holds maps of {allowed} channels, got {channels}"
+            + (f"; choose one of {others}" if others else "")
         )
     most = form.most_levels(max(rows, columns))
     if not 1 <= levels <= most:
-        raise ParameterError(f"format {name} holds 1 to {most} mip levels of {rows} rows of {columns}, got {levels}")
+        raise ParameterError(
+            f"format {name} holds 1 to {most} mip levels of {rows} rows of {columns}, got {levels}"
+        )
     if form.container is not None:
         form.container.require(Layout(frames, rows, columns, channels, levels, gutter))
 
 
-def encode(name: str, pixels: Real, *, lo: Limit = None, hi: Limit = None, levels: Sequence[Real] = ()) -> bytes:
+def encode(
+    name: str, pixels: Real, *, lo: Limit = None, hi: Limit = None, levels: Sequence[Real] = ()
+) -> bytes:
     """
     Encode one frame: its whole file, or the part of it in a container.
 
@@ -204,7 +215,9 @@ def assemble(
         "seconds_per_frame": loop / frames,
         "frames_per_second": frames / loop,
         "lookup": lookup,
-        "channels": {letter: "1" if c is None else words[c] for letter, c in form.letters(channels).items()},
+        "channels": {
+            letter: "1" if c is None else words[c] for letter, c in form.letters(channels).items()
+        },
         "unit": unit,
         "size": [side * profile.scale for side in size],
         "size_unit": profile.unit,

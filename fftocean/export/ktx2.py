@@ -1,7 +1,9 @@
 """
-KTX 2.0: the frames of a loop as one texture array of half-float RGBA, as a graphics card takes it, with mip levels on request.
+KTX 2.0: the frames of a loop as one texture array of half-float RGBA, as a graphics card takes it,
+with mip levels on request.
 
-Levels stand in the file from the smallest to the largest, and in each all frames; a frame's own bytes are its levels, largest first.
+Levels stand in the file from the smallest to the largest, and in each all frames; a frame's own
+bytes are its levels, largest first.
 """
 
 import struct
@@ -17,30 +19,43 @@ from fftocean.export.form import Container, Format, Layout, numbered
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 RGBA16F = 97  # VK_FORMAT_R16G16B16A16_SFLOAT
-HEADER = "<9I4I2Q"  # format, type size, width, height, depth, layers, faces, levels, scheme; where DFD, key/values, global data are
+# format, type size, width, height, depth, layers, faces, levels, scheme; where DFD, key/values,
+# global data are
+HEADER = "<9I4I2Q"
 
 
 def pack(
-    frames: Iterable[tuple[int, bytes]], count: int, rows: int, columns: int, levels: int, *, loop: float, row0_on_top: bool
+    frames: Iterable[tuple[int, bytes]],
+    count: int,
+    rows: int,
+    columns: int,
+    levels: int,
+    *,
+    loop: float,
+    row0_on_top: bool,
 ) -> memoryview:
     """
     Put the frames of a loop into one file.
 
     Args:
-        frames: each with its number: its levels, largest first, each (rows, columns, 4) little-endian halves.
+        frames: each with its number: its levels, largest first, each (rows, columns, 4)
+            little-endian halves.
         count, rows, columns, levels: how many there are.
         loop: what the frames take to play through [s].
         row0_on_top: whether a viewer should show row 0 on top.
 
-    Source: the KTX File Format Specification 2.0.4, and the Khronos Data Format Specification 1.4 for the descriptor.
-    Pinned by tests/export/test_ktx2.py, against a reader written from those texts.
+    Source: the KTX File Format Specification 2.0.4, and the Khronos Data Format Specification 1.4
+    for the descriptor. Pinned by tests/export/test_ktx2.py, against a reader written from those
+    texts.
     """
     descriptor, values = _descriptor(), _key_values(count, loop, row0_on_top)
     first = 12 + struct.calcsize(HEADER) + 24 * levels
     sizes = [r * c * TEXEL for r, c in level_sizes(rows, columns, levels)]
     at = first + len(descriptor) + len(values)
     offsets = [0] * levels
-    for level in reversed(range(levels)):  # the smallest first, so that a streaming reader has something to show
+    for level in reversed(
+        range(levels)
+    ):  # the smallest first, so that a streaming reader has something to show
         offsets[level] = at = -(-at // TEXEL) * TEXEL
         at += count * sizes[level]
     out = bytearray(at)
@@ -48,7 +63,9 @@ def pack(
     out[:12] = IDENTIFIER
     struct.pack_into(HEADER, out, 12, RGBA16F, 2, columns, rows, 0, count, 1, levels, 0, *places)
     for level, (offset, size) in enumerate(zip(offsets, sizes, strict=True)):
-        struct.pack_into("<3Q", out, first - 24 * (levels - level), offset, count * size, count * size)
+        struct.pack_into(
+            "<3Q", out, first - 24 * (levels - level), offset, count * size, count * size
+        )
     out[first : first + len(descriptor) + len(values)] = descriptor + values
     for i, frame in frames:
         start = 0
@@ -58,7 +75,9 @@ def pack(
     return memoryview(out)
 
 
-def unpack(data: bytes | memoryview, count: int, rows: int, columns: int, levels: int) -> list[bytes]:
+def unpack(
+    data: bytes | memoryview, count: int, rows: int, columns: int, levels: int
+) -> list[bytes]:
     """
     Return the bytes of each frame, its levels largest first, of a file that `pack` wrote.
 
@@ -68,40 +87,88 @@ def unpack(data: bytes | memoryview, count: int, rows: int, columns: int, levels
     data = memoryview(data)
     try:
         found = struct.unpack_from(HEADER, data, 12)
-        if data[:12] != IDENTIFIER or found[:9] != (RGBA16F, 2, columns, rows, 0, count, 1, levels, 0):
-            raise IntegrityError(f"a KTX2 file must hold {count} layers of {columns} x {rows} halves, {levels} levels, got {found[:9]}")
+        if data[:12] != IDENTIFIER or found[:9] != (
+            RGBA16F,
+            2,
+            columns,
+            rows,
+            0,
+            count,
+            1,
+            levels,
+            0,
+        ):
+            raise IntegrityError(
+                f"a KTX2 file must hold {count} layers of {columns} x {rows} halves, {levels} levels, got {found[:9]}"
+            )
         first = 12 + struct.calcsize(HEADER)
         index = [struct.unpack_from("<3Q", data, first + 24 * level) for level in range(levels)]
         sizes = [r * c * TEXEL for r, c in level_sizes(rows, columns, levels)]
         end = max(offset + length for offset, length, _ in index)
-        lengths_right = all(length == plain == count * size for (_, length, plain), size in zip(index, sizes, strict=True))
-        overlap = any(low[0] + low[1] > high[0] for low, high in zip(index[1:], index[:-1], strict=True))
+        lengths_right = all(
+            length == plain == count * size
+            for (_, length, plain), size in zip(index, sizes, strict=True)
+        )
+        overlap = any(
+            low[0] + low[1] > high[0] for low, high in zip(index[1:], index[:-1], strict=True)
+        )
         if end != len(data) or not lengths_right or overlap or index[-1][0] < first + 24 * levels:
-            raise IntegrityError(f"a KTX2 file of {levels} levels must end with them, at byte {end}, got {len(data)} bytes")
+            raise IntegrityError(
+                f"a KTX2 file of {levels} levels must end with them, at byte {end}, got {len(data)} bytes"
+            )
         if bytes(data[found[9] : found[9] + found[10]]) != _descriptor():
             raise IntegrityError("a KTX2 file of ours must describe its texels as four half floats")
     except struct.error as error:
         raise IntegrityError(f"a KTX2 file is cut: {error}") from None
     return [
-        b"".join(data[offset + i * size : offset + (i + 1) * size] for (offset, _, _), size in zip(index, sizes, strict=True))
+        b"".join(
+            data[offset + i * size : offset + (i + 1) * size]
+            for (offset, _, _), size in zip(index, sizes, strict=True)
+        )
         for i in range(count)
     ]
 
 
 def _descriptor() -> bytes:
     """Return the description of a texel: four signed half floats, R, G, B, A, linear."""
-    model, primaries, linear, straight_alpha = 1, 0, 1, 0  # RGBSDA; unspecified, for it is no colour
-    block = struct.pack("<2I4B4B8B", 0, (24 + 16 * 4) << 16 | 2, model, primaries, linear, straight_alpha, 0, 0, 0, 0, TEXEL, *[0] * 7)
+    model, primaries, linear, straight_alpha = (
+        1,
+        0,
+        1,
+        0,
+    )  # RGBSDA; unspecified, for it is no colour
+    block = struct.pack(
+        "<2I4B4B8B",
+        0,
+        (24 + 16 * 4) << 16 | 2,
+        model,
+        primaries,
+        linear,
+        straight_alpha,
+        0,
+        0,
+        0,
+        0,
+        TEXEL,
+        *[0] * 7,
+    )
     for i, channel in enumerate((0, 1, 2, 15)):  # R, G, B, A
-        lower, upper = 0xBF800000, 0x3F800000  # -1.0 and 1.0: what is black and what is full, for those who must show it
-        block += struct.pack("<HBB4BII", 16 * i, 15, 0xC0 | channel, 0, 0, 0, 0, lower, upper)  # 0xC0: float, signed
+        lower, upper = (
+            0xBF800000,
+            0x3F800000,
+        )  # -1.0 and 1.0: what is black and what is full, for those who must show it
+        block += struct.pack(
+            "<HBB4BII", 16 * i, 15, 0xC0 | channel, 0, 0, 0, 0, lower, upper
+        )  # 0xC0: float, signed
     return struct.pack("<I", 4 + len(block)) + block
 
 
 def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
     """Return duration of a frame, orientation and writer, in the order of the keys."""
     exact = Fraction(loop).limit_denominator(1000)
-    animation = struct.pack("<3I", exact.numerator, exact.denominator * count, 0)  # frame time, in units of 1 / the second; for ever
+    animation = struct.pack(
+        "<3I", exact.numerator, exact.denominator * count, 0
+    )  # frame time, in units of 1 / the second; for ever
     entries = (
         (b"KTXanimData", animation),
         (b"KTXorientation", b"rd\0" if row0_on_top else b"ru\0"),
@@ -148,5 +215,7 @@ KTX2 = Format(
     most_levels=int.bit_length,
     encode=bare.encode_rgba,
     decode=bare.decoder("ktx2"),
-    container=Container(join=_join, split=_split, facts=_facts, separable=True, require=bare.any_layout),
+    container=Container(
+        join=_join, split=_split, facts=_facts, separable=True, require=bare.any_layout
+    ),
 )

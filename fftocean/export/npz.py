@@ -1,4 +1,6 @@
-"""One frame as a NumPy archive with one array, `pixels`, and without a clock: what `np.load` reads."""
+"""
+One frame as a NumPy archive with one array, `pixels`, and without a clock: what `np.load` reads.
+"""
 
 import io
 import zipfile
@@ -17,7 +19,10 @@ MEMBER = "pixels.npy"
 
 
 def encode(pixels: npt.NDArray[np.float32]) -> bytes:
-    """Return (rows, columns, channels) of float32 as an archive: stored, for floats hardly compress, with the checksum that ZIP has."""
+    """
+    Return (rows, columns, channels) of float32 as an archive: stored, for floats hardly compress,
+    with the checksum that ZIP has.
+    """
     array, archive = io.BytesIO(), io.BytesIO()
     np.lib.format.write_array(array, pixels.astype("<f4", copy=False), version=(1, 0))
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_STORED) as file:
@@ -40,16 +45,24 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
         with zipfile.ZipFile(io.BytesIO(data)) as file:
             (member,) = file.infolist()
             if member.filename != MEMBER or member.compress_type != zipfile.ZIP_STORED:
-                raise IntegrityError(f"an NPZ file of ours must hold {MEMBER}, stored, got {member.filename:.60}")
+                raise IntegrityError(
+                    f"an NPZ file of ours must hold {MEMBER}, stored, got {member.filename:.60}"
+                )
             content = file.read(member)  # asks its checksum
         pixels = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)
     except IntegrityError:
         raise
     except Exception as error:  # whatever a library may do with a file that is not one
         raise IntegrityError(f"an NPZ file cannot be read: {error!s:.200}") from None
-    if pixels.dtype != np.float32 or pixels.ndim != 3 or (shape is not None and pixels.shape != tuple(shape)):
+    if (
+        pixels.dtype != np.float32
+        or pixels.ndim != 3
+        or (shape is not None and pixels.shape != tuple(shape))
+    ):
         wanted = tuple(shape) if shape else "(rows, columns, channels)"
-        raise IntegrityError(f"an NPZ file must hold float32 of shape {wanted}, got {pixels.dtype} of {pixels.shape}")
+        raise IntegrityError(
+            f"an NPZ file must hold float32 of shape {wanted}, got {pixels.dtype} of {pixels.shape}"
+        )
     return np.asarray(pixels, dtype=np.float32)
 
 
@@ -57,7 +70,9 @@ def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes
     return encode(finite(pixels, np.float32))
 
 
-def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+def _decode_frame(
+    data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
+) -> list[npt.NDArray[Any]]:
     return [finite_again(read(data, shape))]
 
 

@@ -1,7 +1,8 @@
 """
 PNG with sixteen bits a channel, gray or RGB: what Pillow and imageio cannot write.
 
-Each row holds its differences from the row above (filter 2), which the sea's smoothness makes small; one IDAT chunk holds them all.
+Each row holds its differences from the row above (filter 2), which the sea's smoothness makes
+small; one IDAT chunk holds them all.
 """
 
 import struct
@@ -36,7 +37,9 @@ def encode(pixels: npt.NDArray[np.uint16]) -> bytes:
     filtered[0, 1:] = lines[0]
     np.subtract(lines[1:], lines[:-1], out=filtered[1:, 1:])  # modulo 256, as PNG has it
     header = struct.pack(">IIBBBBB", columns, rows, 16, COLOUR[channels], 0, 0, 0)
-    packer = zlib.compressobj(1, zlib.DEFLATED, 15, 9, zlib.Z_RLE)  # in noise no string returns: looking for none is faster, and smaller
+    packer = zlib.compressobj(
+        1, zlib.DEFLATED, 15, 9, zlib.Z_RLE
+    )  # in noise no string returns: looking for none is faster, and smaller
     packed = packer.compress(filtered.tobytes()) + packer.flush()
     return SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
 
@@ -55,18 +58,26 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
     try:
         chunks = _chunks(data)
         if [name for name, _ in chunks] != [b"IHDR", b"IDAT", b"IEND"]:
-            raise IntegrityError(f"a PNG of ours must have chunks IHDR, IDAT, IEND, got {b', '.join(n for n, _ in chunks)!r:.100}")
+            raise IntegrityError(
+                f"a PNG of ours must have chunks IHDR, IDAT, IEND, got {b', '.join(n for n, _ in chunks)!r:.100}"
+            )
         columns, rows, depth, colour, *rest = struct.unpack(">IIBBBBB", chunks[0][1])
         found = (rows, columns, {kind: count for count, kind in COLOUR.items()}.get(colour, 0))
         if depth != 16 or any(rest) or not found[2]:
-            raise IntegrityError(f"a PNG of ours must be 16 bit gray or RGB, not interlaced, got {depth} bit, colour type {colour}")
+            raise IntegrityError(
+                f"a PNG of ours must be 16 bit gray or RGB, not interlaced, got {depth} bit, colour type {colour}"
+            )
         if shape is not None and found != tuple(shape):
             raise IntegrityError(f"a PNG picture must have shape {tuple(shape)}, got {found}")
         width = 2 * columns * found[2]
         unpacker = zlib.decompressobj()
-        filtered = np.frombuffer(unpacker.decompress(chunks[1][1], rows * (1 + width) + 1), dtype=np.uint8).reshape(rows, 1 + width)
+        filtered = np.frombuffer(
+            unpacker.decompress(chunks[1][1], rows * (1 + width) + 1), dtype=np.uint8
+        ).reshape(rows, 1 + width)
         if not unpacker.eof or np.any(filtered[:, 0] != UP):
-            raise IntegrityError("a PNG of ours must hold differences from the row above, and end where they end")
+            raise IntegrityError(
+                "a PNG of ours must hold differences from the row above, and end where they end"
+            )
         lines: npt.NDArray[Any] = np.add.accumulate(filtered[:, 1:], axis=0, dtype=np.uint8)
         return np.ascontiguousarray(lines).view(">u2").reshape(found).astype(np.uint16)
     except (struct.error, zlib.error, ValueError) as error:
@@ -75,7 +86,12 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
 
 def _chunk(name: bytes, content: bytes) -> bytes:
     """Length, name, content, and the checksum of the last two."""
-    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(content, zlib.crc32(name)))
+    return (
+        struct.pack(">I", len(content))
+        + name
+        + content
+        + struct.pack(">I", zlib.crc32(content, zlib.crc32(name)))
+    )
 
 
 def _chunks(data: bytes) -> list[tuple[bytes, bytes]]:
@@ -97,7 +113,9 @@ def _encode_frame(pixels: Real, scale: Scale, _levels: Sequence[Real]) -> bytes:
     return encode(quantised.to_steps(pixels, scale.lo, scale.hi))
 
 
-def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+def _decode_frame(
+    data: bytes, shape: tuple[int, int, int] | None, scale: Scale, _levels: int
+) -> list[npt.NDArray[Any]]:
     return [quantised.from_steps(read(data, shape), scale.lo, scale.hi)]
 
 

@@ -95,7 +95,9 @@ class Profile:
 
     def _matrix(self) -> npt.NDArray[np.float64]:
         """Return the engine's axes in ours, one a row."""
-        return np.array([[float(f"{a[0]}1") * (AXES[a[1]] == i) for i in range(3)] for a in self.axes])
+        return np.array(
+            [[float(f"{a[0]}1") * (AXES[a[1]] == i) for i in range(3)] for a in self.axes]
+        )
 
 
 PROFILES: dict[str, Profile] = {
@@ -198,7 +200,9 @@ def recorded(profile: Profile, conventions: Any) -> Profile:
 
     Bakes of version 0.1 do not name the encoding of normals, which were signed then.
     """
-    first_row: Literal["north", "south"] = "south" if "the south edge" in conventions["rows"] else "north"
+    first_row: Literal["north", "south"] = (
+        "south" if "the south edge" in conventions["rows"] else "north"
+    )
     packed = str(conventions.get("normals", "signed")).startswith("packed")
     return replace(profile, first_row=first_row, normals="packed" if packed else "signed")
 

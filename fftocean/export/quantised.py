@@ -1,4 +1,7 @@
-"""Sixteen-bit steps: values scaled to a range that holds for the whole sequence, and back. Nothing is clipped."""
+"""
+Sixteen-bit steps: values scaled to a range that holds for the whole sequence, and back. Nothing is
+clipped.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -16,7 +19,9 @@ Limit = float | Sequence[float] | None
 LARGEST = 65535
 
 
-def limits(lo: Limit, hi: Limit, channels: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+def limits(
+    lo: Limit, hi: Limit, channels: int
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """
     Return the two ends of the range, each for every channel.
 
@@ -24,8 +29,13 @@ def limits(lo: Limit, hi: Limit, channels: int) -> tuple[npt.NDArray[np.float64]
         ParameterError: an end is missing, not finite, or they are the wrong way round.
     """
     if lo is None or hi is None:
-        raise ParameterError("a scaled format needs the range of the whole sequence: give lo and hi")
-    low, high = np.broadcast_to(np.asarray(lo, float), channels), np.broadcast_to(np.asarray(hi, float), channels)
+        raise ParameterError(
+            "a scaled format needs the range of the whole sequence: give lo and hi"
+        )
+    low, high = (
+        np.broadcast_to(np.asarray(lo, float), channels),
+        np.broadcast_to(np.asarray(hi, float), channels),
+    )
     if not (np.all(np.isfinite(high - low)) and np.all(low <= high)):
         raise ParameterError(f"the range must be finite, lo <= hi, got {lo} to {hi}")
     return low, high
@@ -42,7 +52,9 @@ def to_steps(pixels: Real, lo: Limit, hi: Limit) -> npt.NDArray[np.uint16]:
     low, high = limits(lo, hi, pixels.shape[2])
     smallest, largest = pixels.min(axis=(0, 1)), pixels.max(axis=(0, 1))
     if not (np.all(smallest >= low) and np.all(largest <= high)):  # so put that a NaN is outside
-        raise OutputError(f"values must lie between {low.tolist()} and {high.tolist()}, got {smallest.tolist()} to {largest.tolist()}")
+        raise OutputError(
+            f"values must lie between {low.tolist()} and {high.tolist()}, got {smallest.tolist()} to {largest.tolist()}"
+        )
     per_unit = np.divide(LARGEST, high - low, out=np.zeros_like(low), where=high > low)
     return np.rint((pixels - low) * per_unit).astype(np.uint16)
 

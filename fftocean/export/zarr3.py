@@ -1,7 +1,9 @@
 """
-Zarr version 3: a map as one array (frame, row, column, channel) of float32, one chunk a frame, each with its CRC-32C.
+Zarr version 3: a map as one array (frame, row, column, channel) of float32, one chunk a frame, each
+with its CRC-32C.
 
-An absent chunk reads as the fill value, which for a sea would be a flat one: it is NaN here, so that no reader takes it for water.
+An absent chunk reads as the fill value, which for a sea would be a flat one: it is NaN here, so
+that no reader takes it for water.
 """
 
 import struct
@@ -48,9 +50,13 @@ def decode_chunk(data: bytes, shape: tuple[int, int, int]) -> npt.NDArray[np.flo
     """
     size = 4 * int(np.prod(shape))
     if len(data) != size + 4:
-        raise IntegrityError(f"a Zarr chunk of shape {tuple(shape)} must have {size + 4} bytes, got {len(data)}")
+        raise IntegrityError(
+            f"a Zarr chunk of shape {tuple(shape)} must have {size + 4} bytes, got {len(data)}"
+        )
     if struct.unpack("<I", data[size:])[0] != checksum(data[:size]):
-        raise IntegrityError("a Zarr chunk must have the checksum that it ends with, and has another")
+        raise IntegrityError(
+            "a Zarr chunk must have the checksum that it ends with, and has another"
+        )
     return np.frombuffer(data, dtype="<f4", count=size // 4).reshape(shape).astype(np.float32)
 
 
@@ -75,7 +81,9 @@ def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes
     return encode_chunk(finite(pixels, np.float32))
 
 
-def _decode_frame(data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int) -> list[npt.NDArray[Any]]:
+def _decode_frame(
+    data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
+) -> list[npt.NDArray[Any]]:
     return [finite_again(decode_chunk(data, require_shape(shape, "zarr")))]
 
 

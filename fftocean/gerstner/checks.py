@@ -54,7 +54,9 @@ def check_columns(**given: tuple[Any, Quantity]) -> dict[str, tuple[float, ...]]
     length = max(len(column) for column in columns.values())
     for name, column in columns.items():
         if len(column) not in (1, length) or not column:
-            raise ParameterError(f"{name} must be one number, or one for each wave ({max(length, 1)}), got {len(column)}")
+            raise ParameterError(
+                f"{name} must be one number, or one for each wave ({max(length, 1)}), got {len(column)}"
+            )
     return {name: column * (length // len(column)) for name, column in columns.items()}
 
 
@@ -73,7 +75,9 @@ def check_array(name: str, values: RealLike, quantity: Quantity) -> Real:
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise ParameterError(f"{name} must be numbers {quantity.rule}, got {values!r:.60}") from error
+        raise ParameterError(
+            f"{name} must be numbers {quantity.rule}, got {values!r:.60}"
+        ) from error
     good = (array >= quantity.low) & (array <= quantity.high)
     if not np.all(good):
         raise ParameterError(f"{name} must be {quantity.rule}, got {array[~good].flat[0]}")

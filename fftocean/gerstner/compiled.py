@@ -35,7 +35,11 @@ def eight_fields(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> dict[
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     waves = ocean.modes()
     k = np.hypot(waves.kx, waves.ky)
-    potential = waves.amplitude / k if math.isinf(ocean.depth) else waves.amplitude / (k * np.tanh(k * ocean.depth))
+    potential = (
+        waves.amplitude / k
+        if math.isinf(ocean.depth)
+        else waves.amplitude / (k * np.tanh(k * ocean.depth))
+    )
     out = np.zeros((8, px.size))
     _sum(
         px.ravel().copy(),
@@ -51,7 +55,9 @@ def eight_fields(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> dict[
 
 
 @nb.njit(nogil=True, error_model="numpy")
-def _sum(x: Real, y: Real, kx: Real, ky: Real, a: Real, potential: Real, start: Real, out: Real) -> None:
+def _sum(
+    x: Real, y: Real, kx: Real, ky: Real, a: Real, potential: Real, start: Real, out: Real
+) -> None:
     """
     out is (8, points); `potential` is a / (k tanh kh), the amplitude of the displacement potential.
     """

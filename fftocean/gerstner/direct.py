@@ -88,15 +88,23 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
     Raises:
         ParameterError: a position or time that is not finite.
     """
-    if isinstance(ocean, type) or not all(hasattr(ocean, name) for name in ("modes", "depth", "choppiness")):
-        raise ParameterError(f"waves to be summed must be those of an Ocean or a Cascade, got {described(ocean)}")
+    if isinstance(ocean, type) or not all(
+        hasattr(ocean, name) for name in ("modes", "depth", "choppiness")
+    ):
+        raise ParameterError(
+            f"waves to be summed must be those of an Ocean or a Cascade, got {described(ocean)}"
+        )
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     if not (np.all(np.isfinite(px)) and np.all(np.isfinite(py)) and math.isfinite(t)):
         raise ParameterError("x0, y0 and t must be finite")
     waves = ocean.modes()
     k = np.sqrt(waves.kx * waves.kx + waves.ky * waves.ky)
     a, ux, uy = waves.amplitude, waves.kx / k, waves.ky / k
-    horizontal = a if math.isinf(ocean.depth) else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
+    horizontal = (
+        a
+        if math.isinf(ocean.depth)
+        else a * (np.cosh(kh := np.minimum(k * ocean.depth, 350.0)) / np.sinh(kh))
+    )
     on_cosine = np.stack(
         [
             a,
@@ -107,7 +115,9 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
             -horizontal * uy * waves.ky,
         ]
     )
-    on_sine = np.stack([-horizontal * ux, -horizontal * uy, -a * waves.kx, -a * waves.ky, a * waves.omega])
+    on_sine = np.stack(
+        [-horizontal * ux, -horizontal * uy, -a * waves.kx, -a * waves.ky, a * waves.omega]
+    )
     start = waves.omega * t + waves.phase
     flat_x, flat_y = px.ravel(), py.ravel()
     cosines, sines = np.zeros((6, flat_x.size)), np.zeros((5, flat_x.size))

@@ -99,7 +99,9 @@ class PMS:
     @property
     def _variances(self) -> Real:
         """S(omega_i) Delta_i [m^2]; S = alpha g^2 omega^-5 exp(-5/4 (omega_p/omega)^4)."""
-        density: Real = ALPHA * self.gravity**2 * self.omega**-5 * np.exp(-1.25 * (self.peak / self.omega) ** 4)
+        density: Real = (
+            ALPHA * self.gravity**2 * self.omega**-5 * np.exp(-1.25 * (self.peak / self.omega) ** 4)
+        )
         return density * self.spacing
 
     @property

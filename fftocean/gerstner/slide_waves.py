@@ -51,4 +51,6 @@ class SlideWaves:
     def waves(self) -> Waves:
         """The waves, in the order given."""
         k = np.asarray(self.k)
-        return directed_waves(k, np.asarray(self.gamma), self.A, np.sqrt(self.gravity * k), 1.0, 0.0, phase=self.phi)
+        return directed_waves(
+            k, np.asarray(self.gamma), self.A, np.sqrt(self.gravity * k), 1.0, 0.0, phase=self.phi
+        )

@@ -68,7 +68,9 @@ class TrochoidalWaves:
         set_gravity(self, self.gravity)
         k = np.hypot(self.kx, self.kz)
         if not np.all(k >= WAVENUMBER.low):
-            raise ParameterError(f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} {WAVENUMBER.unit}, got {np.min(k)}")
+            raise ParameterError(
+                f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} {WAVENUMBER.unit}, got {np.min(k)}"
+            )
 
     @property
     def waves(self) -> Waves:

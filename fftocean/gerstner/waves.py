@@ -184,7 +184,9 @@ class Waves:
             object.__setattr__(self, name, array)
         k = self.wavenumber
         if not np.all(k > 0.0):
-            raise ParameterError(f"kx and ky must not both be 0 in any wave, got wavenumber {k.min()} rad/m in wave {int(k.argmin())}")
+            raise ParameterError(
+                f"kx and ky must not both be 0 in any wave, got wavenumber {k.min()} rad/m in wave {int(k.argmin())}"
+            )
         object.__setattr__(self, "tau", check_tau(self.tau))
 
     def __len__(self) -> int:
@@ -232,7 +234,9 @@ class Waves:
             check_array("t", t, TIME),
         )
         grow, grow_rate = self.ramp(t)
-        height, dx, dy, sx, sy, xx, xy, yy, height_rate, dx_rate, dy_rate = np.zeros((11, *x0.shape))
+        height, dx, dy, sx, sy, xx, xy, yy, height_rate, dx_rate, dy_rate = np.zeros(
+            (11, *x0.shape)
+        )
         for kx, ky, k, a, phase, omega, q in zip(
             self.kx,
             self.ky,
@@ -273,7 +277,9 @@ class Waves:
             velocity_z=grow * height_rate + grow_rate * height,
         )
 
-    def grid(self, n: int | tuple[int, int], size: float | tuple[float, float], t: float = 0.0) -> WaveSurface:
+    def grid(
+        self, n: int | tuple[int, int], size: float | tuple[float, float], t: float = 0.0
+    ) -> WaveSurface:
         """
         Return the surface on a regular grid.
 

@@ -1,1 +1,4 @@
-"""Compiled loops over bare arrays: no classes, no checks, no allocation. The caller guarantees shape, dtype and order."""
+"""
+Compiled loops over bare arrays: no classes, no checks, no allocation. The caller guarantees shape,
+dtype and order.
+"""

@@ -1,4 +1,7 @@
-"""How the kernels are compiled: once, cached on disk where that can be, and never failing for the sake of a cache."""
+"""
+How the kernels are compiled: once, cached on disk where that can be, and never failing for the sake
+of a cache.
+"""
 
 import contextlib
 import hashlib
@@ -13,21 +16,27 @@ from numba.core.compiler_lock import global_compiler_lock
 
 from fftocean import forks
 
-forks.guard(global_compiler_lock._lock)  # a child would wait for ever for what another thread was compiling
+forks.guard(
+    global_compiler_lock._lock
+)  # a child would wait for ever for what another thread was compiling
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(function: Function) -> Function:
     """
-    Compile a kernel at its first call, without the GIL. Of fast-math it may only fuse multiply-adds, where the processor has them.
+    Compile a kernel at its first call, without the GIL. Of fast-math it may only fuse
+    multiply-adds, where the processor has them.
 
-    The machine code is kept where numba would keep it: beside the source or, where that is read-only, in the user's own cache; where
-    there is neither, the kernel is compiled anew in each process. What is found there is used only if it is what was written.
+    The machine code is kept where numba would keep it: beside the source or, where that is
+    read-only, in the user's own cache; where there is neither, the kernel is compiled anew in each
+    process. What is found there is used only if it is what was written.
     """
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
     kernel = nb.njit(**options)(function)
-    if hasattr(kernel, "enable_caching"):  # numba may be switched off, which leaves the plain function
+    if hasattr(
+        kernel, "enable_caching"
+    ):  # numba may be switched off, which leaves the plain function
         with contextlib.suppress(RuntimeError, OSError):  # no place for a cache
             kernel._cache = _Cache(function)
     return kernel  # type: ignore[no-any-return]
@@ -48,19 +57,26 @@ class _Cache(FunctionCache):
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        with contextlib.suppress(Exception):  # a full or read-only disk, another process: the code is here and works
+        with contextlib.suppress(
+            Exception
+        ):  # a full or read-only disk, another process: the code is here and works
             super().save_overload(sig, data)
 
 
 class _Files(IndexDataCacheFile):
-    """Index and data files that end with the SHA-256 of what comes before: a bit flipped in machine code would crash, not raise."""
+    """
+    Index and data files that end with the SHA-256 of what comes before: a bit flipped in machine
+    code would crash, not raise.
+    """
 
     def _load_index(self) -> Any:
         return super()._load_index() if _is_whole(self._index_path) else {}
 
     def _load_data(self, name: str) -> Any:
         if not _is_whole(self._data_path(name)):
-            raise OSError(f"{name} is not what was written")  # numba takes this for a file that is gone
+            raise OSError(
+                f"{name} is not what was written"
+            )  # numba takes this for a file that is gone
         return super()._load_data(name)
 
     @contextlib.contextmanager
@@ -68,7 +84,9 @@ class _Files(IndexDataCacheFile):
         data = io.BytesIO()
         yield data
         with super()._open_for_write(filepath) as file:
-            file.write(data.getvalue() + hashlib.sha256(data.getvalue()).digest())  # a pickle ends where it ends: the rest is not read
+            file.write(
+                data.getvalue() + hashlib.sha256(data.getvalue()).digest()
+            )  # a pickle ends where it ends: the rest is not read
 
 
 def _is_whole(path: str) -> bool:

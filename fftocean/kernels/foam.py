@@ -8,20 +8,35 @@ from fftocean.kernels.compiler import compiled
 
 @compiled
 def advance(
-    before: Real, now: Real, then: Real, after: Real, cubic: Real, weights: Real, threshold: float, decay: float, state: Real
+    before: Real,
+    now: Real,
+    then: Real,
+    after: Real,
+    cubic: Real,
+    weights: Real,
+    threshold: float,
+    decay: float,
+    state: Real,
 ) -> None:
     """
     state = decay state + sum over i of weights[i] max(threshold - squeeze(u_i), 0).
 
-    `squeeze` runs through the four given moments as a cubic, and u_i are moments from `now` to `then`: squeeze(u_i) is the sum of
-    cubic[i] times the four. So a crest that breaks between two moments is not missed.
+    `squeeze` runs through the four given moments as a cubic, and u_i are moments from `now` to
+    `then`: squeeze(u_i) is the sum of cubic[i] times the four. So a crest that breaks between two
+        moments is not missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]
         for i in range(f.size):
             f[i] *= decay
         for u in range(weights.size):
-            weight, first, second, third, fourth = weights[u], cubic[u, 0], cubic[u, 1], cubic[u, 2], cubic[u, 3]
+            weight, first, second, third, fourth = (
+                weights[u],
+                cubic[u, 0],
+                cubic[u, 1],
+                cubic[u, 2],
+                cubic[u, 3],
+            )
             for i in range(f.size):
                 below = threshold - (first * a[i] + second * b[i] + third * c[i] + fourth * d[i])
                 f[i] += weight * (below if below > 0.0 else 0.0)

@@ -1,4 +1,7 @@
-"""Single precision to half, many at once: IEEE 754 round to nearest, ties to even, on the bits themselves."""
+"""
+Single precision to half, many at once: IEEE 754 round to nearest, ties to even, on the bits
+themselves.
+"""
 
 import numpy as np
 import numpy.typing as npt
@@ -9,10 +12,12 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def pack(bits: npt.NDArray[np.uint32], out: npt.NDArray[np.uint16]) -> None:
     """
-    out = the half nearest to each float, ties to even: the same bits as `floats.astype(np.float16)`, several times faster.
+    out = the half nearest to each float, ties to even: the same bits as
+    `floats.astype(np.float16)`, several times faster.
 
-    From 65520 on it is infinity, as IEEE 754 rounds; a NaN becomes the quiet NaN 7e00 with its sign. There is no branch and all of it
-    is 32 bit wide, so that the compiler can do many at a time.
+    From 65520 on it is infinity, as IEEE 754 rounds; a NaN becomes the quiet NaN 7e00 with its
+    sign. There is no branch and all of it is 32 bit wide, so that the compiler can do many at a
+    time.
 
     Args:
         bits: `floats.view(np.uint32)` of C-contiguous float32, one axis.
@@ -22,15 +27,24 @@ def pack(bits: npt.NDArray[np.uint32], out: npt.NDArray[np.uint16]) -> None:
     Pinned by tests/kernels/test_half.py, against C's own packing.
     """
     one, low_mantissa = np.uint32(1), np.uint32(0x7FFFFF)
-    least, rebias = np.uint32(113 << 23), np.uint32(112 << 23)  # the smallest normal half; what a float's exponent has too much
+    least, rebias = (
+        np.uint32(113 << 23),
+        np.uint32(112 << 23),
+    )  # the smallest normal half; what a float's exponent has too much
     for i in range(out.shape[0]):
         word = bits[i]
         size = word & np.uint32(0x7FFFFFFF)
         exponent = size >> np.uint32(23)
-        # normal halves, exponent 113 (2^-14) and up: 13 bits fall off; a carry runs on into the exponent, as it should
-        normal = (max(size, least) - rebias + np.uint32(0xFFF) + ((size >> np.uint32(13)) & one)) >> np.uint32(13)
-        # subnormal halves: the mantissa with its leading bit, in units of 2^-24; 14 to 24 bits fall off, and all of them below
-        drop = min(max(np.uint32(126) - min(exponent, np.uint32(112)), np.uint32(14)), np.uint32(25))
+        # normal halves, exponent 113 (2^-14) and up: 13 bits fall off; a carry runs on into the
+        # exponent, as it should
+        normal = (
+            max(size, least) - rebias + np.uint32(0xFFF) + ((size >> np.uint32(13)) & one)
+        ) >> np.uint32(13)
+        # subnormal halves: the mantissa with its leading bit, in units of 2^-24; 14 to 24 bits fall
+        # off, and all of them below
+        drop = min(
+            max(np.uint32(126) - min(exponent, np.uint32(112)), np.uint32(14)), np.uint32(25)
+        )
         mantissa = (size & low_mantissa) | np.uint32(0x800000)
         tiny = (mantissa + (one << (drop - one)) - one + ((mantissa >> drop) & one)) >> drop
         half = normal if exponent > np.uint32(112) else tiny

@@ -1,8 +1,9 @@
 """
-Periodic interpolation of fields that lie side by side: texel i of n stands at u = i, and u + n is u again.
+Periodic interpolation of fields that lie side by side: texel i of n stands at u = i, and u + n is u
+again.
 
-`texels` is (ny, nx, channels), C-contiguous, any number of channels: what belongs to one point shares cache lines. All sums are in
-double precision, whatever the texels are.
+`texels` is (ny, nx, channels), C-contiguous, any number of channels: what belongs to one point
+shares cache lines. All sums are in double precision, whatever the texels are.
 """
 
 import numpy as np
@@ -25,7 +26,12 @@ def bilinear(texels: Real, u: Real, v: Real, out: Real) -> None:
             continue
         i, f = _texel(u[p], nx)
         j, g = _texel(v[p], ny)
-        left, right, below, above = np.uint64(i), np.uint64(_after(i, nx)), np.uint64(j), np.uint64(_after(j, ny))
+        left, right, below, above = (
+            np.uint64(i),
+            np.uint64(_after(i, nx)),
+            np.uint64(j),
+            np.uint64(_after(j, ny)),
+        )
         for c in range(channels):
             low = texels[below, left, c] * (1.0 - f) + texels[below, right, c] * f
             high = texels[above, left, c] * (1.0 - f) + texels[above, right, c] * f
@@ -35,10 +41,12 @@ def bilinear(texels: Real, u: Real, v: Real, out: Real) -> None:
 @compiled
 def bicubic(texels: Real, u: Real, v: Real, spline: bool, out: Real) -> None:
     """
-    out[p] += the bicubic through or along the 4 x 4 texels around (u[p], v[p]); NaN where u or v is not finite.
+    out[p] += the bicubic through or along the 4 x 4 texels around (u[p], v[p]); NaN where u or v is
+    not finite.
 
-    With `spline`, texels are the coefficients of a cubic B-spline, which is smooth to the second derivative (see `spline_response`);
-    without, they are the values themselves, and the curve is Catmull & Rom's (1974), smooth to the first.
+    With `spline`, texels are the coefficients of a cubic B-spline, which is smooth to the second
+    derivative (see `spline_response`); without, they are the values themselves, and the curve is
+    Catmull & Rom's (1974), smooth to the first.
     """
     ny, nx, channels = texels.shape
     for p in range(u.size):
@@ -47,25 +55,37 @@ def bicubic(texels: Real, u: Real, v: Real, spline: bool, out: Real) -> None:
             continue
         i, f = _texel(u[p], nx)
         j, g = _texel(v[p], ny)
-        a, b = (spline_weights(f), spline_weights(g)) if spline else (catmull_rom_weights(f), catmull_rom_weights(g))
+        a, b = (
+            (spline_weights(f), spline_weights(g))
+            if spline
+            else (catmull_rom_weights(f), catmull_rom_weights(g))
+        )
         i0, i1, i2 = np.uint64(_wrapped(i - 1, nx)), np.uint64(i), np.uint64(_after(i, nx))
         i3 = np.uint64(_after(_after(i, nx), nx))
         row = _wrapped(j - 1, ny)
         for weight in b:
             r = np.uint64(row)
             for c in range(channels):
-                along = texels[r, i0, c] * a[0] + texels[r, i1, c] * a[1] + texels[r, i2, c] * a[2] + texels[r, i3, c] * a[3]
+                along = (
+                    texels[r, i0, c] * a[0]
+                    + texels[r, i1, c] * a[1]
+                    + texels[r, i2, c] * a[2]
+                    + texels[r, i3, c] * a[3]
+                )
                 out[p, c] += weight * along
             row = _after(row, ny)
 
 
 @compiled
-def bilinear_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: float) -> tuple[float, ...]:
+def bilinear_gradient(
+    texels: Real, first: int, nx: int, ny: int, u: float, v: float
+) -> tuple[float, ...]:
     """
-    Return the first three channels (a, b, c) at (u, v), and da/du, da/dv, db/du, db/dv of the interpolant itself.
+    Return the first three channels (a, b, c) at (u, v), and da/du, da/dv, db/du, db/dv of the
+    interpolant itself.
 
-    `texels` is flat, four channels to a texel: the tile's lie row by row from texel `first` on. (u, v) is finite, and not too far away
-    for an integer.
+    `texels` is flat, four channels to a texel: the tile's lie row by row from texel `first` on. (u,
+    v) is finite, and not too far away for an integer.
     """
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
@@ -74,7 +94,15 @@ def bilinear_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: f
     a, a_u, b, b_u, c = _linear_row(texels, low + i, low + right, f)
     a_high, a_u_high, b_high, b_u_high, c_high = _linear_row(texels, high + i, high + right, f)
     a_v, b_v = a_high - a, b_high - b
-    return a + g * a_v, b + g * b_v, c + g * (c_high - c), a_u + g * (a_u_high - a_u), a_v, b_u + g * (b_u_high - b_u), b_v
+    return (
+        a + g * a_v,
+        b + g * b_v,
+        c + g * (c_high - c),
+        a_u + g * (a_u_high - a_u),
+        a_v,
+        b_u + g * (b_u_high - b_u),
+        b_v,
+    )
 
 
 @compiled
@@ -87,7 +115,10 @@ def _linear_row(texels: Real, i: int, right: int, f: float) -> tuple[float, ...]
 
 @compiled
 def _three(texels: Real, i: int) -> tuple[float, float, float]:
-    """The first three channels of a texel. Unsigned indices, here as above, spare the question whether they count from the end."""
+    """
+    The first three channels of a texel. Unsigned indices, here as above, spare the question whether
+    they count from the end.
+    """
     k = np.uint64(4 * i)
     return float(texels[k]), float(texels[k + _ONE]), float(texels[k + _TWO])
 
@@ -96,7 +127,9 @@ _ONE, _TWO = np.uint64(1), np.uint64(2)
 
 
 @compiled
-def spline_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: float) -> tuple[float, ...]:
+def spline_gradient(
+    texels: Real, first: int, nx: int, ny: int, u: float, v: float
+) -> tuple[float, ...]:
     """The same, of the cubic B-spline whose coefficients the texels are."""
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
@@ -124,9 +157,17 @@ def spline_gradient(texels: Real, first: int, nx: int, ny: int, u: float, v: flo
 
 @compiled
 def _cubic_row(
-    texels: Real, i: int, j: int, k: int, m: int, w: tuple[float, float, float, float], d: tuple[float, float, float, float]
+    texels: Real,
+    i: int,
+    j: int,
+    k: int,
+    m: int,
+    w: tuple[float, float, float, float],
+    d: tuple[float, float, float, float],
 ) -> tuple[float, ...]:
-    """(a, da/du, b, db/du, c) along four texels of one row, with the weights of values and slopes."""
+    """
+    (a, da/du, b, db/du, c) along four texels of one row, with the weights of values and slopes.
+    """
     a0, b0, c0 = _three(texels, i)
     a1, b1, c1 = _three(texels, j)
     a2, b2, c2 = _three(texels, k)
@@ -141,13 +182,16 @@ def _cubic_row(
 
 
 @compiled
-def bilinear_gradients(texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real) -> None:
+def bilinear_gradients(
+    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real
+) -> None:
     """
-    Add what `bilinear_gradient` returns for `count` points at once, u a per_x and v a per_y to the metre.
+    Add what `bilinear_gradient` returns for `count` points at once, u a per_x and v a per_y to the
+    metre.
 
-    First all texels are fetched, then all is computed: fetches wait side by side, and sums go several at a time. `desk` is `ROWS` rows
-    of `BLOCK`, flat, so that a compiler sees that they do not overlap: u, v, the seven sums (a, b, c, da/dx, da/dy, db/dx, db/dy), and
-    room to work in.
+    First all texels are fetched, then all is computed: fetches wait side by side, and sums go
+    several at a time. `desk` is `ROWS` rows of `BLOCK`, flat, so that a compiler sees that they do
+    not overlap: u, v, the seven sums (a, b, c, da/dx, da/dy, db/dx, db/dy), and room to work in.
     """
     for p in range(count):
         i, f = _near_texel(desk[p], nx)
@@ -155,9 +199,13 @@ def bilinear_gradients(texels: Real, first: int, nx: int, ny: int, per_x: float,
         right, low, high = _after(i, nx), first + j * nx, first + _after(j, ny) * nx
         desk[9 * BLOCK + p], desk[10 * BLOCK + p] = f, g
         desk[11 * BLOCK + p], desk[12 * BLOCK + p], desk[13 * BLOCK + p] = _three(texels, low + i)
-        desk[14 * BLOCK + p], desk[15 * BLOCK + p], desk[16 * BLOCK + p] = _three(texels, low + right)
+        desk[14 * BLOCK + p], desk[15 * BLOCK + p], desk[16 * BLOCK + p] = _three(
+            texels, low + right
+        )
         desk[17 * BLOCK + p], desk[18 * BLOCK + p], desk[19 * BLOCK + p] = _three(texels, high + i)
-        desk[20 * BLOCK + p], desk[21 * BLOCK + p], desk[22 * BLOCK + p] = _three(texels, high + right)
+        desk[20 * BLOCK + p], desk[21 * BLOCK + p], desk[22 * BLOCK + p] = _three(
+            texels, high + right
+        )
     for p in range(count):
         f, g = desk[9 * BLOCK + p], desk[10 * BLOCK + p]
         a, b, c = desk[11 * BLOCK + p], desk[12 * BLOCK + p], desk[13 * BLOCK + p]
@@ -180,10 +228,14 @@ BLOCK, ROWS = 128, 23
 
 
 @compiled
-def spline_gradients(texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real) -> None:
+def spline_gradients(
+    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real
+) -> None:
     """The same for `spline_gradient`, point by point: 16 texels at a time are work enough."""
     for p in range(count):
-        a, b, c, a_u, a_v, b_u, b_v = spline_gradient(texels, first, nx, ny, desk[p], desk[BLOCK + p])
+        a, b, c, a_u, a_v, b_u, b_v = spline_gradient(
+            texels, first, nx, ny, desk[p], desk[BLOCK + p]
+        )
         desk[2 * BLOCK + p] += a
         desk[3 * BLOCK + p] += b
         desk[4 * BLOCK + p] += c
@@ -196,14 +248,24 @@ def spline_gradients(texels: Real, first: int, nx: int, ny: int, per_x: float, p
 @compiled
 def catmull_rom_weights(f: float) -> tuple[float, float, float, float]:
     """The weights of the four texels around, a fraction f beyond the second of them."""
-    return ((-0.5 * f + 1.0) * f - 0.5) * f, (1.5 * f - 2.5) * f * f + 1.0, ((-1.5 * f + 2.0) * f + 0.5) * f, (0.5 * f - 0.5) * f * f
+    return (
+        ((-0.5 * f + 1.0) * f - 0.5) * f,
+        (1.5 * f - 2.5) * f * f + 1.0,
+        ((-1.5 * f + 2.0) * f + 0.5) * f,
+        (0.5 * f - 0.5) * f * f,
+    )
 
 
 @compiled
 def spline_weights(f: float) -> tuple[float, float, float, float]:
     """The same for the cubic B-spline."""
     e = 1.0 - f
-    return e * e * e / 6.0, (0.5 * f - 1.0) * f * f + 2.0 / 3.0, (0.5 * e - 1.0) * e * e + 2.0 / 3.0, f * f * f / 6.0
+    return (
+        e * e * e / 6.0,
+        (0.5 * f - 1.0) * f * f + 2.0 / 3.0,
+        (0.5 * e - 1.0) * e * e + 2.0 / 3.0,
+        f * f * f / 6.0,
+    )
 
 
 @compiled
@@ -215,9 +277,11 @@ def spline_slopes(f: float) -> tuple[float, float, float, float]:
 
 def spline_response(turns: Real) -> Real:
     """
-    How much a cubic B-spline weakens a wave that makes `turns` turns from texel to texel: (2 + cos(2 pi turns))/3.
+    How much a cubic B-spline weakens a wave that makes `turns` turns from texel to texel: (2 +
+    cos(2 pi turns))/3.
 
-    Waves divided by it, along x and y, are the coefficients of the spline that goes through the waves' own texels (Unser 1999).
+    Waves divided by it, along x and y, are the coefficients of the spline that goes through the
+    waves' own texels (Unser 1999).
     """
     response: Real = (2.0 + np.cos(2.0 * np.pi * turns)) / 3.0
     return response

@@ -1,10 +1,12 @@
 """
 The two passes of a block-wise inverse transform, on either side of the row FFTs.
 
-First pass, per block of columns kx: turn the waves, derive along y; (transform along y;) store transposed. Second pass, per block
-of rows y: derive along x, pack two real fields into one complex row; (transform along x;) split them. Whatever a block touches
-stays in cache. Loops run over plain reals, contiguous, over five arrays at most: what compilers vectorise. So complex rows come as
-their interleaved real parts, 2 n long, and spectra on their way through the first pass as two arrays of parts.
+First pass, per block of columns kx: turn the waves, derive along y; (transform along y;) store
+transposed. Second pass, per block of rows y: derive along x, pack two real fields into one complex
+row; (transform along x;) split them. Whatever a block touches stays in cache. Loops run over plain
+reals, contiguous, over five arrays at most: what compilers vectorise. So complex rows come as their
+interleaved real parts, 2 n long, and spectra on their way through the first pass as two arrays of
+parts.
 """
 
 import numpy as np
@@ -12,17 +14,19 @@ import numpy as np
 from fftocean.arrays import Complex, Real
 from fftocean.kernels.compiler import compiled
 
-ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a double to a whole number, in two instructions
+# 1.5 * 2^52: adding and subtracting it rounds a double to a whole number, in two instructions
+ROUND = 6755399441055744.0
 SPLIT = 134217729.0  # 2^27 + 1 splits a double in two halves of 26 bits  (Veltkamp 1968)
 
 
 @compiled
 def turns_at(frequency: Real, t: float, out: Real) -> None:
     """
-    out = frac(frequency t): turns made at time t, in [-1/2, 1/2], at any t as exact as the frequency.
+    out = frac(frequency t): turns made at time t, in [-1/2, 1/2], at any t as exact as the
+    frequency.
 
-    The leading 26 bits of frequency and time have an exact product, from which whole turns can be dropped without loss; the rest is
-    smaller by 2^26.
+    The leading 26 bits of frequency and time have an exact product, from which whole turns can be
+    dropped without loss; the rest is smaller by 2^26.
     """
     scaled = t * SPLIT
     t_coarse = scaled - (scaled - t)
@@ -40,10 +44,11 @@ def turns_at(frequency: Real, t: float, out: Real) -> None:
 @compiled
 def turns_in_loop(cycles: Real, step: float, count: float, out: Real) -> None:
     """
-    out = (cycles step mod count) / count: turns made at the step-th of `count` moments of a loop, in [-1/2, 1/2].
+    out = (cycles step mod count) / count: turns made at the step-th of `count` moments of a loop,
+    in [-1/2, 1/2].
 
-    All of them are whole numbers, held in doubles, and the arithmetic is exact up to the last division: cycles below 2^50 and
-    count up to 2^26 have products and quotients below 2^52.
+    All of them are whole numbers, held in doubles, and the arithmetic is exact up to the last
+    division: cycles below 2^50 and count up to 2^26 have products and quotients below 2^52.
     """
     part = 1.0 / count
     for b in range(out.shape[0]):
@@ -57,7 +62,8 @@ def turns_in_loop(cycles: Real, step: float, count: float, out: Real) -> None:
 @compiled
 def turns_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
     """
-    out = (cycles step mod count) / count, as `turns_in_loop`, for cycles below 2^63 and count up to 2^32.
+    out = (cycles step mod count) / count, as `turns_in_loop`, for cycles below 2^63 and count up to
+    2^32.
 
     In whole numbers of 64 bits, several times slower: (cycles mod count) step is below 2^64.
     """
@@ -73,9 +79,11 @@ def turns_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
 @compiled
 def phasors(turns: Real, cosine: Real, sine: Real) -> None:
     """
-    cosine, sine = cos and sin of 2 pi turns, |turns| <= 1/2: Taylor series of half the angle, then doubled; no branch, no table.
+    cosine, sine = cos and sin of 2 pi turns, |turns| <= 1/2: Taylor series of half the angle, then
+    doubled; no branch, no table.
 
-    Half the angle is at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of the cosine.
+    Half the angle is at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of
+    the cosine.
     """
     for b in range(turns.shape[0]):
         turn, c, s = turns[b], cosine[b], sine[b]
@@ -84,10 +92,25 @@ def phasors(turns: Real, cosine: Real, sine: Real) -> None:
             y = x * x
             sin = 1.0 - y * (1 / 342) * (1.0 - y * (1 / 420))
             sin = 1.0 - y * (1 / 156) * (1.0 - y * (1 / 210) * (1.0 - y * (1 / 272) * sin))
-            sin = x * (1.0 - y * (1 / 6) * (1.0 - y * (1 / 20) * (1.0 - y * (1 / 42) * (1.0 - y * (1 / 72) * (1.0 - y * (1 / 110) * sin)))))
+            sin = x * (
+                1.0
+                - y
+                * (1 / 6)
+                * (
+                    1.0
+                    - y
+                    * (1 / 20)
+                    * (1.0 - y * (1 / 42) * (1.0 - y * (1 / 72) * (1.0 - y * (1 / 110) * sin)))
+                )
+            )
             cos = 1.0 - y * (1 / 306) * (1.0 - y * (1 / 380))
             cos = 1.0 - y * (1 / 132) * (1.0 - y * (1 / 182) * (1.0 - y * (1 / 240) * cos))
-            cos = 1.0 - y * (1 / 2) * (1.0 - y * (1 / 12) * (1.0 - y * (1 / 30) * (1.0 - y * (1 / 56) * (1.0 - y * (1 / 90) * cos))))
+            cos = 1.0 - y * (1 / 2) * (
+                1.0
+                - y
+                * (1 / 12)
+                * (1.0 - y * (1 / 30) * (1.0 - y * (1 / 56) * (1.0 - y * (1 / 90) * cos)))
+            )
             c[j] = 1.0 - 2.0 * sin * sin
             s[j] = 2.0 * sin * cos
 
@@ -122,8 +145,8 @@ def turn_waves(waves: Real, cosine: Real, sine: Real, real: Real, imag: Real) ->
     """
     real + i imag = forward e^{-i f} + backward e^{+i f}.
 
-    `waves` holds, for each column, the real part of forward + backward, the imaginary of their difference and of their sum, and
-    the real part of their difference, each `cosine.shape[1]` long.
+    `waves` holds, for each column, the real part of forward + backward, the imaginary of their
+    difference and of their sum, and the real part of their difference, each `cosine.shape[1]` long.
     """
     n = cosine.shape[1]
     for b in range(cosine.shape[0]):
@@ -138,7 +161,10 @@ def turn_waves(waves: Real, cosine: Real, sine: Real, real: Real, imag: Real) ->
 
 @compiled
 def turn_rates(waves: Real, cosine: Real, sine: Real, omega: Real, real: Real, imag: Real) -> None:
-    """real + i imag = -i omega (forward e^{-i f} - backward e^{+i f}): the time derivative of `turn_waves`."""
+    """
+    real + i imag = -i omega (forward e^{-i f} - backward e^{+i f}): the time derivative of
+    `turn_waves`.
+    """
     n = cosine.shape[1]
     for b in range(cosine.shape[0]):
         w, c, s, o = waves[b], cosine[b], sine[b], omega[b]
@@ -160,7 +186,9 @@ def scale(source: Real, factor: Real, out: Real) -> None:
 
 
 @compiled
-def derive(real: Real, imag: Real, power: Real, first: float, second: float, columns: int, out: Real) -> None:
+def derive(
+    real: Real, imag: Real, power: Real, first: float, second: float, columns: int, out: Real
+) -> None:
     """out = power (first real + i second imag), row by row, complex parts interleaved."""
     for b in range(columns):
         x, y, o = real[b], imag[b], out[b]
@@ -182,7 +210,10 @@ def mix(
     columns: int,
     out: Real,
 ) -> None:
-    """out = first (power real + other other_real) + i second (power imag + other other_imag), complex parts interleaved."""
+    """
+    out = first (power real + other other_real) + i second (power imag + other other_imag), complex
+    parts interleaved.
+    """
     for b in range(columns):
         x, y, u, v, o = real[b], imag[b], other_real[b], other_imag[b], out[b]
         for j in range(power.size):
@@ -191,11 +222,14 @@ def mix(
 
 
 @compiled
-def transpose(block: Real | Complex, spectrum: int, first: int, columns: int, out: Real | Complex) -> None:
+def transpose(
+    block: Real | Complex, spectrum: int, first: int, columns: int, out: Real | Complex
+) -> None:
     """
     out[y, spectrum, first + b] = block[b, y] for b < columns, eight columns at a time.
 
-    Complex numbers of single precision come as reals of 8 bytes: nothing is computed, they are only moved.
+    Complex numbers of single precision come as reals of 8 bytes: nothing is computed, they are only
+    moved.
     """
     whole = columns - columns % 8
     for b in range(0, whole, 8):
@@ -213,12 +247,23 @@ def transpose(block: Real | Complex, spectrum: int, first: int, columns: int, ou
 
 
 @compiled
-def pack(between: Real, first: int, rows: int, ahead: int, astern: int, factors: Real, mirrored: Real, out: Real) -> None:
+def pack(
+    between: Real,
+    first: int,
+    rows: int,
+    ahead: int,
+    astern: int,
+    factors: Real,
+    mirrored: Real,
+    out: Real,
+) -> None:
     """
-    out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k: a complex row with one real field as real part, one as imaginary.
+    out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k: a complex row with one real field
+    as real part, one as imaginary.
 
-    X and Y are two spectra of row first + r; both are the Hermitian halves of real rows. `factors` has each number twice, for real
-    and imaginary part; `mirrored` too, from the highest k down to the first above 0, the second of each with a minus for the conjugate.
+    X and Y are two spectra of row first + r; both are the Hermitian halves of real rows. `factors`
+    has each number twice, for real and imaginary part; `mirrored` too, from the highest k down to
+    the first above 0, the second of each with a minus for the conjugate.
     """
     high = mirrored.size // 2  # the highest k
     for r in range(rows):
@@ -227,14 +272,18 @@ def pack(between: Real, first: int, rows: int, ahead: int, astern: int, factors:
             o[i] = factors[i] * x[i]
         m = o[o.size - mirrored.size :]
         for i in range(high):
-            k = np.uint64(2 * (high - i))  # unsigned: an index that might be negative would have to be looked at
+            k = np.uint64(
+                2 * (high - i)
+            )  # unsigned: an index that might be negative would have to be looked at
             m[2 * i] = mirrored[2 * i] * y[k]
             m[2 * i + 1] = mirrored[2 * i + 1] * y[k + np.uint64(1)]
 
 
 @compiled
 def split(packed: Real, undo: float, real: Real, imag: Real) -> None:
-    """real, imag = the two real fields of packed rows, the second times `undo`; each is (rows, nx)."""
+    """
+    real, imag = the two real fields of packed rows, the second times `undo`; each is (rows, nx).
+    """
     for r in range(real.shape[0]):
         o, a, b = packed[r], real[r], imag[r]
         for i in range(a.size):

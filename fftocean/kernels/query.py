@@ -1,24 +1,33 @@
 """
-The inner loops of point queries: find the parameters whose water is at a world point, and sum or interpolate what is there.
+The inner loops of point queries: find the parameters whose water is at a world point, and sum or
+interpolate what is there.
 
-A source of waves is a few tiles, each periodic in its own size (inf: not at all), which add up. Tiles are either texels, to be
-interpolated, or lists of waves, to be summed. Parameters are kept as the world point, reduced to the first period of each tile, plus
-an offset of a few metres: far from the origin nothing but the reduction itself loses digits.
+A source of waves is a few tiles, each periodic in its own size (inf: not at all), which add up.
+Tiles are either texels, to be interpolated, or lists of waves, to be summed. Parameters are kept as
+the world point, reduced to the first period of each tile, plus an offset of a few metres: far from
+the origin nothing but the reduction itself loses digits.
 
     kind     BILINEAR, SPLINE or WAVES
     sizes    (tiles, 2)      lx, ly [m]
     rates    (tiles, 2)      nx/lx, ny/ly: texels to the metre
     layout   (tiles, 3)      first, nx, ny of each tile's texels in the flat arrays
-    texels   (4 all,)        displace_x, displace_y, height and nothing of each: 16 bytes in single precision
-    first    (tiles + 1,)    where the waves of each tile begin
-    waves    (5, all)        kx, ky, a, push, start: height a cos f, displacement -push (kx, ky) sin f, with f = kx x + ky y - start
+    texels   (4 all,)        displace_x, displace_y, height and nothing of each: 16 bytes in single
+    precision first    (tiles + 1,)    where the waves of each tile begin
+    waves    (5, all)        kx, ky, a, push, start: height a cos f, displacement -push (kx, ky) sin
+    f, with f = kx x + ky y - start
 """
 
 import numpy as np
 
 from fftocean.arrays import Integer, Real
 from fftocean.kernels.compiler import compiled
-from fftocean.kernels.interpolate import BLOCK, bilinear_gradient, bilinear_gradients, spline_gradient, spline_gradients
+from fftocean.kernels.interpolate import (
+    BLOCK,
+    bilinear_gradient,
+    bilinear_gradients,
+    spline_gradient,
+    spline_gradients,
+)
 
 BILINEAR, SPLINE, WAVES = 0, 1, 2
 
@@ -65,16 +74,31 @@ def follow(
     jacobians: Real,
 ) -> None:
     """
-    The same as `invert` for texels where the way is easy, which it nearly always is: Newton's steps as they come, a few of them.
+    The same as `invert` for texels where the way is easy, which it nearly always is: Newton's steps
+    as they come, a few of them.
 
-    Stops where the residual is at most `limit` [m]. What is left above it, with an infinite residual, is for `invert`. The first step
-    does without the last tile: the others displace the water furthest, and where it ends up is as good a place to look at ripples as
-    the start was. Points go through in blocks, and leave them as they are found. Room to work in: `origins` (tiles, 2, BLOCK), `moved`
-    (2, BLOCK), `desk` as in `bilinear_gradients`, `points` (BLOCK,).
+    Stops where the residual is at most `limit` [m]. What is left above it, with an infinite
+    residual, is for `invert`. The first step does without the last tile: the others displace the
+    water furthest, and where it ends up is as good a place to look at ripples as the start was.
+    Points go through in blocks, and leave them as they are found. Room to work in: `origins`
+    (tiles, 2, BLOCK), `moved` (2, BLOCK), `desk` as in `bilinear_gradients`, `points` (BLOCK,).
     """
     tiles = sizes.shape[0]
     for start in range(0, heights.size, BLOCK):
-        live = _enter(x, y, start, min(BLOCK, heights.size - start), sizes, rates, origins, points, offsets, heights, residuals, jacobians)
+        live = _enter(
+            x,
+            y,
+            start,
+            min(BLOCK, heights.size - start),
+            sizes,
+            rates,
+            origins,
+            points,
+            offsets,
+            heights,
+            residuals,
+            jacobians,
+        )
         moved[:] = 0.0
         for count in range(EASY):
             known = tiles - 1 if count == 0 and tiles > 1 else tiles
@@ -84,11 +108,41 @@ def follow(
                     desk[q] = origins[i, 0, points[q]] + moved[0, q] * rates[i, 0]
                     desk[BLOCK + q] = origins[i, 1, points[q]] + moved[1, q] * rates[i, 1]
                 if cubic:
-                    spline_gradients(texels, layout[i, 0], layout[i, 1], layout[i, 2], rates[i, 0], rates[i, 1], live, desk)
+                    spline_gradients(
+                        texels,
+                        layout[i, 0],
+                        layout[i, 1],
+                        layout[i, 2],
+                        rates[i, 0],
+                        rates[i, 1],
+                        live,
+                        desk,
+                    )
                 else:
-                    bilinear_gradients(texels, layout[i, 0], layout[i, 1], layout[i, 2], rates[i, 0], rates[i, 1], live, desk)
+                    bilinear_gradients(
+                        texels,
+                        layout[i, 0],
+                        layout[i, 1],
+                        layout[i, 2],
+                        rates[i, 0],
+                        rates[i, 1],
+                        live,
+                        desk,
+                    )
             enough = limit if known == tiles else -1.0
-            live = _step(choppiness, enough, start, live, moved, desk, points, offsets, heights, residuals, jacobians)
+            live = _step(
+                choppiness,
+                enough,
+                start,
+                live,
+                moved,
+                desk,
+                points,
+                offsets,
+                heights,
+                residuals,
+                jacobians,
+            )
             if live == 0:
                 break
 
@@ -108,7 +162,10 @@ def _enter(
     residuals: Real,
     jacobians: Real,
 ) -> int:
-    """Let the points of a block in that are finite: their places in texels, and how many they are. The others are done with."""
+    """
+    Let the points of a block in that are finite: their places in texels, and how many they are. The
+    others are done with.
+    """
     live = 0
     for q in range(size):
         p = start + q
@@ -138,7 +195,10 @@ def _step(
     residuals: Real,
     jacobians: Real,
 ) -> int:
-    """Take Newton's step with the points whose residual is above `enough` [m], and let the others go; return how many stay."""
+    """
+    Take Newton's step with the points whose residual is above `enough` [m], and let the others go;
+    return how many stay.
+    """
     kept = 0
     for q in range(live):
         p, sx, sy = start + points[q], moved[0, q], moved[1, q]
@@ -188,15 +248,19 @@ def invert(
     jacobians: Real,
 ) -> None:
     """
-    Find for each point x the offset s with s + c D(x + s) = 0: the parameters x + s are those of the water at x.
+    Find for each point x the offset s with s + c D(x + s) = 0: the parameters x + s are those of
+    the water at x.
 
-    Newton's method with the exact Jacobian 1 + c dD/dx of whatever is summed or interpolated. A step that does not bring the
-    residual down is halved. Where that leads nowhere, as it can beside a fold, the search starts again from points around, up to `reach`
-    [m] away; an answer there is, as a bounded displacement leaves no hole in the surface.
+    Newton's method with the exact Jacobian 1 + c dD/dx of whatever is summed or interpolated. A
+    step that does not bring the residual down is halved. Where that leads nowhere, as it can beside
+    a fold, the search starts again from points around, up to `reach` [m] away; an answer there is,
+    as a bounded displacement leaves no hole in the surface.
 
-    Stops where the residual is at most `aim` [m], or, after some steps, at most `limit`; else the best point found is kept. `offsets`
-    (points, 2), `heights`, `residuals` [m] and the least of the `jacobians` met on the way are written: where the surface is folded,
-    the way leads over water that lies upside down. NaN for points that are not finite. `origin` (tiles, 2) is room to work in.
+    Stops where the residual is at most `aim` [m], or, after some steps, at most `limit`; else the
+    best point found is kept. `offsets` (points, 2), `heights`, `residuals` [m] and the least of the
+    `jacobians` met on the way are written: where the surface is folded, the way leads over water
+    that lies upside down. NaN for points that are not finite. `origin` (tiles, 2) is room to work
+    in.
     """
     for p in range(heights.size):
         if not (np.isfinite(x[p]) and np.isfinite(y[p])):
@@ -208,15 +272,23 @@ def invert(
         heights[p] = residuals[p] = np.nan
         best = least = np.inf
         for start in range(STARTS):
-            # The first from the point itself, the next along a spiral that covers all within reach (steps of the golden angle).
+            # The first from the point itself, the next along a spiral that covers all within reach
+            # (steps of the golden angle).
             angle, radius = 2.399963229728653 * start, reach * np.sqrt(start / STARTS)
             sx, sy = radius * np.cos(angle), radius * np.sin(angle)
             base_x, base_y, base, step_x, step_y, part = sx, sy, np.inf, 0.0, 0.0, 1.0
             for _ in range(STEPS):
-                dx, dy, height, xx, xy, yx, yy = _water(kind, sizes, layout, texels, first, waves, origin, sx, sy)
+                dx, dy, height, xx, xy, yx, yy = _water(
+                    kind, sizes, layout, texels, first, waves, origin, sx, sy
+                )
                 rx, ry = sx + choppiness * dx, sy + choppiness * dy
                 residual = np.sqrt(rx * rx + ry * ry)
-                a, b, c, d = 1.0 + choppiness * xx, choppiness * xy, choppiness * yx, 1.0 + choppiness * yy
+                a, b, c, d = (
+                    1.0 + choppiness * xx,
+                    choppiness * xy,
+                    choppiness * yx,
+                    1.0 + choppiness * yy,
+                )
                 jacobian = a * d - b * c
                 least = min(least, jacobian)
                 if residual < best:
@@ -232,7 +304,9 @@ def invert(
                     else:
                         step_x, step_y = -rx, -ry  # the fixed point's step
                     length = np.sqrt(step_x * step_x + step_y * step_y)
-                    if length > LONGEST * residual:  # next to a fold, where the Jacobian says little
+                    if (
+                        length > LONGEST * residual
+                    ):  # next to a fold, where the Jacobian says little
                         step_x *= LONGEST * residual / length
                         step_y *= LONGEST * residual / length
                 else:
@@ -250,9 +324,20 @@ STARTS, STEPS, LONGEST, SHORTEST = 100, 40, 10.0, 1e-3
 
 @compiled
 def _water(
-    kind: int, sizes: Real, layout: Integer, texels: Real, first: Integer, waves: Real, origin: Real, sx: float, sy: float
+    kind: int,
+    sizes: Real,
+    layout: Integer,
+    texels: Real,
+    first: Integer,
+    waves: Real,
+    origin: Real,
+    sx: float,
+    sy: float,
 ) -> tuple[float, float, float, float, float, float, float]:
-    """Displacement, height, and d displacement/dx: (dx, dy, height, xx, xy, yx, yy) of all tiles at origin + (sx, sy)."""
+    """
+    Displacement, height, and d displacement/dx: (dx, dy, height, xx, xy, yx, yy) of all tiles at
+    origin + (sx, sy).
+    """
     dx = dy = height = xx = xy = yx = yy = 0.0
     for i in range(sizes.shape[0]):
         px, py = origin[i, 0] + sx, origin[i, 1] + sy
@@ -273,9 +358,13 @@ def _water(
             start, nx, ny = layout[i, 0], layout[i, 1], layout[i, 2]
             per_x, per_y = nx / sizes[i, 0], ny / sizes[i, 1]
             if kind == BILINEAR:
-                a, b, h, a_u, a_v, b_u, b_v = bilinear_gradient(texels, start, nx, ny, px * per_x, py * per_y)
+                a, b, h, a_u, a_v, b_u, b_v = bilinear_gradient(
+                    texels, start, nx, ny, px * per_x, py * per_y
+                )
             else:
-                a, b, h, a_u, a_v, b_u, b_v = spline_gradient(texels, start, nx, ny, px * per_x, py * per_y)
+                a, b, h, a_u, a_v, b_u, b_v = spline_gradient(
+                    texels, start, nx, ny, px * per_x, py * per_y
+                )
             dx += a
             dy += b
             height += h
@@ -287,12 +376,23 @@ def _water(
 
 
 @compiled
-def sum_waves(sizes: Real, first: Integer, waves: Real, omega: Real, x: Real, y: Real, offsets: Real, origin: Real, out: Real) -> None:
+def sum_waves(
+    sizes: Real,
+    first: Integer,
+    waves: Real,
+    omega: Real,
+    x: Real,
+    y: Real,
+    offsets: Real,
+    origin: Real,
+    out: Real,
+) -> None:
     """
-    out[p] = the sums over all waves at (x, y) + offsets of the displaced surface's derivatives, (points, 14):
+    out[p] = the sums over all waves at (x, y) + offsets of the displaced surface's derivatives,
+    (points, 14):
 
-    slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, then position, velocity and acceleration (x, y and z of each), where
-    position is the displacement before choppiness.
+    slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, then position, velocity and acceleration
+    (x, y and z of each), where position is the displacement before choppiness.
     """
     for p in range(out.shape[0]):
         if not (np.isfinite(x[p]) and np.isfinite(y[p])):
@@ -326,7 +426,9 @@ def sum_waves(sizes: Real, first: Integer, waves: Real, omega: Real, x: Real, y:
 
 
 @compiled
-def texel_coordinates(x: Real, y: Real, offsets: Real, lx: float, ly: float, nx: int, ny: int, u: Real, v: Real) -> None:
+def texel_coordinates(
+    x: Real, y: Real, offsets: Real, lx: float, ly: float, nx: int, ny: int, u: Real, v: Real
+) -> None:
     """(u, v) = where (x, y) + offsets is on a tile, in texels; NaN where it is not finite."""
     for p in range(u.size):
         if np.isfinite(x[p]) and np.isfinite(y[p]):
@@ -337,25 +439,43 @@ def texel_coordinates(x: Real, y: Real, offsets: Real, lx: float, ly: float, nx:
 
 
 @compiled
-def sum_heights(sizes: Real, first: Integer, waves: Real, x: Real, y: Real, origin: Real, out: Real) -> None:
-    """out[p] = the sum of a cos f at (x, y): the surface of linear theory, where no water moves sideways; NaN where not finite."""
+def sum_heights(
+    sizes: Real, first: Integer, waves: Real, x: Real, y: Real, origin: Real, out: Real
+) -> None:
+    """
+    out[p] = the sum of a cos f at (x, y): the surface of linear theory, where no water moves
+    sideways; NaN where not finite.
+    """
     for p in range(out.size):
         out[p] = 0.0 if np.isfinite(x[p]) and np.isfinite(y[p]) else np.nan
         _reduce(x[p], y[p], sizes, origin)
         for i in range(sizes.shape[0]):
             for m in range(first[i], first[i + 1]):
-                out[p] += waves[2, m] * np.cos(waves[0, m] * origin[i, 0] + waves[1, m] * origin[i, 1] - waves[4, m])
+                out[p] += waves[2, m] * np.cos(
+                    waves[0, m] * origin[i, 0] + waves[1, m] * origin[i, 1] - waves[4, m]
+                )
 
 
 @compiled
 def sum_below(
-    sizes: Real, first: Integer, waves: Real, omega: Real, depth: float, x: Real, y: Real, z: Real, origin: Real, out: Real
+    sizes: Real,
+    first: Integer,
+    waves: Real,
+    omega: Real,
+    depth: float,
+    x: Real,
+    y: Real,
+    z: Real,
+    origin: Real,
+    out: Real,
 ) -> None:
     """
-    out[p] = what the waves do at (x, y, z), z <= 0: velocity and acceleration, x, y and z of each, and -d potential/dt, (points, 7).
+    out[p] = what the waves do at (x, y, z), z <= 0: velocity and acceleration, x, y and z of each,
+    and -d potential/dt, (points, 7).
 
-    A wave moves the water by cosh k(z + h)/sinh kh along and sinh k(z + h)/sinh kh up. Both are written with exponents that are
-    never positive, so that nothing overflows; deep water is their limit, e^{kz}.
+    A wave moves the water by cosh k(z + h)/sinh kh along and sinh k(z + h)/sinh kh up. Both are
+    written with exponents that are never positive, so that nothing overflows; deep water is their
+    limit, e^{kz}.
     """
     for p in range(out.shape[0]):
         if not (np.isfinite(x[p]) and np.isfinite(y[p]) and np.isfinite(z[p])):

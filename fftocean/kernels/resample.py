@@ -1,7 +1,9 @@
 """
-From samples at undisplaced positions to samples at places: quintic B-splines, their inversion, and which places lie under a fold.
+From samples at undisplaced positions to samples at places: quintic B-splines, their inversion, and
+which places lie under a fold.
 
-Positions (u, v) count samples of a periodic grid along x and y. Spline coefficients come interleaved, (my, mx, fields).
+Positions (u, v) count samples of a periodic grid along x and y. Spline coefficients come
+interleaved, (my, mx, fields).
 """
 
 import numpy as np
@@ -15,7 +17,10 @@ Flags = npt.NDArray[np.bool_]
 
 @compiled
 def weights(f: float, w: Real) -> None:
-    """w = the quintic B-spline at f + 2, f + 1, f, f - 1, f - 2, f - 3, for 0 <= f <= 1: the shares of the six samples around."""
+    """
+    w = the quintic B-spline at f + 2, f + 1, f, f - 1, f - 2, f - 3, for 0 <= f <= 1: the shares of
+    the six samples around.
+    """
     g = 1.0 - f
     f2 = f * f
     w[0] = g * g * g * g * g * (1 / 120)
@@ -63,12 +68,16 @@ def sample(coefficients: Real, u: Real, v: Real, out: Real) -> None:
 
 
 @compiled
-def invert(shift: Real, x: Real, y: Real, steps: int, tolerance: float, u: Real, v: Real, residual: Real) -> None:
+def invert(
+    shift: Real, x: Real, y: Real, steps: int, tolerance: float, u: Real, v: Real, residual: Real
+) -> None:
     """
-    Solve (u, v) + shift(u, v) = (x, y) by Newton's method with the exact derivatives of the spline, from (u, v) as given.
+    Solve (u, v) + shift(u, v) = (x, y) by Newton's method with the exact derivatives of the spline,
+    from (u, v) as given.
 
-    `shift` are coefficients (my, mx, 2) in samples; x, y, u, v and residual are (points,). A step is at most one sample long; the
-    best of all positions tried is kept, and how far it is off, in samples.
+    `shift` are coefficients (my, mx, 2) in samples; x, y, u, v and residual are (points,). A step
+    is at most one sample long; the best of all positions tried is kept, and how far it is off, in
+    samples.
     """
     rows, columns = shift.shape[0], shift.shape[1]
     wu, wv, du, dv = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
@@ -118,13 +127,17 @@ def invert(shift: Real, x: Real, y: Real, steps: int, tolerance: float, u: Real,
 
 
 @compiled
-def uncover(x: Real, y: Real, z: Real, stride: int, u: Real, v: Real, top: Real, folded: Flags) -> None:
+def uncover(
+    x: Real, y: Real, z: Real, stride: int, u: Real, v: Real, top: Real, folded: Flags
+) -> None:
     """
-    Find, for every stride-th place of a periodic grid, the undisplaced position of the highest water over it.
+    Find, for every stride-th place of a periodic grid, the undisplaced position of the highest
+    water over it.
 
-    The surface is two triangles to each cell of samples, displaced to (x, y) [samples] at height z, each (my, mx). Places lie at
-    whole multiples of `stride`. u, v and top, the height, are (my / stride, mx / stride), top at first -inf; folded becomes true
-    where a triangle over the place lies upside down.
+    The surface is two triangles to each cell of samples, displaced to (x, y) [samples] at height z,
+    each (my, mx). Places lie at whole multiples of `stride`. u, v and top, the height, are (my /
+    stride, mx / stride), top at first -inf; folded becomes true where a triangle over the place
+    lies upside down.
     """
     rows, columns = x.shape
     tall, wide = top.shape
@@ -144,8 +157,14 @@ def uncover(x: Real, y: Real, z: Real, stride: int, u: Real, v: Real, top: Real,
                     cx[corner] += x[jj, ii]
                     cy[corner] += y[jj, ii]
                     cz[corner] = z[jj, ii]
-                left, right = int(np.ceil(min(cx[0], cx[1], cx[2]) / stride)), int(np.floor(max(cx[0], cx[1], cx[2]) / stride))
-                low, high = int(np.ceil(min(cy[0], cy[1], cy[2]) / stride)), int(np.floor(max(cy[0], cy[1], cy[2]) / stride))
+                left, right = (
+                    int(np.ceil(min(cx[0], cx[1], cx[2]) / stride)),
+                    int(np.floor(max(cx[0], cx[1], cx[2]) / stride)),
+                )
+                low, high = (
+                    int(np.ceil(min(cy[0], cy[1], cy[2]) / stride)),
+                    int(np.floor(max(cy[0], cy[1], cy[2]) / stride)),
+                )
                 if right < left or high < low:
                     continue
                 area = (cx[1] - cx[0]) * (cy[2] - cy[0]) - (cx[2] - cx[0]) * (cy[1] - cy[0])
@@ -164,23 +183,51 @@ def uncover(x: Real, y: Real, z: Real, stride: int, u: Real, v: Real, top: Real,
                             folded[jq, ip] = True
                         if here > top[jq, ip]:
                             top[jq, ip] = here
-                            u[jq, ip] = cu[0] + b1 * (cu[1] - cu[0]) + b2 * (cu[2] - cu[0]) - (p - ip) * stride
-                            v[jq, ip] = cv[0] + b1 * (cv[1] - cv[0]) + b2 * (cv[2] - cv[0]) - (q - jq) * stride
+                            u[jq, ip] = (
+                                cu[0]
+                                + b1 * (cu[1] - cu[0])
+                                + b2 * (cu[2] - cu[0])
+                                - (p - ip) * stride
+                            )
+                            v[jq, ip] = (
+                                cv[0]
+                                + b1 * (cv[1] - cv[0])
+                                + b2 * (cv[2] - cv[0])
+                                - (q - jq) * stride
+                            )
 
 
 @compiled
 def world_slopes(
-    slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppiness: float, steepest: float, out_x: Real, out_y: Real
+    slope_x: Real,
+    slope_y: Real,
+    xx: Real,
+    xy: Real,
+    yy: Real,
+    choppiness: float,
+    steepest: float,
+    out_x: Real,
+    out_y: Real,
 ) -> None:
     """
-    out_x, out_y = dz/dx and dz/dy of the displaced surface in world coordinates, from its normal; all (rows, columns).
+    out_x, out_y = dz/dx and dz/dy of the displaced surface in world coordinates, from its normal;
+    all (rows, columns).
 
-    Where the surface stands upright or hangs over, at the rim of a fold, the slope would be infinite: it is cut at `steepest`.
+    Where the surface stands upright or hangs over, at the rim of a fold, the slope would be
+    infinite: it is cut at `steepest`.
     """
     for j in range(slope_x.shape[0]):
         for i in range(slope_x.shape[1]):
-            a, b, d = 1.0 + choppiness * xx[j, i], choppiness * xy[j, i], 1.0 + choppiness * yy[j, i]
-            nx, ny, nz = b * slope_y[j, i] - slope_x[j, i] * d, slope_x[j, i] * b - a * slope_y[j, i], a * d - b * b
+            a, b, d = (
+                1.0 + choppiness * xx[j, i],
+                choppiness * xy[j, i],
+                1.0 + choppiness * yy[j, i],
+            )
+            nx, ny, nz = (
+                b * slope_y[j, i] - slope_x[j, i] * d,
+                slope_x[j, i] * b - a * slope_y[j, i],
+                a * d - b * b,
+            )
             nz = max(nz, np.hypot(nx, ny) / steepest)
             out_x[j, i] = -nx / nz if nz > 0.0 else 0.0
             out_y[j, i] = -ny / nz if nz > 0.0 else 0.0

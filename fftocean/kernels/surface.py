@@ -1,4 +1,7 @@
-"""Pointwise geometry of the displaced surface: what slopes and stretches say about its normal and its folding."""
+"""
+Pointwise geometry of the displaced surface: what slopes and stretches say about its normal and its
+folding.
+"""
 
 import numpy as np
 
@@ -7,18 +10,26 @@ from fftocean.kernels.compiler import compiled
 
 
 @compiled
-def normals(slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
+def normals(
+    slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppiness: float, out: Real
+) -> None:
     """
-    out = the unit vector along (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy), the cross product of the surface's two tangents.
+    out = the unit vector along (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy), the cross product
+    of the surface's two tangents.
 
-    Its z component has the sign of the Jacobian: where the surface is folded over, the normal points down. Where both tangents
-    vanish together there is no normal, and up is returned.
+    Its z component has the sign of the Jacobian: where the surface is folded over, the normal
+    points down. Where both tangents vanish together there is no normal, and up is returned.
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     nothing = xx.dtype.type(0)
     n = out.shape[1]
-    unit = np.empty(3 * n, xx.dtype)  # a row of x, one of y, one of z: one array to write to is what compilers still vectorise
-    second, third = np.uint64(n), np.uint64(2 * n)  # unsigned: an index that might be negative would have to be looked at
+    unit = np.empty(
+        3 * n, xx.dtype
+    )  # a row of x, one of y, one of z: one array to write to is what compilers still vectorise
+    second, third = (
+        np.uint64(n),
+        np.uint64(2 * n),
+    )  # unsigned: an index that might be negative would have to be looked at
     for j in range(out.shape[0]):
         sx, sy, dxx, dxy, dyy = slope_x[j], slope_y[j], xx[j], xy[j], yy[j]
         for i in range(n):
@@ -44,7 +55,10 @@ def normals(slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppine
 
 @compiled
 def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
-    """out = (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2: the area of displaced water surface over still; below 0 it is folded."""
+    """
+    out = (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2: the area of displaced water surface over still; below
+    0 it is folded.
+    """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     for j in range(out.shape[0]):
         dxx, dxy, dyy, o = xx[j], xy[j], yy[j], out[j]
@@ -55,7 +69,10 @@ def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None
 
 @compiled
 def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
-    """out = the smaller eigenvalue of [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]]: the stretch along the most squeezed direction."""
+    """
+    out = the smaller eigenvalue of [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]]: the stretch along the
+    most squeezed direction.
+    """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     half = xx.dtype.type(0.5)
     for j in range(out.shape[0]):
@@ -69,9 +86,11 @@ def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Rea
 @compiled
 def folds(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     """
-    out = how many samples are folded, the smallest Jacobian, the smallest eigenvalue of the displacement gradient; float64.
+    out = how many samples are folded, the smallest Jacobian, the smallest eigenvalue of the
+    displacement gradient; float64.
 
-    Folded are those whose smaller eigenvalue of the deformation, 1 + c times that of the gradient, is below 0.
+    Folded are those whose smaller eigenvalue of the deformation, 1 + c times that of the gradient,
+    is below 0.
     """
     folded = 0
     least = np.inf
@@ -83,5 +102,7 @@ def folds(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
             lowest = min(lowest, eigenvalue)
             if 1.0 + choppiness * eigenvalue < 0.0:
                 folded += 1
-            least = min(least, (1.0 + choppiness * a) * (1.0 + choppiness * d) - (choppiness * b) ** 2)
+            least = min(
+                least, (1.0 + choppiness * a) * (1.0 + choppiness * d) - (choppiness * b) ** 2
+            )
     out[0], out[1], out[2] = folded, least, lowest

@@ -1,4 +1,7 @@
-"""The dispersion relation of water waves: omega(k), d omega/dk, k(omega), and the frequencies that close a loop."""
+"""
+The dispersion relation of water waves: omega(k), d omega/dk, k(omega), and the frequencies that
+close a loop.
+"""
 
 import math
 
@@ -10,18 +13,27 @@ from fftocean.errors import ParameterError
 from fftocean.limits import DEPTH, LOOP, SURFACE_TENSION
 
 LARGEST = 1e48
-"""No wavenumber [rad/m] or frequency [rad/s] beyond this: the sixth power of a frequency must stay within double precision."""
+"""
+No wavenumber [rad/m] or frequency [rad/s] beyond this: the sixth power of a frequency must stay
+within double precision.
+"""
 
 
 def _argument(name: str, values: RealLike, unit: str) -> Real:
     """Return `values` as a float64 array of numbers from 0 to `LARGEST`."""
     array = np.asarray(values)
-    if array.dtype.kind not in "iuf":  # a string of digits would convert, and so would a truth value
-        raise ParameterError(f"{name} must be numbers between 0 and {LARGEST:g} {unit}, got {values!r:.60} ({array.dtype})")
+    if (
+        array.dtype.kind not in "iuf"
+    ):  # a string of digits would convert, and so would a truth value
+        raise ParameterError(
+            f"{name} must be numbers between 0 and {LARGEST:g} {unit}, got {values!r:.60} ({array.dtype})"
+        )
     array = array.astype(np.float64, copy=False)
     good = (array >= 0.0) & (array <= LARGEST)
     if not np.all(good):
-        raise ParameterError(f"{name} must be between 0 and {LARGEST:g} {unit}, got {array[~good].flat[0]}")
+        raise ParameterError(
+            f"{name} must be between 0 and {LARGEST:g} {unit}, got {array[~good].flat[0]}"
+        )
     return array
 
 
@@ -41,21 +53,33 @@ def _times_depth(k: Real, depth: float) -> Real:
 
 def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
     """omega(k), unchecked."""
-    omega: Real = np.sqrt((GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth)))
+    omega: Real = np.sqrt(
+        (GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth))
+    )
     return omega
 
 
 def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
     """(d omega/dk) / (omega/k), unchecked."""
     s = kinematic_tension * k**2
-    x2 = 2.0 * np.minimum(_times_depth(k, depth), 350.0)  # sinh overflows past 710; x/sinh x is 0 long before
-    ratio: Real = 0.5 * ((GRAVITY + 3.0 * s) / (GRAVITY + s) + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0))
+    x2 = 2.0 * np.minimum(
+        _times_depth(k, depth), 350.0
+    )  # sinh overflows past 710; x/sinh x is 0 long before
+    ratio: Real = 0.5 * (
+        (GRAVITY + 3.0 * s) / (GRAVITY + s)
+        + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0)
+    )
     return ratio
 
 
 def turns_per_second(omega: Real) -> Real:
-    """Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest double, not the next."""
-    turns: Real = (omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")).astype(np.float64)
+    """
+    Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest
+    double, not the next.
+    """
+    turns: Real = (
+        omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
+    ).astype(np.float64)
     return turns
 
 
@@ -66,24 +90,30 @@ def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: flo
     Args:
         k: wavenumber magnitude, any shape, [rad/m], >= 0.
         depth: still-water depth h [m]; `math.inf` is deep water.
-        surface_tension: sigma [N/m]; 0 leaves capillary waves out, `constants.SURFACE_TENSION` is sea water.
+        surface_tension: sigma [N/m]; 0 leaves capillary waves out, `constants.SURFACE_TENSION` is
+            sea water.
 
     Returns:
         Same shape as `k`, [rad/s].
 
     Raises:
-        ParameterError: a wavenumber, depth or tension out of its range (`LARGEST`, `limits.DEPTH`, `limits.SURFACE_TENSION`).
+        ParameterError: a wavenumber, depth or tension out of its range (`LARGEST`, `limits.DEPTH`,
+            `limits.SURFACE_TENSION`).
 
     Source: Lamb, Hydrodynamics (1932), art. 228 and 267.
-    Pinned by tests/physics/test_dispersion.py: deep and shallow limits, and the round trip through `wavenumber`.
+    Pinned by tests/physics/test_dispersion.py: deep and shallow limits, and the round trip through
+    `wavenumber`.
     """
     kinematic_tension = _water(depth, surface_tension)
     return _frequency(_argument("k", k, "rad/m"), depth, kinematic_tension)
 
 
-def group_to_phase_speed(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
+def group_to_phase_speed(
+    k: RealLike, depth: float = math.inf, surface_tension: float = 0.0
+) -> Real:
     """
-    Return (d omega/dk) / (omega/k) [-]: 1/2 for deep gravity waves, 1 for shallow ones, 3/2 for capillaries (2 in shallow water).
+    Return (d omega/dk) / (omega/k) [-]: 1/2 for deep gravity waves, 1 for shallow ones, 3/2 for
+    capillaries (2 in shallow water).
 
     With x = k h and s = (sigma/rho) k^2:  1/2 ((g + 3 s)/(g + s) + 2x / sinh 2x).
     """
@@ -104,7 +134,8 @@ def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float 
         Same shape as `k`, [m/s].
 
     Raises:
-        ParameterError: as `angular_frequency`, and for k = 0, where deep water has no finite answer.
+        ParameterError: as `angular_frequency`, and for k = 0, where deep water has no finite
+            answer.
 
     Source: Lamb, Hydrodynamics (1932), art. 236.
     Pinned by tests/physics/test_dispersion.py, against a central difference of `angular_frequency`.
@@ -112,15 +143,20 @@ def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float 
     k = _argument("k", k, "rad/m")
     if np.any(k == 0.0):
         raise ParameterError("k must be more than 0 rad/m for a group velocity, got 0.0")
-    return angular_frequency(k, depth, surface_tension) / k * group_to_phase_speed(k, depth, surface_tension)
+    return (
+        angular_frequency(k, depth, surface_tension)
+        / k
+        * group_to_phase_speed(k, depth, surface_tension)
+    )
 
 
 def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
     """
     Return k(omega), the inverse of `angular_frequency`, to a few units in the last place.
 
-    Newton's method on ln omega(ln k): its slope is the ratio of group to phase speed, always between 1/2 (deep) and 2
-    (shallow capillaries), so the step never overshoots far, from the longest wave to the shortest.
+    Newton's method on ln omega(ln k): its slope is the ratio of group to phase speed, always
+    between 1/2 (deep) and 2 (shallow capillaries), so the step never overshoots far, from the
+    longest wave to the shortest.
 
     Args:
         omega: angular frequency, any shape, [rad/s], >= 0.
@@ -145,7 +181,9 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     w, k = omega[moving], deep[moving]
     k = k / np.sqrt(np.tanh(_times_depth(k, depth)))
     if kinematic_tension > 0.0:
-        k = np.minimum(k, np.cbrt(w) ** 2 / np.cbrt(kinematic_tension))  # w^2 over the faintest of tensions would overflow
+        k = np.minimum(
+            k, np.cbrt(w) ** 2 / np.cbrt(kinematic_tension)
+        )  # w^2 over the faintest of tensions would overflow
     for _ in range(_NEWTON_STEPS):
         misfit = _frequency(k, depth, kinematic_tension) / w - 1.0
         k = k * np.exp(-np.log1p(misfit) / _speed_ratio(k, depth, kinematic_tension))
@@ -154,24 +192,29 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     return result
 
 
-_NEWTON_STEPS = 6  # from a guess within 1/4 of the root in ln k, five steps reach the last digit; one for the road
+# from a guess within 1/4 of the root in ln k, five steps reach the last digit; one for the road
+_NEWTON_STEPS = 6
 
 
 def loop_cycles(omega: RealLike, period: float) -> Integer:
     """
-    Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2 pi)).
+    Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2
+    pi)).
 
-    A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T, except for the
-    slowest waves, which are sped up to one turn a loop rather than frozen.
+    A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T,
+    except for the slowest waves, which are sped up to one turn a loop rather than frozen.
 
     Raises:
-        ParameterError: a frequency or period out of its range, or more turns than a 64 bit integer counts.
+        ParameterError: a frequency or period out of its range, or more turns than a 64 bit integer
+            counts.
 
     Source: Tessendorf 2001, section 4.4 (who truncates; rounding halves the error).
     """
     period = LOOP.check("period", period)
     turns = np.rint(_argument("omega", omega, "rad/s") * (period / (2.0 * np.pi)))
     if np.any(turns >= 2.0**63):
-        raise ParameterError(f"omega must make fewer than 2^63 turns in a loop, got {np.max(turns):g} in {period:g} s")
+        raise ParameterError(
+            f"omega must make fewer than 2^63 turns in a loop, got {np.max(turns):g} in {period:g} s"
+        )
     cycles: Integer = np.maximum(turns, 1.0).astype(np.int64)
     return cycles

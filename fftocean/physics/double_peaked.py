@@ -1,4 +1,7 @@
-"""S(omega) beyond Pierson-Moskowitz and JONSWAP, from one bell: Bretschneider, Ochi-Hubble, Torsethaugen."""
+"""
+S(omega) beyond Pierson-Moskowitz and JONSWAP, from one bell: Bretschneider, Ochi-Hubble,
+Torsethaugen.
+"""
 
 import math
 from dataclasses import dataclass, field
@@ -12,15 +15,26 @@ from fftocean.errors import ParameterError
 from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, Quantity, keep_checked
 from fftocean.physics.moments import moment
 
-TAIL = Quantity("", 1.4, 1000.0)  # N: m0 exists above 1; below 1.4 half of it would lie beyond ten times the peak
+TAIL = Quantity(
+    "", 1.4, 1000.0
+)  # N: m0 exists above 1; below 1.4 half of it would lie beyond ten times the peak
 FRONT = Quantity("", 1.0, 16.0)  # M
-ENHANCEMENT = Quantity("", 1.0, 100.0)  # Torsethaugen's regression reaches 50 in the steepest seas that can be
+ENHANCEMENT = Quantity(
+    "", 1.0, 100.0
+)  # Torsethaugen's regression reaches 50 in the steepest seas that can be
 SHAPE = Quantity("", 0.1, 100.0)  # Ochi and Hubble's lambda
-FAMILY_WAVE_HEIGHT = Quantity("m", 0.0, 20.0)  # at 20 m Ochi and Hubble's exponentials leave one tail at omega^-1.5
-TORSETHAUGEN_WAVE_HEIGHT = Quantity("m", 0.0, 50.0)  # at 54 m the fully developed sea would be longer than the longest swell
+FAMILY_WAVE_HEIGHT = Quantity(
+    "m", 0.0, 20.0
+)  # at 20 m Ochi and Hubble's exponentials leave one tail at omega^-1.5
+TORSETHAUGEN_WAVE_HEIGHT = Quantity(
+    "m", 0.0, 50.0
+)  # at 54 m the fully developed sea would be longer than the longest swell
 
 STEEPEST = 4.0 / math.sqrt(5.0)
-"""Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the door that `spectra` keeps, in other words."""
+"""
+Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the door that
+`spectra` keeps, in other words.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,10 +43,12 @@ class GammaSpectrum:
     One bell: a front, a tail, and between them a peak that may be raised.
 
     S = (Hs^2/16) (A G / omega_p) x^-N exp(-(N/M) x^-M) gamma^r,  x = omega/omega_p,
-    with r and its widths 0.07 and 0.09 as in JONSWAP, G = M (N/M)^((N-1)/M) / Gamma((N-1)/M), and A = 1 where gamma = 1.
+    with r and its widths 0.07 and 0.09 as in JONSWAP, G = M (N/M)^((N-1)/M) / Gamma((N-1)/M), and A
+    = 1 where gamma = 1.
 
-    N = 5, M = 4 is Bretschneider's; M = 4 Wallop's and Ochi and Hubble's; with gamma it is each half of Torsethaugen's. m0 is
-    Hs^2/16 by construction: A comes from quadrature, or (`exact=False`) from the regression that Torsethaugen published.
+    N = 5, M = 4 is Bretschneider's; M = 4 Wallop's and Ochi and Hubble's; with gamma it is each
+    half of Torsethaugen's. m0 is Hs^2/16 by construction: A comes from quadrature, or
+    (`exact=False`) from the regression that Torsethaugen published.
 
     Source: Torsethaugen 1996; DNV-RP-C205 (2010), appendix A, gives it with the regression.
     """
@@ -42,10 +58,14 @@ class GammaSpectrum:
     tail: float = 5.0  # N: S falls as omega^-N [-]
     front: float = 4.0  # M: how steeply it rises [-]
     gamma: float = 1.0  # peak enhancement [-]
-    exact: bool = field(default=True, repr=False)  # Hs to the last digit, not as the published regression has it
+    exact: bool = field(
+        default=True, repr=False
+    )  # Hs to the last digit, not as the published regression has it
 
     def __post_init__(self) -> None:
-        keep_checked(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD, tail=TAIL, front=FRONT, gamma=ENHANCEMENT)
+        keep_checked(
+            self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD, tail=TAIL, front=FRONT, gamma=ENHANCEMENT
+        )
         _require_possible(self.hs, self.tp)
         _require_bool("exact", self.exact)
 
@@ -56,25 +76,34 @@ class GammaSpectrum:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """The scales on which the bell bends: its peak, where the width changes, and an octave each way [rad/s]."""
+        """
+        The scales on which the bell bends: its peak, where the width changes, and an octave each
+        way [rad/s].
+        """
         return 0.5 * self.peak, self.peak, 2.0 * self.peak
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S at `omega`, [m^2 s/rad]."""
         norm = _regression if not self.exact else _quadrature
         scale = self.hs**2 / 16.0 / self.peak * norm(self.tail, self.front, self.gamma)
-        omega = np.minimum(np.asarray(omega, dtype=np.float64), 1e50)  # nothing is left there, nor is infinity a frequency
+        omega = np.minimum(
+            np.asarray(omega, dtype=np.float64), 1e50
+        )  # nothing is left there, nor is infinity a frequency
         return scale * _bell(omega / self.peak, self.tail, self.front, self.gamma)
 
 
 def _bell(x: Real, tail: float, front: float, gamma: float) -> Real:
-    """G x^-N exp(-(N/M) x^-M) gamma^r, in logarithms: N = 401 (lambda = 100) overflows otherwise."""
+    """
+    G x^-N exp(-(N/M) x^-M) gamma^r, in logarithms: N = 401 (lambda = 100) overflows otherwise.
+    """
     a = (tail - 1.0) / front
     log_g = math.log(front) + a * math.log(tail / front) - math.lgamma(a)
     x = np.maximum(x, 1e-3)  # there the front is 0 in double precision
     bell: Real = np.exp(log_g - tail * np.log(x) - tail / front * x**-front)
     if gamma > 1.0:
-        bell *= gamma ** np.exp(-0.5 * ((np.minimum(x, 5.0) - 1.0) / np.where(x <= 1.0, 0.07, 0.09)) ** 2)  # 0 at 5 peaks
+        bell *= gamma ** np.exp(
+            -0.5 * ((np.minimum(x, 5.0) - 1.0) / np.where(x <= 1.0, 0.07, 0.09)) ** 2
+        )  # 0 at 5 peaks
     return bell
 
 
@@ -94,27 +123,41 @@ class _Shape:
     front: float
     gamma: float
     peak: float = 1.0
-    breaks: tuple[float, ...] = (0.5, 0.8, 1.0, 1.3, 2.0)  # gamma^r ends within 3 widths of the peak
+    breaks: tuple[float, ...] = (
+        0.5,
+        0.8,
+        1.0,
+        1.3,
+        2.0,
+    )  # gamma^r ends within 3 widths of the peak
 
     def __call__(self, x: RealLike, /) -> Real:
         return _bell(np.asarray(x, dtype=np.float64), self.tail, self.front, self.gamma)
 
 
 def _regression(tail: float, front: float, gamma: float) -> float:
-    """A = (1 + f1 ln^f2 gamma)/gamma, within 5 % of the quadrature up to gamma = 20  (Torsethaugen 1996; DNV-RP-C205 A.2)."""
+    """
+    A = (1 + f1 ln^f2 gamma)/gamma, within 5 % of the quadrature up to gamma = 20  (Torsethaugen
+    1996; DNV-RP-C205 A.2).
+    """
     f1 = 4.1 * (tail - 2.0 * front**0.28 + 5.3) ** (0.96 - 1.45 * front**0.1)
-    f2 = (2.2 * front**-3.3 + 0.57) * tail ** (0.53 - 0.58 * front**0.37) + 0.94 - 1.04 * front**-1.9
+    f2 = (
+        (2.2 * front**-3.3 + 0.57) * tail ** (0.53 - 0.58 * front**0.37) + 0.94 - 1.04 * front**-1.9
+    )
     return float((1.0 + f1 * math.log(gamma) ** f2) / gamma)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bretschneider:
     """
-    The two-parameter spectrum of the ITTC: S = (5/16) Hs^2 omega_p^4 omega^-5 exp(-5/4 (omega_p/omega)^4).
+    The two-parameter spectrum of the ITTC: S = (5/16) Hs^2 omega_p^4 omega^-5 exp(-5/4
+    (omega_p/omega)^4).
 
-    Pierson-Moskowitz with height and period set free: any wind sea, developed or not. m0 = Hs^2/16 in closed form.
+    Pierson-Moskowitz with height and period set free: any wind sea, developed or not. m0 = Hs^2/16
+    in closed form.
 
-    Source: Bretschneider 1959; 15th ITTC (1978), S = A omega^-5 exp(-B omega^-4) with A = 173 Hs^2/T1^4, B = 691/T1^4.
+    Source: Bretschneider 1959; 15th ITTC (1978), S = A omega^-5 exp(-B omega^-4) with A = 173
+    Hs^2/T1^4, B = 691/T1^4.
     Pinned by tests/physics/test_double_peaked.py: 173, 691, and the closed m0.
     """
 
@@ -132,7 +175,9 @@ class Bretschneider:
 
     @classmethod
     def from_zero_crossing_period(cls, *, hs: float, tz: float) -> "Bretschneider":
-        """Sea of zero-crossing period `tz` = 2 pi sqrt(m0/m2) [s]: Tp = (5 pi/4)^(1/4) Tz = 1.408 Tz."""
+        """
+        Sea of zero-crossing period `tz` = 2 pi sqrt(m0/m2) [s]: Tp = (5 pi/4)^(1/4) Tz = 1.408 Tz.
+        """
         return cls(hs=hs, tp=PERIOD.check("tz", tz) * (1.25 * math.pi) ** 0.25)
 
     @property
@@ -148,13 +193,15 @@ class Bretschneider:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OchiHubble:
     """
-    Swell and wind sea, three parameters each: a bell with M = 4, N = 4 lambda + 1 at low frequency and one at high.
+    Swell and wind sea, three parameters each: a bell with M = 4, N = 4 lambda + 1 at low frequency
+    and one at high.
 
-    S = 1/4 sum ((4 lambda + 1)/4 omega_p^4)^lambda / Gamma(lambda) Hs^2 omega^-(4 lambda + 1) exp(-(4 lambda + 1)/4 (omega_p/omega)^4).
-    Each half has m0 = Hs^2/16; lambda = 1 is Bretschneider, larger is narrower.
+    S = 1/4 sum ((4 lambda + 1)/4 omega_p^4)^lambda / Gamma(lambda) Hs^2 omega^-(4 lambda + 1)
+    exp(-(4 lambda + 1)/4 (omega_p/omega)^4). Each half has m0 = Hs^2/16; lambda = 1 is
+    Bretschneider, larger is narrower.
 
-    Source: Ochi & Hubble, On six-parameter wave spectra, Proc. 15th Coastal Engineering Conf. (1976), 301-328,
-    doi:10.9753/icce.v15.18.
+    Source: Ochi & Hubble, On six-parameter wave spectra, Proc. 15th Coastal Engineering Conf.
+    (1976), 301-328, doi:10.9753/icce.v15.18.
     """
 
     hs_low: float  # significant wave height of the low-frequency half [m]
@@ -169,7 +216,9 @@ class OchiHubble:
         keep_checked(self, hs_low=SIGNIFICANT_WAVE_HEIGHT, tp_low=PERIOD, lambda_low=SHAPE)
         keep_checked(self, hs_high=SIGNIFICANT_WAVE_HEIGHT, tp_high=PERIOD, lambda_high=SHAPE)
         if self.tp_low < self.tp_high:
-            raise ParameterError(f"tp_low must be at least tp_high, {self.tp_high:g} s, got {self.tp_low:g} s")
+            raise ParameterError(
+                f"tp_low must be at least tp_high, {self.tp_high:g} s, got {self.tp_low:g} s"
+            )
         low = GammaSpectrum(hs=self.hs_low, tp=self.tp_low, tail=4.0 * self.lambda_low + 1.0)
         high = GammaSpectrum(hs=self.hs_high, tp=self.tp_high, tail=4.0 * self.lambda_high + 1.0)
         object.__setattr__(self, "_halves", (low, high))
@@ -182,17 +231,22 @@ class OchiHubble:
     @classmethod
     def family(cls, *, hs: float) -> "tuple[OchiHubble, ...]":
         """
-        Return the eleven seas of one `hs` [m] for design: the most probable first (weight 0.50), then ten of weight 0.05.
+        Return the eleven seas of one `hs` [m] for design: the most probable first (weight 0.50),
+        then ten of weight 0.05.
 
-        The published shares of height are rounded to two digits, so that their squares sum to 0.995 ... 1.004; here they are
-        divided by the root of that sum, so that each member has exactly `hs`.
+        The published shares of height are rounded to two digits, so that their squares sum to 0.995
+        ... 1.004; here they are divided by the root of that sum, so that each member has exactly
+        `hs`.
 
         Raises:
             ParameterError: `hs` out of range (`FAMILY_WAVE_HEIGHT`; the data end near 15 m).
         """
         hs = FAMILY_WAVE_HEIGHT.check("hs", hs)
         members = []
-        for share_low, share_high, (w_low, fall_low), (w_high, fall_high), lambda_low, (lambda_high, fall) in _FAMILY:
+        for share_low, share_high, (w_low, fall_low), (w_high, fall_high), lambda_low, (
+            lambda_high,
+            fall,
+        ) in _FAMILY:
             whole = math.hypot(share_low, share_high)
             members.append(
                 cls(
@@ -221,7 +275,8 @@ class OchiHubble:
         return _total(self._halves, omega)
 
 
-# Share of hs, (omega_p at hs = 0 [rad/s], its decay [1/m]) and lambda of each half; Ochi & Hubble 1976, the table of the family.
+# Share of hs, (omega_p at hs = 0 [rad/s], its decay [1/m]) and lambda of each half; Ochi & Hubble
+# 1976, the table of the family.
 _FAMILY = (
     (0.84, 0.54, (0.70, 0.046), (1.15, 0.039), 3.00, (1.54, 0.062)),
     (0.95, 0.31, (0.70, 0.046), (1.50, 0.046), 1.35, (2.48, 0.102)),
@@ -242,19 +297,23 @@ class Torsethaugen:
     """
     Wind sea and swell of the Norwegian shelf, from nothing but `hs` and `tp`.
 
-    A sea of height Hs that has stopped growing peaks at Tf = 6.6 Hs^(1/3) (fetch 370 km). A shorter `tp` is a wind sea with some
-    swell under it, a longer one a swell with some wind sea on it; the further from Tf, the more the second system has.
+    A sea of height Hs that has stopped growing peaks at Tf = 6.6 Hs^(1/3) (fetch 370 km). A shorter
+    `tp` is a wind sea with some swell under it, a longer one a swell with some wind sea on it; the
+    further from Tf, the more the second system has.
 
-    `form="simplified"` (Torsethaugen & Haver 2004): tails omega^-4 in both. `form="full"` (Torsethaugen 1996, as DNV-RP-C205
-    gives it): tails steepen with Hs. Fitted to seas of 0.5 to 11 m and 3.5 to 19 s; elsewhere it is an extrapolation.
-    Where the regression for gamma falls below 1 (long low swell), gamma is 1.
+    `form="simplified"` (Torsethaugen & Haver 2004): tails omega^-4 in both. `form="full"`
+    (Torsethaugen 1996, as DNV-RP-C205 gives it): tails steepen with Hs. Fitted to seas of 0.5 to 11
+    m and 3.5 to 19 s; elsewhere it is an extrapolation. Where the regression for gamma falls below
+    1 (long low swell), gamma is 1.
 
-    With `exact=True` both systems integrate to their share and Hs is `hs` to the last digit. `exact=False` norms gamma with the
-    published regression (rounded to (1 + 1.1 ln^1.19 gamma)/gamma in the simplified form): Hs is then up to 2.5 % off.
+    With `exact=True` both systems integrate to their share and Hs is `hs` to the last digit.
+    `exact=False` norms gamma with the published regression (rounded to (1 + 1.1 ln^1.19
+    gamma)/gamma in the simplified form): Hs is then up to 2.5 % off.
 
-    Source: Torsethaugen, SINTEF report STF22 A96204 (1996); Torsethaugen & Haver, Simplified double peak spectral model for
-    ocean waves, Proc. 14th ISOPE (2004), paper 2004-JSC-193; DNV-RP-C205 (2010), appendix A. None of them has a doi.
-    Pinned by tests/physics/test_double_peaked.py, against an independent implementation's figures.
+    Source: Torsethaugen, SINTEF report STF22 A96204 (1996); Torsethaugen & Haver, Simplified double
+    peak spectral model for ocean waves, Proc. 14th ISOPE (2004), paper 2004-JSC-193; DNV-RP-C205
+    (2010), appendix A. None of them has a doi. Pinned by tests/physics/test_double_peaked.py,
+    against an independent implementation's figures.
     """
 
     hs: float  # significant wave height of everything [m]
@@ -269,7 +328,11 @@ class Torsethaugen:
         _require_bool("exact", self.exact)
         if self.form not in ("simplified", "full"):
             raise ParameterError(f"form must be 'simplified' or 'full', got {self.form!r:.60}")
-        object.__setattr__(self, "_systems", _torsethaugen(self.hs, self.tp, self.form == "full", self.exact) if self.hs else ())
+        object.__setattr__(
+            self,
+            "_systems",
+            _torsethaugen(self.hs, self.tp, self.form == "full", self.exact) if self.hs else (),
+        )
 
     @property
     def peak(self) -> float:
@@ -291,10 +354,13 @@ class Torsethaugen:
         return _total(self._systems, omega)
 
 
-def _torsethaugen(hs: float, tp: float, full: bool, exact: bool) -> tuple[GammaSpectrum, GammaSpectrum]:
+def _torsethaugen(
+    hs: float, tp: float, full: bool, exact: bool
+) -> tuple[GammaSpectrum, GammaSpectrum]:
     """Share `hs` out among a primary and a secondary system."""
     developed = 6.6 * hs ** (1.0 / 3.0)  # Tf [s]
-    # Bulk parameters of the two forms: the tail, the front of a secondary wind sea, and what lifts gamma in low seas.
+    # Bulk parameters of the two forms: the tail, the front of a secondary wind sea, and what lifts
+    # gamma in low seas.
     tail = 0.5 * math.sqrt(hs) + 3.2 if full else 4.0
     front = 4.0 * (1.0 - 0.7 * math.exp(-hs / 3.0)) if full else 4.0
     lift = 1.0 + 3.5 * math.exp(-hs) if full else 1.0
@@ -314,7 +380,9 @@ def _torsethaugen(hs: float, tp: float, full: bool, exact: bool) -> tuple[GammaS
         second_hs = hs * math.sqrt(1.0 - share**2)
         peakedness = gamma(hs / developed**2) * (1.0 + 6.0 * longness)
         second_front = front
-        second_tp = _sea_on_swell(hs, second_hs, tail, front) if full else 6.6 * second_hs ** (1.0 / 3.0)
+        second_tp = (
+            _sea_on_swell(hs, second_hs, tail, front) if full else 6.6 * second_hs ** (1.0 / 3.0)
+        )
     # A share so small that no period fits it has no energy either: any period will do.
     second_tp = max(second_tp, 0.1)
     return (
@@ -324,11 +392,16 @@ def _torsethaugen(hs: float, tp: float, full: bool, exact: bool) -> tuple[GammaS
 
 
 def _sea_on_swell(hs: float, second_hs: float, tail: float, front: float) -> float:
-    """Peak period [s] at which a wind sea of `second_hs` has the density s4 at 0.4 Hz: its tail is saturated (full form only)."""
+    """
+    Peak period [s] at which a wind sea of `second_hs` has the density s4 at 0.4 Hz: its tail is
+    saturated (full form only).
+    """
     saturation = max(0.01, 0.08 * (1.0 - math.exp(-hs / 3.0)))  # s4 [m^2/Hz]
     a = (tail - 1.0) / front
     g = front * (tail / front) ** a / math.gamma(a)
-    return max(2.5, math.pow(g * second_hs**2 / (16.0 * saturation * 0.4**tail), 1.0 / (tail - 1.0)))
+    return max(
+        2.5, math.pow(g * second_hs**2 / (16.0 * saturation * 0.4**tail), 1.0 / (tail - 1.0))
+    )
 
 
 def _total(parts: tuple[GammaSpectrum, ...], omega: RealLike) -> Real:

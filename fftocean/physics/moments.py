@@ -19,7 +19,8 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
     """
     Return m_n, the integral of omega^n S(omega) from `low` to `high`  [m^2 (rad/s)^n].
 
-    Adaptive Gauss-Kronrod quadrature (QUADPACK) in omega/omega_p, piece by piece between the peak and the spectrum's corners.
+    Adaptive Gauss-Kronrod quadrature (QUADPACK) in omega/omega_p, piece by piece between the peak
+    and the spectrum's corners.
 
     Args:
         spectrum: a `FrequencySpectrum`.
@@ -27,10 +28,12 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
         low, high: the band [rad/s].
 
     Returns:
-        The moment, to about 1e-11 of itself; inf where the tail falls too slowly for it to exist (n >= 4 for omega^-5).
+        The moment, to about 1e-11 of itself; inf where the tail falls too slowly for it to exist (n
+        >= 4 for omega^-5).
 
     Raises:
-        ParameterError: a band that is not 0 <= low <= high, or a spectrum that the quadrature cannot resolve.
+        ParameterError: a band that is not 0 <= low <= high, or a spectrum that the quadrature
+            cannot resolve.
     """
     from scipy import integrate
 
@@ -44,16 +47,30 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
 
     corners = [c / peak for c in (peak, *getattr(spectrum, "breaks", ()))]
     if not getattr(spectrum, "breaks", ()):
-        corners += [0.5, 2.0]  # keep the peak's own scale in sight of the quadrature, whatever the band
-    edges = _refined([low / peak, *sorted(c for c in set(corners) if low / peak < c < high / peak), high / peak])
+        corners += [
+            0.5,
+            2.0,
+        ]  # keep the peak's own scale in sight of the quadrature, whatever the band
+    edges = _refined(
+        [low / peak, *sorted(c for c in set(corners) if low / peak < c < high / peak), high / peak]
+    )
     if math.isinf(high) and _diverges(spectrum, n):
         return math.inf
 
     def tail(u: float) -> float:
-        return integrand(1.0 / u) / u**2 if u > 0.0 else 0.0  # a power law in 1/x is one in u, and its end is in sight
+        return (
+            integrand(1.0 / u) / u**2 if u > 0.0 else 0.0
+        )  # a power law in 1/x is one in u, and its end is in sight
 
-    pieces = [(integrand, a, b) if b < math.inf else (tail, 0.0, 1.0 / a) for a, b in pairwise(edges) if _any_energy(integrand, a, b)]
-    results = [integrate.quad(*piece, epsabs=0.0, epsrel=1e-11, limit=200, full_output=1) for piece in pieces]
+    pieces = [
+        (integrand, a, b) if b < math.inf else (tail, 0.0, 1.0 / a)
+        for a, b in pairwise(edges)
+        if _any_energy(integrand, a, b)
+    ]
+    results = [
+        integrate.quad(*piece, epsabs=0.0, epsrel=1e-11, limit=200, full_output=1)
+        for piece in pieces
+    ]
     whole = sum(part for part, *_ in results)
     total = 0.0
     for (f, a, b), (part, error, _, *complaint) in zip(pieces, results, strict=True):
@@ -71,12 +88,17 @@ def _peak_of(spectrum: Spectrum) -> float:
     """
     if isinstance(spectrum, type) or not callable(spectrum) or not hasattr(spectrum, "peak"):
         of = "; take system.spectrum" if hasattr(spectrum, "spectrum") else ""
-        raise ParameterError(f"a spectrum must be callable and have a peak, got {described(spectrum)}{of}")
+        raise ParameterError(
+            f"a spectrum must be callable and have a peak, got {described(spectrum)}{of}"
+        )
     return float(spectrum.peak)
 
 
 def _refined(edges: list[float]) -> list[float]:
-    """Put edges in between so that no finite piece spans more than a factor of 16: a quadrature may overlook a peak at one end of it."""
+    """
+    Put edges in between so that no finite piece spans more than a factor of 16: a quadrature may
+    overlook a peak at one end of it.
+    """
     refined = edges[:1]
     for a, b in pairwise(edges):
         pieces = math.ceil(math.log(b / a) / math.log(16.0)) if 0.0 < a < b < math.inf else 1
@@ -86,7 +108,11 @@ def _refined(edges: list[float]) -> list[float]:
 
 def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool:
     """Whether a piece holds anything at all: a relative tolerance cannot be met on nothing."""
-    probes = a + (b - a) * np.linspace(0.0, 1.0, 65) if math.isfinite(b) else a * np.geomspace(1.0, 1e6, 65)
+    probes = (
+        a + (b - a) * np.linspace(0.0, 1.0, 65)
+        if math.isfinite(b)
+        else a * np.geomspace(1.0, 1e6, 65)
+    )
     return any(integrand(float(x)) > 0.0 for x in probes)
 
 
@@ -96,15 +122,22 @@ def _split(integrand: Callable[[float], float], a: float, b: float, tolerance: f
 
     total = doubt = 0.0
     for p, q in pairwise(np.linspace(a, b, 65)):
-        part, error = integrate.quad(integrand, p, q, epsabs=1e-6 * tolerance, epsrel=1e-11, limit=200, full_output=1)[:2]
+        part, error = integrate.quad(
+            integrand, p, q, epsabs=1e-6 * tolerance, epsrel=1e-11, limit=200, full_output=1
+        )[:2]
         total, doubt = total + part, doubt + error
         if doubt > tolerance:
-            raise ParameterError(f"the spectrum is too rough to integrate: a part of the moment came out as {part:g} +- {error:g}")
+            raise ParameterError(
+                f"the spectrum is too rough to integrate: a part of the moment came out as {part:g} +- {error:g}"
+            )
     return total
 
 
 def _diverges(spectrum: Spectrum, n: int) -> bool:
-    """Whether omega^(n+1) S no longer falls far out on the tail: 1e10 peaks out, past where even the shallowest water turns deep."""
+    """
+    Whether omega^(n+1) S no longer falls far out on the tail: 1e10 peaks out, past where even the
+    shallowest water turns deep.
+    """
     near, far = (float(spectrum(x * float(spectrum.peak))) for x in (1e10, 1e11))
     return near > 0.0 and far > 0.0 and math.log10(far / near) + n + 1 > math.log10(0.9)
 
@@ -130,10 +163,13 @@ def peak_period(spectrum: Spectrum) -> float:
     """
     Tp = 2 pi / omega at which S is highest [s], found on the curve itself; 0 for a flat sea.
 
-    For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that of the deep-water sea.
+    For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that
+    of the deep-water sea.
     """
     peak = _peak_of(spectrum)
-    omega = np.union1d(peak * np.geomspace(0.1, 10.0, 4001), np.array(getattr(spectrum, "breaks", (peak,))))
+    omega = np.union1d(
+        peak * np.geomspace(0.1, 10.0, 4001), np.array(getattr(spectrum, "breaks", (peak,)))
+    )
     s = spectrum(omega)
     top = int(np.argmax(s))
     if not s[top] > 0.0:
@@ -154,7 +190,8 @@ def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float
         theta: direction toward which it goes, same shape, [rad].
 
     Returns:
-        Direction toward, counter-clockwise from +x, in (-180, 180], and spread; (0, 0) for a flat sea.
+        Direction toward, counter-clockwise from +x, in (-180, 180], and spread; (0, 0) for a flat
+        sea.
 
     Source: Kuik, van Vledder & Holthuijsen 1988.
     """
@@ -163,11 +200,16 @@ def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float
         return 0.0, 0.0
     mean = np.sum(variance * np.exp(1j * theta)) / total
     direction = math.degrees(math.atan2(mean.imag, mean.real))
-    return direction if direction > -180.0 else 180.0, math.degrees(math.sqrt(max(2.0 * (1.0 - abs(mean)), 0.0)))
+    return direction if direction > -180.0 else 180.0, math.degrees(
+        math.sqrt(max(2.0 * (1.0 - abs(mean)), 0.0))
+    )
 
 
 def spectral_grid(peaks: Iterable[float], breaks: Iterable[float] = (), points: int = 400) -> Real:
-    """Frequencies [rad/s] on which to look at a sea: a tenth of its lowest peak to 30 times its highest, dense round each, every corner."""
+    """
+    Frequencies [rad/s] on which to look at a sea: a tenth of its lowest peak to 30 times its
+    highest, dense round each, every corner.
+    """
     peaks = list(peaks)
     if not peaks:
         return np.geomspace(0.1, 10.0, 16)

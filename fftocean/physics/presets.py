@@ -1,4 +1,7 @@
-"""Wind seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly the height it promises."""
+"""
+Wind seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly
+the height it promises.
+"""
 
 import math
 from dataclasses import dataclass
@@ -7,7 +10,13 @@ from functools import lru_cache
 from fftocean.constants import GRAVITY
 from fftocean.limits import FETCH, Count
 from fftocean.physics.moments import significant_wave_height
-from fftocean.physics.spectra import FULLY_DEVELOPED_PEAK, JONSWAP, TMA, PiersonMoskowitz, fetch_limited
+from fftocean.physics.spectra import (
+    FULLY_DEVELOPED_PEAK,
+    JONSWAP,
+    TMA,
+    PiersonMoskowitz,
+    fetch_limited,
+)
 from fftocean.physics.units import KNOT
 
 BEAUFORT = Count("", 0, 12)
@@ -27,7 +36,12 @@ _BEAUFORT: tuple[tuple[str, float, float, float], ...] = (
     ("Strong gale", 20.8, 24.4, 7.0),
     ("Storm", 24.5, 28.4, 9.0),
     ("Violent storm", 28.5, 32.6, 11.5),
-    ("Hurricane", 32.7, 32.7, 14.0),  # "32.7 and over", "14 and over": the scale has no middle here, so its beginning is taken
+    (
+        "Hurricane",
+        32.7,
+        32.7,
+        14.0,
+    ),  # "32.7 and over", "14 and over": the scale has no middle here, so its beginning is taken
 )
 
 # name, height of well-developed wind waves of the open sea from-to [m]
@@ -47,7 +61,10 @@ _SEA_STATES: tuple[tuple[str, float, float], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """What a number promises: a wind, and the sea of exactly `hs` that it raises. A calm has no spectrum."""
+    """
+    What a number promises: a wind, and the sea of exactly `hs` that it raises. A calm has no
+    spectrum.
+    """
 
     number: int
     name: str
@@ -68,7 +85,11 @@ class Preset:
         Raises:
             ParameterError: waves that would be too steep in so little water.
         """
-        return TMA.from_sea_state(hs=self.hs, tp=self.tp, depth=depth, gamma=self.gamma) if self.hs else None
+        return (
+            TMA.from_sea_state(hs=self.hs, tp=self.tp, depth=depth, gamma=self.gamma)
+            if self.hs
+            else None
+        )
 
     @property
     def measured_hs(self) -> float:
@@ -79,12 +100,14 @@ class Preset:
 
 def beaufort(number: int) -> Preset:
     """
-    Return the open sea of a Beaufort number: the probable wave height of the scale, under the middle of its range of winds.
+    Return the open sea of a Beaufort number: the probable wave height of the scale, under the
+    middle of its range of winds.
 
-    The wind is the mean 10 m above the sea (U10), as the WMO's ranges are; Pierson and Moskowitz's 19.5 m is inside
-    `FULLY_DEVELOPED_PEAK`. Where the promised height is less than that of this wind's fully developed sea (4, and from 6 up) the sea
-    is young: the JONSWAP sea of the fetch at which it is so high. Where it is more (1, 2, 3 and 5: there is old sea about), it is
-    the fully developed sea of that height, as a little more wind would raise it.
+    The wind is the mean 10 m above the sea (U10), as the WMO's ranges are; Pierson and Moskowitz's
+    19.5 m is inside `FULLY_DEVELOPED_PEAK`. Where the promised height is less than that of this
+    wind's fully developed sea (4, and from 6 up) the sea is young: the JONSWAP sea of the fetch at
+    which it is so high. Where it is more (1, 2, 3 and 5: there is old sea about), it is the fully
+    developed sea of that height, as a little more wind would raise it.
 
     Args:
         number: 0 (a flat sea) to 12 (a hurricane's beginning: 32.7 m/s, 14 m).
@@ -92,8 +115,9 @@ def beaufort(number: int) -> Preset:
     Raises:
         ParameterError: a number that is not on the scale.
 
-    Source: winds: WMO-No. 8, Guide to Meteorological Instruments, part I chapter 5, and WMO-No. 306, code table 1100; probable wave
-    heights: WMO-No. 306, Manual on Codes, as guidance to the scale in the open sea.
+    Source: winds: WMO-No. 8, Guide to Meteorological Instruments, part I chapter 5, and WMO-No.
+    306, code table 1100; probable wave heights: WMO-No. 306, Manual on Codes, as guidance to the
+    scale in the open sea.
     """
     number = BEAUFORT.check_whole("number", number)
     name, low, high, hs = _BEAUFORT[number]
@@ -103,10 +127,11 @@ def beaufort(number: int) -> Preset:
 
 def sea_state(number: int) -> Preset:
     """
-    Return the sea of a state of WMO code table 3700: the middle of its range of heights, fully developed.
+    Return the sea of a state of WMO code table 3700: the middle of its range of heights, fully
+    developed.
 
-    The table's heights "refer to well-developed wind waves of the open sea": so the spectrum is Pierson-Moskowitz, under the wind
-    that raises just this height.
+    The table's heights "refer to well-developed wind waves of the open sea": so the spectrum is
+    Pierson-Moskowitz, under the wind that raises just this height.
 
     Args:
         number: 0 (glassy: a flat sea) to 9 (phenomenal: over 14 m; 14 m is taken).
@@ -144,7 +169,10 @@ def _developing_wind(hs: float) -> float:
 
 @lru_cache(maxsize=64)
 def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
-    """Peak period [s] and gamma of the sea of `hs` [m] under `wind` [m/s], or of the developed sea where the wind is too little."""
+    """
+    Peak period [s] and gamma of the sea of `hs` [m] under `wind` [m/s], or of the developed sea
+    where the wind is too little.
+    """
     if not hs:
         return 0.0, 1.0
     from scipy.optimize import brentq
@@ -154,7 +182,9 @@ def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
 
     longest = math.log(FETCH.high)
     if _developing_wind(hs) >= wind or excess(longest) <= 0.0:
-        spectrum: JONSWAP | PiersonMoskowitz = PiersonMoskowitz.from_wind(speed=_developing_wind(hs))
+        spectrum: JONSWAP | PiersonMoskowitz = PiersonMoskowitz.from_wind(
+            speed=_developing_wind(hs)
+        )
     else:
         spectrum = fetch_limited(wind, math.exp(brentq(excess, 0.0, longest, xtol=1e-12)), 3.3)
     return 2.0 * math.pi / spectrum.peak, getattr(spectrum, "gamma", 1.0)

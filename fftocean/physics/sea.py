@@ -1,4 +1,6 @@
-"""The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them."""
+"""
+The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them.
+"""
 
 import math
 import warnings
@@ -25,10 +27,12 @@ def from_compass(bearing: float) -> float:
     Turn a meteorological bearing into our direction.
 
     Args:
-        bearing: where the waves or the wind come FROM [degrees], clockwise from north, as forecasts and buoys give it.
+        bearing: where the waves or the wind come FROM [degrees], clockwise from north, as forecasts
+            and buoys give it.
 
     Returns:
-        Where they go TO [degrees], counter-clockwise from east (+x), in [0, 360): a westerly, 270, is 0.
+        Where they go TO [degrees], counter-clockwise from east (+x), in [0, 360): a westerly, 270,
+        is 0.
     """
     return (270.0 - DIRECTION.check("bearing", bearing)) % 360.0
 
@@ -73,12 +77,18 @@ class WaveSystem:
                     )
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
-        """S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x."""
-        return self.spectrum(omega) * self.spreading(omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak)
+        """
+        S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x.
+        """
+        return self.spectrum(omega) * self.spreading(
+            omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak
+        )
 
     def __repr__(self) -> str:
         spectrum, spreading = _short(self.spectrum), _short(self.spreading)
-        return f"WaveSystem(spectrum={spectrum}, spreading={spreading}, direction={self.direction:g})"
+        return (
+            f"WaveSystem(spectrum={spectrum}, spreading={spreading}, direction={self.direction:g})"
+        )
 
 
 _WIND = {"speed": "wind speed", "friction_velocity": "friction velocity"}
@@ -92,16 +102,19 @@ class Sea:
 
     A `Sea` is itself a frequency spectrum: call it with omega for the sum over its systems.
 
-    Depth and surface tension belong to the water, and drive the dispersion of all waves. A spectrum or spreading that states one
-    of them (`TMA.depth`, `Elfouhaily.surface_tension`, or any model's attribute of that name, also within a `Blend` or another
-    model) must state that of the sea. Where the sea is given none it takes the value stated, and `depth_from` and
+    Depth and surface tension belong to the water, and drive the dispersion of all waves. A spectrum
+    or spreading that states one of them (`TMA.depth`, `Elfouhaily.surface_tension`, or any model's
+    attribute of that name, also within a `Blend` or another model) must state that of the sea.
+    Where the sea is given none it takes the value stated, and `depth_from` and
     `surface_tension_from` say by which part.
 
     Args:
         waves: the wave systems.
         systems: further wave systems, in a tuple.
-        depth: still-water depth [m], inf for deep water; None is the depth that the parts state, or else deep water.
-        surface_tension: [N/m], 0 without capillary waves; None is that which the parts state, or else 0.
+        depth: still-water depth [m], inf for deep water; None is the depth that the parts state, or
+            else deep water.
+        surface_tension: [N/m], 0 without capillary waves; None is that which the parts state, or
+            else 0.
 
     Raises:
         ParameterError: a value out of its range, or two different ones for the same water.
@@ -121,7 +134,9 @@ class Sea:
         systems = (*waves, *systems) if isinstance(systems, Iterable) else (*waves, systems)
         for system in systems:
             if not isinstance(system, WaveSystem):
-                raise ParameterError(f"a sea must be made of WaveSystem values, got {described(system)}")
+                raise ParameterError(
+                    f"a sea must be made of WaveSystem values, got {described(system)}"
+                )
         object.__setattr__(self, "systems", systems)
         for name, given, quantity, default in (
             ("depth", depth, DEPTH, math.inf),
@@ -145,7 +160,8 @@ class Sea:
         The short way to a sea: TMA, spread by an even blend of Donelan-Banner and cos^2.
 
         Args:
-            speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says so.
+            speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says
+                so.
             fetch: distance over which it blows [m].
             depth: still-water depth [m].
             direction: toward which the wind blows, counter-clockwise from +x [degrees].
@@ -157,12 +173,27 @@ class Sea:
         """
         deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
         spectrum = TMA(deep, DEPTH.check("depth", depth))
-        return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
+        return cls(
+            WaveSystem(
+                spectrum=spectrum,
+                spreading=Blend() if spreading is None else spreading,
+                direction=direction,
+            ),
+            depth=depth,
+        )
 
     @classmethod
-    def beaufort(cls, number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> "Sea":
+    def beaufort(
+        cls,
+        number: int,
+        *,
+        direction: float = 0.0,
+        depth: float = math.inf,
+        spreading: Spreading | None = None,
+    ) -> "Sea":
         """
-        The open sea of a Beaufort number, 0 (flat) to 12, with exactly the scale's probable wave height; see `presets.beaufort`.
+        The open sea of a Beaufort number, 0 (flat) to 12, with exactly the scale's probable wave
+        height; see `presets.beaufort`.
 
         Args:
             number: on the Beaufort scale.
@@ -171,13 +202,24 @@ class Sea:
             spreading: another model than the even blend of Donelan-Banner and cos^2.
 
         Raises:
-            ParameterError: a number that is not on the scale, or waves that would be too steep in so little water.
+            ParameterError: a number that is not on the scale, or waves that would be too steep in
+                so little water.
         """
         return cls._preset(presets.beaufort(number), direction, depth, spreading)
 
     @classmethod
-    def sea_state(cls, number: int, *, direction: float = 0.0, depth: float = math.inf, spreading: Spreading | None = None) -> "Sea":
-        """The sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`, see `presets.sea_state`."""
+    def sea_state(
+        cls,
+        number: int,
+        *,
+        direction: float = 0.0,
+        depth: float = math.inf,
+        spreading: Spreading | None = None,
+    ) -> "Sea":
+        """
+        The sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`, see
+        `presets.sea_state`.
+        """
         return cls._preset(presets.sea_state(number), direction, depth, spreading)
 
     @classmethod
@@ -193,14 +235,17 @@ class Sea:
         negative: str = "refuse",
     ) -> "Sea":
         """
-        The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the wavespectra package.
+        The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the
+        wavespectra package.
 
-        Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own bands.
-        `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was masked, repaired or assumed.
+        Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
+        bands. `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports
+        what was masked, repaired or assumed.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
-            ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
+            ParameterError: a time, site or depth that cannot be; directions missing, or given
+                twice.
         """
         from fftocean.readers.realise import sea_from_spectrum
 
@@ -215,11 +260,20 @@ class Sea:
         )
 
     @classmethod
-    def _preset(cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None) -> "Sea":
+    def _preset(
+        cls, preset: presets.Preset, direction: float, depth: float, spreading: Spreading | None
+    ) -> "Sea":
         spectrum = preset.spectrum(DEPTH.check("depth", depth))
         if spectrum is None:
             return cls(depth=depth)
-        return cls(WaveSystem(spectrum=spectrum, spreading=Blend() if spreading is None else spreading, direction=direction), depth=depth)
+        return cls(
+            WaveSystem(
+                spectrum=spectrum,
+                spreading=Blend() if spreading is None else spreading,
+                direction=direction,
+            ),
+            depth=depth,
+        )
 
     def _stated(self, name: str) -> Iterator[Statement]:
         """The statements of all parts about the water."""
@@ -229,7 +283,10 @@ class Sea:
 
     @property
     def depth_from(self) -> str | None:
-        """The first spectrum or spreading that states the depth, such as "systems[0].spectrum (TMA)"; None where none does."""
+        """
+        The first spectrum or spreading that states the depth, such as "systems[0].spectrum (TMA)";
+        None where none does.
+        """
         return next(map(str, self._stated("depth")), None)
 
     @property
@@ -240,20 +297,36 @@ class Sea:
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]
         more = [f"{len(self.systems) - 3} more systems"] if len(self.systems) > 3 else []
-        water = [f"depth={self.depth:g}" + (_by(self.depth_from) if math.isfinite(self.depth) else "")]
+        water = [
+            f"depth={self.depth:g}" + (_by(self.depth_from) if math.isfinite(self.depth) else "")
+        ]
         if self.surface_tension:
-            water.append(f"surface_tension={self.surface_tension:g}" + _by(self.surface_tension_from))
+            water.append(
+                f"surface_tension={self.surface_tension:g}" + _by(self.surface_tension_from)
+            )
         return f"Sea({', '.join([*shown, *more, *water])})"
 
     @property
     def peak(self) -> float:
         """omega_p [rad/s] of the system whose own peak is highest; 1 for a sea without systems."""
-        return max(self.systems, key=lambda s: float(s.spectrum(s.spectrum.peak))).spectrum.peak if self.systems else 1.0
+        return (
+            max(self.systems, key=lambda s: float(s.spectrum(s.spectrum.peak))).spectrum.peak
+            if self.systems
+            else 1.0
+        )
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Where the sum bends sharply: the systems' peaks and corners [rad/s]."""
-        return tuple(sorted({b for s in self.systems for b in (s.spectrum.peak, *getattr(s.spectrum, "breaks", ()))}))
+        return tuple(
+            sorted(
+                {
+                    b
+                    for s in self.systems
+                    for b in (s.spectrum.peak, *getattr(s.spectrum, "breaks", ()))
+                }
+            )
+        )
 
     def __call__(self, omega: RealLike, /) -> Real:
         """S(omega) of all systems together, [m^2 s/rad]."""
@@ -261,8 +334,13 @@ class Sea:
         return sum((s.spectrum(omega) for s in self.systems), np.zeros_like(omega))
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
-        """S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is counter-clockwise from +x."""
-        omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), np.asarray(theta, dtype=np.float64))
+        """
+        S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is
+        counter-clockwise from +x.
+        """
+        omega, theta = np.broadcast_arrays(
+            np.asarray(omega, dtype=np.float64), np.asarray(theta, dtype=np.float64)
+        )
         return sum((s.density(omega, theta) for s in self.systems), np.zeros_like(omega))
 
     @property

@@ -1,8 +1,10 @@
 """
-D(omega, theta) beyond cos^2 and Donelan-Banner: what the wind's age makes of it, plain bells, swell, and anything you write.
+D(omega, theta) beyond cos^2 and Donelan-Banner: what the wind's age makes of it, plain bells,
+swell, and anything you write.
 
-Two powers of a cosine are in use and often mixed up. `CosinePower(s)` is cos^2s(theta/2), all round the compass; `CosineN(n)` is
-cos^n(theta), front half only. They are different curves, also where their widths agree.
+Two powers of a cosine are in use and often mixed up. `CosinePower(s)` is cos^2s(theta/2), all round
+the compass; `CosineN(n)` is cos^n(theta), front half only. They are different curves, also where
+their widths agree.
 """
 
 import math
@@ -17,12 +19,22 @@ from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
 from fftocean.limits import ANGLE, FRACTION, SPREADING_EXPONENT, WIND_SPEED, Quantity, keep_checked
-from fftocean.physics.spreading import CosinePower, DonelanBanner, Spreading, cosine_2s, require_spreading, wrapped
+from fftocean.physics.spreading import (
+    CosinePower,
+    DonelanBanner,
+    Spreading,
+    cosine_2s,
+    require_spreading,
+    wrapped,
+)
 
 SPREAD = Quantity("degrees", 0.1, 180.0)
 
 SHARPEST = 1e4
-"""The exponent s at which the laws of the wind are held: 0.8 degrees wide, narrower than any swell that was ever measured."""
+"""
+The exponent s at which the laws of the wind are held: 0.8 degrees wide, narrower than any swell
+that was ever measured.
+"""
 
 Function = Callable[[Real, Real, float], RealLike]
 """f(omega, theta, peak) >= 0, of any size."""
@@ -39,11 +51,13 @@ class _CosinePowerLaw(Protocol):
 @dataclass(frozen=True, slots=True)
 class Mitsuyasu:
     """
-    cos^2s(theta/2) with s = s_p x^5 up to the peak and s_p x^-2.5 beyond, x = omega/omega_p, s_p = 11.5 (U/c_p)^-2.5.
+    cos^2s(theta/2) with s = s_p x^5 up to the peak and s_p x^-2.5 beyond, x = omega/omega_p, s_p =
+    11.5 (U/c_p)^-2.5.
 
     The older the sea (the slower the wind beside its waves), the narrower. c_p = g/omega_p.
 
-    Source: Mitsuyasu et al., J. Phys. Oceanogr. 5 (1975), 750-760, doi:10.1175/1520-0485(1975)005<0750:OOTDSO>2.0.CO;2.
+    Source: Mitsuyasu et al., J. Phys. Oceanogr. 5 (1975), 750-760,
+    doi:10.1175/1520-0485(1975)005<0750:OOTDSO>2.0.CO;2.
     """
 
     speed: float  # U10 [m/s]
@@ -53,7 +67,9 @@ class Mitsuyasu:
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
         """The exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
-        inverse_age = max(self.speed * peak / GRAVITY, 1e-2)  # a hundredth makes s_p a million already
+        inverse_age = max(
+            self.speed * peak / GRAVITY, 1e-2
+        )  # a hundredth makes s_p a million already
         return _peaked_exponent(_relative(omega, peak), 11.5 * inverse_age**-2.5)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
@@ -64,7 +80,8 @@ class Mitsuyasu:
 @dataclass(frozen=True, slots=True)
 class GodaSuzuki:
     """
-    Mitsuyasu's law with its s at the peak named outright: 10 for wind waves, 25 for young swell, 75 for swell from far away.
+    Mitsuyasu's law with its s at the peak named outright: 10 for wind waves, 25 for young swell, 75
+    for swell from far away.
 
     Source: Goda & Suzuki 1975; Goda, Random Seas and Design of Maritime Structures.
     """
@@ -85,16 +102,20 @@ class GodaSuzuki:
 
 def _peaked_exponent(x: Real, s_peak: float) -> Real:
     """s_p x^5 below the peak, s_p x^-2.5 above."""
-    return np.minimum(s_peak * np.where(x <= 1.0, np.minimum(x, 1.0) ** 5.0, np.maximum(x, 1.0) ** -2.5), SHARPEST)
+    return np.minimum(
+        s_peak * np.where(x <= 1.0, np.minimum(x, 1.0) ** 5.0, np.maximum(x, 1.0) ** -2.5), SHARPEST
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class Hasselmann:
     """
-    cos^2s(theta/2) with s = 6.97 x^4.06 below x = omega/omega_p = 1.05 and 9.77 x^mu from there, mu = -2.33 - 1.45 (U/c_p - 1.17).
+    cos^2s(theta/2) with s = 6.97 x^4.06 below x = omega/omega_p = 1.05 and 9.77 x^mu from there, mu
+    = -2.33 - 1.45 (U/c_p - 1.17).
 
-    The age of the wind (U/c_p, c_p = g/omega_p) sets how fast the short waves scatter, not how narrow the peak is. At 1.05 the
-    published fit steps by 3 %; splitting at 1, as is often printed, makes that a step of 40 % at the very peak.
+    The age of the wind (U/c_p, c_p = g/omega_p) sets how fast the short waves scatter, not how
+    narrow the peak is. At 1.05 the published fit steps by 3 %; splitting at 1, as is often printed,
+    makes that a step of 40 % at the very peak.
 
     Source: Hasselmann, Dunckel & Ewing, J. Phys. Oceanogr. 10 (1980), 1264-1280,
     doi:10.1175/1520-0485(1980)010<1264:DWSODJ>2.0.CO;2.
@@ -109,7 +130,9 @@ class Hasselmann:
         """The exponent s [-] at `omega` [rad/s]."""
         x = _relative(omega, peak)
         mu = -2.33 - 1.45 * (self.speed * peak / GRAVITY - 1.17)
-        return np.where(x < 1.05, 6.97 * np.minimum(x, 1.05) ** 4.06, 9.77 * np.maximum(x, 1.05) ** mu)
+        return np.where(
+            x < 1.05, 6.97 * np.minimum(x, 1.05) ** 4.06, 9.77 * np.maximum(x, 1.05) ** mu
+        )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""
@@ -119,9 +142,11 @@ class Hasselmann:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CosineN:
     """
-    D = Gamma(n/2 + 1) / (sqrt(pi) Gamma((n + 1)/2)) cos^n(theta) in the front half, 0 behind. Not cos^2s(theta/2).
+    D = Gamma(n/2 + 1) / (sqrt(pi) Gamma((n + 1)/2)) cos^n(theta) in the front half, 0 behind. Not
+    cos^2s(theta/2).
 
-    n = 2 is `CosineSquared`, n = 0 the even half circle. Source: Pierson, Neumann & James 1955 (n = 2); the general n in DNV-RP-C205.
+    n = 2 is `CosineSquared`, n = 0 the even half circle. Source: Pierson, Neumann & James 1955 (n =
+    2); the general n in DNV-RP-C205.
     """
 
     n: float  # exponent [-]
@@ -134,16 +159,20 @@ class CosineN:
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         front = np.abs(theta) < 0.5 * np.pi
         # cos^n(theta) is cos^2s(phi/2) with s = n/2 and phi = 2 theta, and d phi = 2 d theta.
-        return np.where(front, 2.0 * cosine_2s(np.float64(0.5 * self.n), np.where(front, 2.0 * theta, 0.0)), 0.0)
+        return np.where(
+            front, 2.0 * cosine_2s(np.float64(0.5 * self.n), np.where(front, 2.0 * theta, 0.0)), 0.0
+        )
 
 
 @dataclass(frozen=True, slots=True)
 class WrappedNormal:
     """
-    A normal distribution wound round the compass: the sum of exp(-(theta + 2 pi j)^2 / (2 sigma^2)) over the turns j.
+    A normal distribution wound round the compass: the sum of exp(-(theta + 2 pi j)^2 / (2 sigma^2))
+    over the turns j.
 
-    Its circular spread (Kuik et al. 1988), which `moments.mean_direction_and_spread` measures, is sqrt(2 (1 - exp(-sigma^2/2))): a
-    little less than sigma. Source: Mardia, Statistics of Directional Data (1972); Briggs et al. 1995 for waves.
+    Its circular spread (Kuik et al. 1988), which `moments.mean_direction_and_spread` measures, is
+    sqrt(2 (1 - exp(-sigma^2/2))): a little less than sigma. Source: Mardia, Statistics of
+    Directional Data (1972); Briggs et al. 1995 for waves.
     """
 
     spread: float  # sigma, the standard deviation before winding [degrees]
@@ -155,7 +184,9 @@ class WrappedNormal:
         """D at `theta`, [1/rad]."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         sigma = math.radians(self.spread)
-        turns = math.ceil((8.5 * sigma + np.pi) / (2.0 * np.pi) - 0.5)  # what is left out lies beyond 8.5 sigma: under 1e-16
+        turns = math.ceil(
+            (8.5 * sigma + np.pi) / (2.0 * np.pi) - 0.5
+        )  # what is left out lies beyond 8.5 sigma: under 1e-16
         total = np.zeros_like(theta)
         for j in range(-turns, turns + 1):
             total += np.exp(-0.5 * ((theta + 2.0 * np.pi * j) / sigma) ** 2)
@@ -167,51 +198,69 @@ class CustomSpreading:
     """
     Any function of (omega, theta, peak), brought to integral 1 at every frequency.
 
-    The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and toward `breaks`, so a bell round any of them of
-    any width down to 0.1 degree is good to 1e-12, and so is anything smooth; a function with a kink or a jump that `breaks` does not
-    name is refused when the quadrature sees it. Between many frequencies the norm is interpolated, to 1e-12 as well.
+    The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and toward `breaks`,
+    so a bell round any of them of any width down to 0.1 degree is good to 1e-12, and so is anything
+    smooth; a function with a kink or a jump that `breaks` does not name is refused when the
+    quadrature sees it. Between many frequencies the norm is interpolated, to 1e-12 as well.
     """
 
     function: Function  # f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi]
-    breaks: Sequence[float] = ()  # where it has a kink, a jump or a narrow bell in theta [rad], besides 0, +-pi/2 and +-pi
+    breaks: Sequence[
+        float
+        # where it has a kink, a jump or a narrow bell in theta [rad], besides 0, +-pi/2 and +-pi
+    ] = ()
 
     def __post_init__(self) -> None:
         if not callable(self.function) or isinstance(self.function, type):
-            raise ParameterError(f"function must be callable as function(omega, theta, peak), got {self.function!r:.60}")
+            raise ParameterError(
+                f"function must be callable as function(omega, theta, peak), got {self.function!r:.60}"
+            )
         if isinstance(self.breaks, str) or not isinstance(self.breaks, Sequence):
             raise ParameterError(f"breaks must be a list of angles [rad], got {self.breaks!r:.60}")
-        object.__setattr__(self, "breaks", tuple(ANGLE.check("every break", b) for b in self.breaks))
+        object.__setattr__(
+            self, "breaks", tuple(ANGLE.check("every break", b) for b in self.breaks)
+        )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""
         omega = _held(omega, peak)
         frequency, angle = np.broadcast_arrays(omega, wrapped(theta))
-        density: Real = self._checked(frequency, angle, peak) / _circle_integral(self._checked, omega, peak, tuple(self.breaks))
+        density: Real = self._checked(frequency, angle, peak) / _circle_integral(
+            self._checked, omega, peak, tuple(self.breaks)
+        )
         return density
 
     def _checked(self, omega: Real, theta: Real, peak: float) -> Real:
         """The function, or the reason why it will not do."""
         values = np.asarray(self.function(omega, theta, peak))
         if values.dtype.kind not in "iuf":
-            raise ParameterError(f"the custom spreading must return real numbers, got {values!r:.60}")
+            raise ParameterError(
+                f"the custom spreading must return real numbers, got {values!r:.60}"
+            )
         if values.shape not in (omega.shape, ()):
-            raise ParameterError(f"the custom spreading must return the shape it is given, {omega.shape}, got {values.shape}")
+            raise ParameterError(
+                f"the custom spreading must return the shape it is given, {omega.shape}, got {values.shape}"
+            )
         bad = ~((values >= 0.0) & (values < np.inf))
         if np.any(bad):
-            raise ParameterError(f"the custom spreading must be finite and at least 0, got {values[bad].flat[0]}")
+            raise ParameterError(
+                f"the custom spreading must be finite and at least 0, got {values[bad].flat[0]}"
+            )
         return np.broadcast_to(values.astype(np.float64), omega.shape)
 
 
 @dataclass(frozen=True, slots=True)
 class SwellElongation:
     """
-    Another spreading drawn out along the swell: D cos^2s(theta/2) with s = 16 tanh(omega_p/omega) xi^2, brought back to integral 1.
+    Another spreading drawn out along the swell: D cos^2s(theta/2) with s = 16 tanh(omega_p/omega)
+    xi^2, brought back to integral 1.
 
-    xi = 0 leaves it as it is, xi = 1 makes long parallel swells of the low frequencies. Where the base is itself a power of
-    cos(theta/2) the exponents add and the norm is closed; else it is a quadrature like `CustomSpreading`'s.
+    xi = 0 leaves it as it is, xi = 1 makes long parallel swells of the low frequencies. Where the
+    base is itself a power of cos(theta/2) the exponents add and the norm is closed; else it is a
+    quadrature like `CustomSpreading`'s.
 
-    Source: Horvath, Empirical directional wave spectra for computer graphics, DigiPro 2015, doi:10.1145/2791261.2791267 (his own
-    code has 16.1 for 16 and a norm over the front half only).
+    Source: Horvath, Empirical directional wave spectra for computer graphics, DigiPro 2015,
+    doi:10.1145/2791261.2791267 (his own code has 16.1 for 16 and a norm over the front half only).
     """
 
     base: Spreading = field(default_factory=DonelanBanner)
@@ -244,7 +293,9 @@ class SwellElongation:
         if own is not None:
             return cosine_2s(own + self.exponent_added(omega, peak), wrapped(theta))
         omega = _held(omega, peak)
-        density: Real = self._product(omega, theta, peak) / _circle_integral(self._product, omega, peak, self.breaks)
+        density: Real = self._product(omega, theta, peak) / _circle_integral(
+            self._product, omega, peak, self.breaks
+        )
         return density
 
     def _own_exponent(self, omega: RealLike, peak: float) -> Real | None:
@@ -256,12 +307,17 @@ class SwellElongation:
     def _product(self, omega: RealLike, theta: RealLike, peak: float) -> Real:
         """D cos^2s(theta/2), not yet normed."""
         cosine = np.maximum(np.abs(np.cos(0.5 * np.asarray(theta, dtype=np.float64))), 1e-300)
-        drawn: Real = self.base(omega, theta, peak) * np.exp(2.0 * self.exponent_added(omega, peak) * np.log(cosine))
+        drawn: Real = self.base(omega, theta, peak) * np.exp(
+            2.0 * self.exponent_added(omega, peak) * np.log(cosine)
+        )
         return drawn
 
 
 def _held(omega: RealLike, peak: float) -> Real:
-    """Frequencies [rad/s] held at a millionth of the peak from below and far beyond any wave: no law has a use for 0 or inf."""
+    """
+    Frequencies [rad/s] held at a millionth of the peak from below and far beyond any wave: no law
+    has a use for 0 or inf.
+    """
     return np.clip(np.asarray(omega, dtype=np.float64), 1e-6 * peak, 1e50)
 
 
@@ -282,15 +338,18 @@ _DEGREE = 16  # of the table's polynomials
 @lru_cache(maxsize=64)
 def _panels(breaks: tuple[float, ...], order: int) -> Panels:
     """
-    Return Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0, twelve toward every break.
+    Return Gauss-Legendre nodes and weights on [-pi, pi], in panels that halve ten times toward 0,
+    twelve toward every break.
 
-    At +-pi the root of a cosine ends in (pi - |theta|)^2s, which no polynomial follows where s is small: there theta runs as the
-    sixth power of the node, and the root becomes smooth.
+    At +-pi the root of a cosine ends in (pi - |theta|)^2s, which no polynomial follows where s is
+    small: there theta runs as the sixth power of the node, and the root becomes smooth.
     """
     edges = np.pi * np.concatenate([[0.0, 0.75, 0.875, 1.0], 0.5 ** np.arange(1, 11)])
     named = wrapped(np.array(breaks, dtype=np.float64))
     closer = np.concatenate([[0.0], np.pi * 0.5 ** np.arange(1, 13)])
-    toward = wrapped(np.concatenate([named + side * closer[:, None] for side in (-1.0, 1.0)], axis=None))
+    toward = wrapped(
+        np.concatenate([named + side * closer[:, None] for side in (-1.0, 1.0)], axis=None)
+    )
     edges = np.unique(np.concatenate([edges, -edges, toward]))
     edges = edges[np.concatenate([[True], np.diff(edges) > 1e-12])]
     edges[-1] = np.pi
@@ -304,7 +363,9 @@ def _panels(breaks: tuple[float, ...], order: int) -> Panels:
     return np.concatenate(theta), np.concatenate(weights)
 
 
-def _integrals(function: Function, omega: Real, peak: float, breaks: tuple[float, ...], order: int = 16) -> Real:
+def _integrals(
+    function: Function, omega: Real, peak: float, breaks: tuple[float, ...], order: int = 16
+) -> Real:
     """The integral over theta at each of a list of frequencies; in blocks, to spare memory."""
     theta, weights = _panels(breaks, order)
     out = np.empty(omega.size)
@@ -315,12 +376,15 @@ def _integrals(function: Function, omega: Real, peak: float, breaks: tuple[float
     return out
 
 
-def _circle_integral(function: Function, omega: Real, peak: float, breaks: tuple[float, ...]) -> Real:
+def _circle_integral(
+    function: Function, omega: Real, peak: float, breaks: tuple[float, ...]
+) -> Real:
     """
     Return the integral of `function` over theta at every `omega`, shaped like it.
 
     Raises:
-        ParameterError: the function is 0 all round, or has an edge that the quadrature sees and `breaks` does not name.
+        ParameterError: the function is 0 all round, or has an edge that the quadrature sees and
+            `breaks` does not name.
     """
     unique, place = np.unique(omega, return_inverse=True)
     if not unique.size:
@@ -335,43 +399,69 @@ def _circle_integral(function: Function, omega: Real, peak: float, breaks: tuple
             f"breaks; got {coarse[i]:.12g} and {fine[i]:.12g} at omega = {probes[i]:g} rad/s"
         )
     few = unique.size <= _MANY
-    values = _integrals(function, unique, peak, breaks) if few else _tabulated(function, unique, peak, breaks)
+    values = (
+        _integrals(function, unique, peak, breaks)
+        if few
+        else _tabulated(function, unique, peak, breaks)
+    )
     return values[place].reshape(omega.shape)
 
 
 def _tabulated(function: Function, omega: Real, peak: float, breaks: tuple[float, ...]) -> Real:
     """
-    The integral at many frequencies (ascending), by Chebyshev interpolation in ln omega on panels bisected until it holds.
+    The integral at many frequencies (ascending), by Chebyshev interpolation in ln omega on panels
+    bisected until it holds.
 
-    A panel holds when its last three coefficients are under 1e-13 of the first. Both its ends are nodes, so a jump of the base
-    (Donelan-Banner steps at 0.95) cannot hide beyond the last one; it is bisected down to a width of 1e-7, where the few
-    frequencies inside are integrated one by one.
+    A panel holds when its last three coefficients are under 1e-13 of the first. Both its ends are
+    nodes, so a jump of the base (Donelan-Banner steps at 0.95) cannot hide beyond the last one; it
+    is bisected down to a width of 1e-7, where the few frequencies inside are integrated one by one.
     """
     u = np.log(omega)
     j = np.arange(_DEGREE + 1)
     x = np.cos(np.pi * j / _DEGREE)
     ends_halved = np.where((j == 0) | (j == _DEGREE), 0.5, 1.0)
-    to_coefficients = np.cos(np.pi / _DEGREE * np.outer(j, j)) * ends_halved * ends_halved[:, None] * 2.0 / _DEGREE
+    to_coefficients = (
+        np.cos(np.pi / _DEGREE * np.outer(j, j))
+        * ends_halved
+        * ends_halved[:, None]
+        * 2.0
+        / _DEGREE
+    )
     out = np.empty_like(u)
     pending = np.array([[u[0], u[-1]]])
     while pending.size:
         middle, half = 0.5 * pending.sum(axis=1), 0.5 * (pending[:, 1] - pending[:, 0])
-        first, last = np.searchsorted(u, pending[:, 0], "left"), np.searchsorted(u, pending[:, 1], "left")
+        first, last = (
+            np.searchsorted(u, pending[:, 0], "left"),
+            np.searchsorted(u, pending[:, 1], "left"),
+        )
         last = np.where(pending[:, 1] >= u[-1], u.size, last)
-        # A panel with fewer frequencies than nodes is not worth a table; nor is one that has become a mere edge.
+        # A panel with fewer frequencies than nodes is not worth a table; nor is one that has become
+        # a mere edge.
         direct = (last - first <= _DEGREE) | (half <= 0.5e-7)
         for i in np.flatnonzero(direct):
             out[first[i] : last[i]] = _integrals(function, omega[first[i] : last[i]], peak, breaks)
         keep = ~direct
-        middle, half, first, last, pending = middle[keep], half[keep], first[keep], last[keep], pending[keep]
+        middle, half, first, last, pending = (
+            middle[keep],
+            half[keep],
+            first[keep],
+            last[keep],
+            pending[keep],
+        )
         if not half.size:
             break
         nodes = np.exp(middle[:, None] + half[:, None] * x)
-        c = _integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape) @ to_coefficients.T
+        c = (
+            _integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape)
+            @ to_coefficients.T
+        )
         holds = np.max(np.abs(c[:, -3:]), axis=1) <= 1e-13 * np.abs(c[:, 0])
         for i in np.flatnonzero(holds):
             inside = slice(first[i], last[i])
             out[inside] = np.polynomial.chebyshev.chebval((u[inside] - middle[i]) / half[i], c[i])
         broken, split = pending[~holds], middle[~holds]
-        pending = np.concatenate([np.column_stack([broken[:, 0], split]), np.column_stack([split, broken[:, 1]])])
+        pending = np.concatenate(
+            [np.column_stack([broken[:, 0], split]), np.column_stack([split, broken[:, 1]])]
+        )
     return out

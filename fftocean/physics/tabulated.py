@@ -12,33 +12,49 @@ from fftocean.errors import ParameterError
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TabulatedSpreading:
     """
-    Measured spreading: straight lines between the points of a table, in frequency and round the circle.
+    Measured spreading: straight lines between the points of a table, in frequency and round the
+    circle.
 
-    Each row is normalised to integrate to 1 along its straight lines; then so does every frequency between two rows. A row without
-    any energy says nothing about directions and takes the nearest row's that has some; so do frequencies outside the table.
+    Each row is normalised to integrate to 1 along its straight lines; then so does every frequency
+    between two rows. A row without any energy says nothing about directions and takes the nearest
+    row's that has some; so do frequencies outside the table.
     """
 
     frequency: Sequence[float]  # f [Hz], strictly ascending, > 0
-    direction: Sequence[float]  # from the system's direction, counter-clockwise [degrees], in any order, no angle twice
+    direction: Sequence[
+        float
+    ]  # from the system's direction, counter-clockwise [degrees], in any order, no angle twice
     density: Sequence[Sequence[float]] = field(repr=False)  # (frequency, direction), any unit, >= 0
     _f: Real = field(init=False, repr=False, compare=False)
-    _theta: Real = field(init=False, repr=False, compare=False)  # ascending [rad], the first again a turn later
+    _theta: Real = field(
+        init=False, repr=False, compare=False
+    )  # ascending [rad], the first again a turn later
     _d: Real = field(init=False, repr=False, compare=False)  # (f, theta) [1/rad]
 
     def __post_init__(self) -> None:
-        f, angle, table = (_numbers(name, getattr(self, name)) for name in ("frequency", "direction", "density"))
+        f, angle, table = (
+            _numbers(name, getattr(self, name)) for name in ("frequency", "direction", "density")
+        )
         if f.ndim != 1 or f.size < 2 or not (f[0] > 0.0 and np.all(np.diff(f) > 0.0)):
-            raise ParameterError(f"frequency must be at least 2 positive numbers, strictly ascending [Hz], got {self.frequency!r:.60}")
+            raise ParameterError(
+                f"frequency must be at least 2 positive numbers, strictly ascending [Hz], got {self.frequency!r:.60}"
+            )
         if angle.ndim != 1 or angle.size < 3:
-            raise ParameterError(f"direction must be at least 3 angles [degrees], got {self.direction!r:.60}")
+            raise ParameterError(
+                f"direction must be at least 3 angles [degrees], got {self.direction!r:.60}"
+            )
         if table.shape != (f.size, angle.size):
-            raise ParameterError(f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}")
+            raise ParameterError(
+                f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
+            )
         if np.any(table < 0.0):
             raise ParameterError(f"density must be at least 0, got {table[table < 0.0][0]}")
         order = np.argsort(np.mod(angle, 360.0))
         turned = np.mod(angle, 360.0)[order]
         if np.any(np.diff(turned, append=turned[0] + 360.0) <= 0.0):
-            raise ParameterError(f"direction must hold each angle once (0 and 360 degrees are one), got {self.direction!r:.60}")
+            raise ParameterError(
+                f"direction must hold each angle once (0 and 360 degrees are one), got {self.direction!r:.60}"
+            )
         filled = np.flatnonzero(np.any(table > 0.0, axis=1))
         if not filled.size:
             raise ParameterError("density must be more than 0 somewhere, got 0 everywhere")
@@ -69,7 +85,9 @@ class TabulatedSpreading:
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `omega` and `theta`, which broadcast, [1/rad]."""
-        f, angle = np.broadcast_arrays(np.asarray(omega, dtype=np.float64) / (2.0 * np.pi), np.asarray(theta, dtype=np.float64))
+        f, angle = np.broadcast_arrays(
+            np.asarray(omega, dtype=np.float64) / (2.0 * np.pi), np.asarray(theta, dtype=np.float64)
+        )
         i, u = _between(self._f, f)
         j, v = _between(self._theta, self._theta[0] + np.mod(angle - self._theta[0], 2.0 * np.pi))
         low = (1.0 - v) * self._d[i, j] + v * self._d[i, j + 1]
@@ -78,13 +96,19 @@ class TabulatedSpreading:
 
 
 def bin_widths(directions: Real) -> Real:
-    """Width of each direction's bin [degrees], half way to its neighbours round the circle; `directions` ascend in [0, 360)."""
+    """
+    Width of each direction's bin [degrees], half way to its neighbours round the circle;
+    `directions` ascend in [0, 360).
+    """
     gaps = np.diff(directions, append=directions[0] + 360.0)
     return 0.5 * (gaps + np.roll(gaps, 1))
 
 
 def _between(nodes: Real, x: Real) -> tuple[np.typing.NDArray[np.intp], Real]:
-    """The interval of `nodes` that holds x, and how far into it, from 0 to 1; the first and last hold what is outside."""
+    """
+    The interval of `nodes` that holds x, and how far into it, from 0 to 1; the first and last hold
+    what is outside.
+    """
     i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)
 

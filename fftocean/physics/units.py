@@ -1,4 +1,7 @@
-"""Units of the sea's trades, turned into SI at the border: inside the package there are metres and seconds only."""
+"""
+Units of the sea's trades, turned into SI at the border: inside the package there are metres and
+seconds only.
+"""
 
 from typing import Final
 

@@ -10,7 +10,9 @@ from fftocean.errors import ParameterError
 from fftocean.limits import Quantity
 
 SAME = 1e-9
-"""The relative difference of two values that are taken for one: it is what a change of units leaves."""
+"""
+The relative difference of two values that are taken for one: it is what a change of units leaves.
+"""
 
 DEEPEST = 16  # parts within parts, beyond which nothing is looked for
 
@@ -31,8 +33,9 @@ def statements(name: str, path: str, part: Any) -> Iterator[Statement]:
     """
     Yield what a spectrum or spreading, or else the parts that it is made of, states as `name`.
 
-    A part states a value by an attribute of that name that is a number; one that is None states nothing. The outermost statement
-    holds: the spectrum in a `TMA` is one of deep water, and the `TMA` one of its depth.
+    A part states a value by an attribute of that name that is a number; one that is None states
+    nothing. The outermost statement holds: the spectrum in a `TMA` is one of deep water, and the
+    `TMA` one of its depth.
     """
     yield from _statements(name, path, part, 0)
 
@@ -47,9 +50,14 @@ def _statements(name: str, path: str, part: Any, depth: int) -> Iterator[Stateme
 
 
 def _parts(part: Any) -> Iterator[tuple[str, Any]]:
-    """The callables that an object holds as attributes, alone or in lists; a function or a class holds none."""
+    """
+    The callables that an object holds as attributes, alone or in lists; a function or a class holds
+    none.
+    """
     if is_dataclass(part) and not isinstance(part, type):
-        held: Iterable[tuple[str, Any]] = ((f.name, getattr(part, f.name, None)) for f in fields(part))
+        held: Iterable[tuple[str, Any]] = (
+            (f.name, getattr(part, f.name, None)) for f in fields(part)
+        )
     else:
         held = getattr(part, "__dict__", {}).items() if not isinstance(part, type) else ()
     for label, value in held:
@@ -59,9 +67,12 @@ def _parts(part: Any) -> Iterator[tuple[str, Any]]:
             yield label, value
 
 
-def agreed(name: str, given: float | None, stated: Sequence[Statement], quantity: Quantity, default: float) -> float:
+def agreed(
+    name: str, given: float | None, stated: Sequence[Statement], quantity: Quantity, default: float
+) -> float:
     """
-    Return the one value that a sea and all its parts have: the one given, else the one stated, else the default.
+    Return the one value that a sea and all its parts have: the one given, else the one stated, else
+    the default.
 
     Raises:
         ParameterError: two of them differ; the message names both.

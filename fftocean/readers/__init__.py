@@ -77,7 +77,9 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
     """
     bins = BINS.check_whole("bins", bins)
     if not isinstance(path, (str, os.PathLike)):
-        raise ReaderError(f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})")
+        raise ReaderError(
+            f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})"
+        )
     path = Path(os.fsdecode(path))
     with files.refusing(path.name or str(path)):
         folder = "\0" not in str(path) and path.is_dir()
@@ -104,7 +106,9 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
     for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
         break
     known = ", ".join(reader.name for reader in FORMATS)
-    raise ReaderError(f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40}")
+    raise ReaderError(
+        f"{path.name} must be wave spectra in a known format ({known}), got {head.first_line!r:.40}"
+    )
 
 
 def files_of(path: Path) -> list[Path]:
@@ -131,7 +135,9 @@ def _only_set(folder: Path) -> Path:
         for entry in folder.iterdir():
             names.append(entry.name)
             if len(names) > MOST_IN_FOLDER:
-                raise ReaderError(f"{folder.name} must hold at most {MOST_IN_FOLDER} files, got more")
+                raise ReaderError(
+                    f"{folder.name} must hold at most {MOST_IN_FOLDER} files, got more"
+                )
     sets: dict[str, str] = {}
     for name in sorted(names):
         key = ndbc_archive.set_of(name) or ndbc.set_of(name)
@@ -153,5 +159,7 @@ def _ended(read: list[Path], made: "Dataset") -> "Dataset":
     if "netCDF" in made.attrs["source_format"]:
         return made
     if cut := [other.name for other in read if not files.has_final_newline(other)]:
-        made.attrs["unterminated"] = f"{', '.join(cut)}: the last line has no end, and was taken as whole"
+        made.attrs["unterminated"] = (
+            f"{', '.join(cut)}: the last line has no end, and was taken as whole"
+        )
     return made

@@ -16,8 +16,8 @@ frequencies with few decimals.
 
 _OVERLAP: Final = 0.25
 """
-How far bands may overlap, as a share of their width. Where only widths are known they are put evenly
-about their frequencies; those of a geometric series with a ratio of 1.1 then overlap by 5 %.
+How far bands may overlap, as a share of their width. Where only widths are known they are put
+evenly about their frequencies; those of a geometric series with a ratio of 1.1 then overlap by 5 %.
 """
 
 _MOST_CORRECTION: Final = 0.25  # of a density, to match Tm01 and Tm02
@@ -74,7 +74,9 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
     """
     bands = np.array(edges, dtype=np.float64)
     if bands.shape != (frequency.size, 2):
-        raise ReaderError(f"{where} must hold two edges for each of {frequency.size} frequencies, got shape {bands.shape}")
+        raise ReaderError(
+            f"{where} must hold two edges for each of {frequency.size} frequencies, got shape {bands.shape}"
+        )
     if not np.all(np.isfinite(bands)):
         raise ReaderError(f"{where} must be finite, got {bands[~np.isfinite(bands)][0]} Hz")
     bands = np.sort(bands, axis=1)
@@ -83,9 +85,13 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
     for i in range(frequency.size):
         low, high, f = bands[i, 0], bands[i, 1], frequency[i]
         if not width[i] > 0.0 or high <= 0.0:
-            raise ReaderError(f"{where}: the band at {f:g} Hz must have a width above 0, got {low:g} to {high:g} Hz")
+            raise ReaderError(
+                f"{where}: the band at {f:g} Hz must have a width above 0, got {low:g} to {high:g} Hz"
+            )
         if not low - slack[i] <= f <= high + slack[i]:
-            raise ReaderError(f"{where}: the band at {f:g} Hz must hold its frequency, got {low:g} to {high:g} Hz")
+            raise ReaderError(
+                f"{where}: the band at {f:g} Hz must hold its frequency, got {low:g} to {high:g} Hz"
+            )
         if i and low < bands[i - 1, 1] - _OVERLAP * (width[i] + width[i - 1]):
             raise ReaderError(
                 f"{where}: the band at {f:g} Hz must begin where the one below it ends, at {bands[i - 1, 1]:g} Hz, got {low:g} Hz"
@@ -117,13 +123,13 @@ def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
     """
     Draw straight lines that have the moments of the sum over bands.
 
-    The nodes are the frequencies and the two outermost edges, up to which the first and last density
-    go on. Each density takes the factor by which its band is wider than the share of the lines that
-    hangs on it: then m0 is exact, and the factor is 1 where bands reach half way to the neighbours.
-    What m1 and m2 differ by, as a straight line is wider than its band, a factor quadratic in
-    frequency makes up for, some 0.5 % where bands are 10 % wide. A spectrum of too few bands for that
-    keeps its m0, and its m1 where a linear factor does: a single band misses Tm01 and Tm02 by at most
-    a sixth of the squared ratio of step to frequency.
+    The nodes are the frequencies and the two outermost edges, up to which the first and last
+    density go on. Each density takes the factor by which its band is wider than the share of the
+    lines that hangs on it: then m0 is exact, and the factor is 1 where bands reach half way to the
+    neighbours. What m1 and m2 differ by, as a straight line is wider than its band, a factor
+    quadratic in frequency makes up for, some 0.5 % where bands are 10 % wide. A spectrum of too few
+    bands for that keeps its m0, and its m1 where a linear factor does: a single band misses Tm01
+    and Tm02 by at most a sixth of the squared ratio of step to frequency.
 
     Args:
         frequency: (f,) ascending [Hz], at least 2.
@@ -139,22 +145,36 @@ def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
     outer = [low] if low < frequency[0] * (1.0 - 1e-6) else []
     inner = [edges[-1, 1]] if edges[-1, 1] > frequency[-1] * (1.0 + 1e-6) else []
     nodes = np.concatenate([outer, frequency, inner])
-    place = np.clip(np.arange(nodes.size) - len(outer), 0, frequency.size - 1)  # whose density a node has
+    place = np.clip(
+        np.arange(nodes.size) - len(outer), 0, frequency.size - 1
+    )  # whose density a node has
     weights = np.zeros((frequency.size, 3))
     np.add.at(weights, place, _node_weights(nodes))
     whole = float(np.sum(density * weights[:, 0]))
     if not (whole > 0.0 and want[0] > 0.0):
-        return Lines(nodes, np.zeros(nodes.size), 1.0, (float(want[0]), float(want[1]), float(want[2])), 2)
+        return Lines(
+            nodes, np.zeros(nodes.size), 1.0, (float(want[0]), float(want[1]), float(want[2])), 2
+        )
     matched, values = _with_moments(frequency, density * (width / weights[:, 0]), weights, want)
-    return Lines(nodes, values[place], float(want[0]) / whole, (float(want[0]), float(want[1]), float(want[2])), matched)
+    return Lines(
+        nodes,
+        values[place],
+        float(want[0]) / whole,
+        (float(want[0]), float(want[1]), float(want[2])),
+        matched,
+    )
 
 
 def _node_weights(x: Real) -> Real:
     """Integrals of x^n, n = 0, 1, 2, times the hat function of each node, (nodes, 3)."""
     a, b = x[:-1], x[1:]
     h = b - a
-    falling = np.stack([h / 2.0, h * (2.0 * a + b) / 6.0, h * (3.0 * a**2 + 2.0 * a * b + b**2) / 12.0], axis=1)
-    rising = np.stack([h / 2.0, h * (a + 2.0 * b) / 6.0, h * (a**2 + 2.0 * a * b + 3.0 * b**2) / 12.0], axis=1)
+    falling = np.stack(
+        [h / 2.0, h * (2.0 * a + b) / 6.0, h * (3.0 * a**2 + 2.0 * a * b + b**2) / 12.0], axis=1
+    )
+    rising = np.stack(
+        [h / 2.0, h * (a + 2.0 * b) / 6.0, h * (a**2 + 2.0 * a * b + 3.0 * b**2) / 12.0], axis=1
+    )
     total = np.zeros((x.size, 3))
     total[:-1] += falling
     total[1:] += rising
@@ -173,7 +193,9 @@ def _with_moments(frequency: Real, values: Real, weights: Real, want: Real) -> t
     some = values > 0.0
     for degree in range(min(2, int(np.count_nonzero(some)) - 1), 0, -1):
         basis = t[:, None] ** np.arange(degree + 1)
-        matrix = np.sum((values[:, None] * weights[:, : degree + 1])[:, :, None] * basis[:, None, :], axis=0)
+        matrix = np.sum(
+            (values[:, None] * weights[:, : degree + 1])[:, :, None] * basis[:, None, :], axis=0
+        )
         scale = want[: degree + 1, None]
         try:
             coefficients = np.linalg.solve(matrix / scale, np.ones(degree + 1))

@@ -30,7 +30,9 @@ _CDIP: Final = ("waveA1Value", "waveB1Value", "waveA2Value", "waveB2Value")
 _APART: Final = 2.0  # largest difference of `waveMeanDirection` from the moments' own [degrees]
 
 
-def find(raw: "Dataset", name: object, source: str, values: Callable[["DataArray"], Real]) -> tuple[Complex, Complex] | None:
+def find(
+    raw: "Dataset", name: object, source: str, values: Callable[["DataArray"], Real]
+) -> tuple[Complex, Complex] | None:
     """
     Return both moments of directions FROM, clockwise from north, or None where the dataset has
     none.
@@ -52,7 +54,9 @@ def find(raw: "Dataset", name: object, source: str, values: Callable[["DataArray
         if len(absent) == len(family):
             continue
         if absent:
-            raise ReaderError(f"{source} must hold all four moments or none; missing: {', '.join(absent)}")
+            raise ReaderError(
+                f"{source} must hold all four moments or none; missing: {', '.join(absent)}"
+            )
         for word in family:
             if raw[word].dims != raw[name].dims:
                 raise ReaderError(f"{source}: variable {word} must have the dimensions of {name}")
@@ -60,7 +64,9 @@ def find(raw: "Dataset", name: object, source: str, values: Callable[["DataArray
     return None
 
 
-def _ndbc(raw: "Dataset", source: str, values: Callable[["DataArray"], Real]) -> tuple[Complex, Complex]:
+def _ndbc(
+    raw: "Dataset", source: str, values: Callable[["DataArray"], Real]
+) -> tuple[Complex, Complex]:
     angles = []
     for word in _NDBC[:2]:
         unit = units.parse(raw[word].attrs.get("units", "degree"))
@@ -77,7 +83,9 @@ def _ndbc(raw: "Dataset", source: str, values: Callable[["DataArray"], Real]) ->
     return _moment(r[0], angles[0], 1), _moment(r[1], angles[1], 2)
 
 
-def _cdip(raw: "Dataset", source: str, values: Callable[["DataArray"], Real]) -> tuple[Complex, Complex]:
+def _cdip(
+    raw: "Dataset", source: str, values: Callable[["DataArray"], Real]
+) -> tuple[Complex, Complex]:
     parts = []
     for word in _CDIP:
         parts.append(values(raw[word]))
@@ -108,4 +116,7 @@ def _require(where: str, values: Real, low: float, high: float, unit: str) -> No
     with np.errstate(invalid="ignore"):
         wrong: Any = (values < low) | (values > high)
     if np.any(wrong):
-        raise ReaderError(f"{where} must be between {low:g} and {high:g} {unit}".rstrip() + f", got {values[wrong][0]:g}")
+        raise ReaderError(
+            f"{where} must be between {low:g} and {high:g} {unit}".rstrip()
+            + f", got {values[wrong][0]:g}"
+        )

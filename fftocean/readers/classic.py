@@ -1,4 +1,7 @@
-"""Checks of a netCDF 3 file by its header, before its variables are read: the reader believes what the header says."""
+"""
+Checks of a netCDF 3 file by its header, before its variables are read: the reader believes what the
+header says.
+"""
 
 import io
 import struct
@@ -26,14 +29,16 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
         stream: a seekable stream of it, which is left at its start.
 
     Raises:
-        ReaderError: a header that is cut, too many variables, or variables that lie outside the file
-            or together are larger than it.
+        ReaderError: a header that is cut, too many variables, or variables that lie outside the
+            file or together are larger than it.
 
     Source: The NetCDF Classic Format Specification.
     """
     size = stream.seek(0, io.SEEK_END)
     if size > MOST_BYTES:
-        raise ReaderError(f"{name} must be at most {MOST_BYTES >> 20} MiB, got {size} bytes (cut out one place with xarray)")
+        raise ReaderError(
+            f"{name} must be at most {MOST_BYTES >> 20} MiB, got {size} bytes (cut out one place with xarray)"
+        )
     stream.seek(3)
     header = _Header(name, stream)
     wide = stream.read(1) == b"\x02"
@@ -48,7 +53,9 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
         where = f"{name}: variable {header.text()}"
         axes = [header.whole() for _ in range(header.whole_up_to(MOST_ITEMS, where))]
         if any(axis >= len(lengths) for axis in axes):
-            raise ReaderError(f"{where} must have dimensions that the file has, got number {max(axes)} of {len(lengths)}")
+            raise ReaderError(
+                f"{where} must have dimensions that the file has, got number {max(axes)} of {len(lengths)}"
+            )
         header.attributes()
         bytes_each = header.bytes_of_type(where)
         header.whole()  # its size, which is reckoned here
@@ -87,21 +94,27 @@ class _Header:
         """Return a count."""
         count = self.whole()
         if count > most:
-            raise ReaderError(f"{where} must have at most {most} dimensions, variables or attributes, got {count}")
+            raise ReaderError(
+                f"{where} must have at most {most} dimensions, variables or attributes, got {count}"
+            )
         return count
 
     def items(self, tag: int) -> int:
         """Return how many items a list has."""
         found, count = self.whole(), self.whole_up_to(MOST_ITEMS, self.name)
         if found not in (0, tag) or (found == 0 and count):
-            raise ReaderError(f"{self.name} cannot be read as netCDF: a list of its header has the tag {found}, not {tag}")
+            raise ReaderError(
+                f"{self.name} cannot be read as netCDF: a list of its header has the tag {found}, not {tag}"
+            )
         return count
 
     def text(self) -> str:
         """Return a name."""
         length = self.whole()
         if length > 4096:
-            raise ReaderError(f"{self.name} cannot be read as netCDF: a name must be at most 4096 bytes long, got {length}")
+            raise ReaderError(
+                f"{self.name} cannot be read as netCDF: a name must be at most 4096 bytes long, got {length}"
+            )
         return self._read(length + -length % 4)[:length].decode("utf-8", "replace")
 
     def bytes_of_type(self, where: str) -> int:

@@ -64,9 +64,13 @@ def read(path: Path, *, bins: int) -> "Dataset":
             raise ReaderError(f"{where} must hold 6 numbers between commas, got {line!r:.40}")
         numbers = [files.number(where, token) for token in tokens]
         if not -360.0 <= numbers[2] <= 720.0:
-            raise ReaderError(f"{where}: the direction must be between -360 and 720 degrees, got {tokens[2]}")
+            raise ReaderError(
+                f"{where}: the direction must be between -360 and 720 degrees, got {tokens[2]}"
+            )
         if not 0.0 <= numbers[3] <= 180.0:
-            raise ReaderError(f"{where}: the spread must be between 0 and 180 degrees, got {tokens[3]}")
+            raise ReaderError(
+                f"{where}: the spread must be between 0 and 180 degrees, got {tokens[3]}"
+            )
         table.append(numbers)
         if len(table) > layout.MAX_VALUES // bins:
             raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
@@ -74,12 +78,16 @@ def read(path: Path, *, bins: int) -> "Dataset":
         raise ReaderError(f"{path.name} must hold at least 2 frequencies, got {len(table)}")
     hs, largest = header[1] / 100.0, header[3]
     if not 0.0 <= largest <= layout.LARGEST * 360.0:
-        raise ReaderError(f"{path.name}: line 4 must be a density of at least 0 m2/Hz, got {largest:g}")
+        raise ReaderError(
+            f"{path.name}: line 4 must be a density of at least 0 m2/Hz, got {largest:g}"
+        )
     kept, notes = layout.above_zero([row[0] for row in table])
     f, s, mean, spread, skewness, kurtosis = np.array(table)[kept].T
     frequency, order = layout.frequencies(f"{path.name}: the frequencies", f)
     density, counts = layout.densities(path.name, largest * s[np.newaxis, order], "m2/Hz")
-    c1, c2 = moments.from_centred(*(column[np.newaxis, order] for column in (mean, spread, skewness, kurtosis)))
+    c1, c2 = moments.from_centred(
+        *(column[np.newaxis, order] for column in (mean, spread, skewness, kurtosis))
+    )
     unfolded, done = moments.unfold(density, c1, c2, bins)
     m0 = np.nansum(density * np.gradient(frequency), axis=1)
     return layout.dataset(

@@ -1,4 +1,7 @@
-"""A buoy tells two Fourier moments of each frequency's directions; this is the least presuming way round the compass that has them."""
+"""
+A buoy tells two Fourier moments of each frequency's directions; this is the least presuming way
+round the compass that has them.
+"""
 
 from typing import Any, Final, NamedTuple
 
@@ -9,11 +12,14 @@ from fftocean.arrays import Complex, Real
 
 LIMIT: Final = 0.99
 """
-The most coherent a moment may be. 1 is a single direction without width, which no bin could show; noise and two-decimal
-rounding also produce moments that no distribution has (beyond 1). Both are drawn in to this limit, and counted.
+The most coherent a moment may be. 1 is a single direction without width, which no bin could show;
+noise and two-decimal rounding also produce moments that no distribution has (beyond 1). Both are
+drawn in to this limit, and counted.
 """
 
-_SLACK: Final = 1e-8  # by which, times l, the moments may be missed, so that there is a least point even where no bins have them
+# by which, times l, the moments may be missed, so that there is a least point even where no bins
+# have them
+_SLACK: Final = 1e-8
 _ENOUGH: Final = 1e-10  # on the moments; a buoy gives two decimals
 _STEPS: Final = 100  # a dozen do, but for moments near `LIMIT`
 
@@ -29,31 +35,36 @@ def maximum_entropy(c1: Complex, c2: Complex, bins: int) -> Unfolded:
     """
     Share out a frequency's energy among directions by the maximum entropy method.
 
-    Of all ways p_j with sum p_j e^{i n theta_j} = c_n, n = 1, 2, the one of most entropy, -sum p_j ln p_j, is
+    Of all ways p_j with sum p_j e^{i n theta_j} = c_n, n = 1, 2, the one of most entropy, -sum p_j
+    ln p_j, is
         p_j ~ exp(l1 cos theta_j + l2 sin theta_j + l3 cos 2 theta_j + l4 sin 2 theta_j):
-    positive, and with both moments (to 1e-8 of the largest l). The l are where the convex function ln sum_j exp(l.g_j) - l.m is
-    least; Newton's method with halved steps cannot miss it.
+    positive, and with both moments (to 1e-8 of the largest l). The l are where the convex function
+    ln sum_j exp(l.g_j) - l.m is least; Newton's method with halved steps cannot miss it.
 
-    A cut Fourier series has negative lobes instead. The entropy of Burg (Lygre & Krogstad 1986), which has a closed form, makes two
-    peaks out of the one of a cos^2s sea, narrow or wide, and moves 12 to 60 % of its energy; this one moves 3 % at s = 2 and 0.3 % at
-    s = 9. (Simanesew, Krogstad, Trulsen & Nieto Borge 2018 map where either splits a peak.)
+    A cut Fourier series has negative lobes instead. The entropy of Burg (Lygre & Krogstad 1986),
+    which has a closed form, makes two peaks out of the one of a cos^2s sea, narrow or wide, and
+    moves 12 to 60 % of its energy; this one moves 3 % at s = 2 and 0.3 % at s = 9. (Simanesew,
+    Krogstad, Trulsen & Nieto Borge 2018 map where either splits a peak.)
 
     Args:
         c1, c2: r1 e^{i a1} and r2 e^{2 i a2}, any one shape; NaN where not measured.
         bins: directions round the compass; bin j is at 2 pi j/bins.
 
     Returns:
-        Shape of `c1` + (bins,). Without c1 the shares are all equal, without c2 those of c1 alone: the least that can be said.
+        Shape of `c1` + (bins,). Without c1 the shares are all equal, without c2 those of c1 alone:
+        the least that can be said.
 
     Source: Kobune & Hashimoto, Proc. 5th OMAE (1986) 80.
-    Pinned by tests/readers/test_entropy.py: the moments; von Mises, its closed form without c2; an optimiser that shares nothing.
+    Pinned by tests/readers/test_entropy.py: the moments; von Mises, its closed form without c2; an
+    optimiser that shares nothing.
     """
     shape = np.shape(c1)
     c1, c2 = (np.array(c, dtype=np.complex128).ravel() for c in (c1, c2))
     known1 = ~np.isnan(c1)
     known2 = known1 & ~np.isnan(c2)
     c1, drawn_in = _within(np.where(known1, c1, np.complex128(0.0)))
-    # Two moments are possible together where c2 lies within 1 - |c1|^2 of c1^2 (a Toeplitz matrix that is positive).
+    # Two moments are possible together where c2 lies within 1 - |c1|^2 of c1^2 (a Toeplitz matrix
+    # that is positive).
     room = 1.0 - np.abs(c1) ** 2
     kappa, drawn_in_2 = _within(np.where(known2, c2 - c1**2, 0.0) / room)
     c2 = c1**2 + kappa * room
@@ -96,9 +107,14 @@ def _most_entropy(moments: Real, free: npt.NDArray[np.bool_], waves: Real) -> Re
         curvature = _weighted(share[busy], products).reshape(-1, 4, 4)
         curvature -= mean[:, :, None] * mean[:, None, :]
         both = free[busy][:, :, None] & free[busy][:, None, :]
-        curvature = np.where(both, curvature, 0.0) + np.eye(4) * np.where(free[busy], _SLACK, 1.0)[:, :, None]
+        curvature = (
+            np.where(both, curvature, 0.0)
+            + np.eye(4) * np.where(free[busy], _SLACK, 1.0)[:, :, None]
+        )
         step = -np.linalg.solve(curvature, slope[:, :, None])[:, :, 0]
-        multipliers[busy], share[busy], moving = _downhill(multipliers[busy], step, slope, moments[busy], waves)
+        multipliers[busy], share[busy], moving = _downhill(
+            multipliers[busy], step, slope, moments[busy], waves
+        )
         busy = busy[moving]
     return share
 
@@ -116,9 +132,12 @@ def _weighted(share: Real, functions: Real) -> Real:
     return total.T
 
 
-def _downhill(start: Real, step: Real, slope: Real, moments: Real, waves: Real) -> tuple[Real, Real, npt.NDArray[np.bool_]]:
+def _downhill(
+    start: Real, step: Real, slope: Real, moments: Real, waves: Real
+) -> tuple[Real, Real, npt.NDArray[np.bool_]]:
     """
-    Go along `step`, half of it, a quarter, ... until the function falls by a fair part of what its slope promises.
+    Go along `step`, half of it, a quarter, ... until the function falls by a fair part of what its
+    slope promises.
 
     Returns:
         Where that is, the shares there, and whether there is anything more to gain than rounding.
@@ -144,5 +163,7 @@ def _height(multipliers: Real, moments: Real, waves: Real) -> tuple[Real, Real]:
     top = np.max(exponent, axis=1)
     share = np.exp(exponent - top[:, None])
     total = np.sum(share, axis=1)
-    height = top + np.log(total) + np.sum(multipliers * (0.5 * _SLACK * multipliers - moments), axis=1)
+    height = (
+        top + np.log(total) + np.sum(multipliers * (0.5 * _SLACK * multipliers - moments), axis=1)
+    )
     return height, share / total[:, None]

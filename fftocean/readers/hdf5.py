@@ -1,9 +1,9 @@
 """
 Checks of an HDF5 file before the HDF5 library reads data from it.
 
-The library does whatever a file says: it opens other files that the data are said to lie in, allocates
-any size, loads filters, unpacks a chunk of any size. Here all objects are looked at first, by their
-headers alone.
+The library does whatever a file says: it opens other files that the data are said to lie in,
+allocates any size, loads filters, unpacks a chunk of any size. Here all objects are looked at
+first, by their headers alone.
 """
 
 import importlib
@@ -42,7 +42,14 @@ MOST_AXIS_BYTES: Final = 2**28
 MOST_RATIO: Final = 1100
 """Bytes unpacked from each byte of the file; deflate reaches 1032."""
 
-_FILTERS: Final = {1: "deflate", 2: "shuffle", 3: "fletcher32", 4: "szip", 5: "n-bit", 6: "scale-offset"}
+_FILTERS: Final = {
+    1: "deflate",
+    2: "shuffle",
+    3: "fletcher32",
+    4: "szip",
+    5: "n-bit",
+    6: "scale-offset",
+}
 _HEAP: Final = b"GCOL\x01\0\0\0"
 
 
@@ -58,12 +65,14 @@ def require_sound(name: str, stream: IO[bytes]) -> list[str]:
         The names of variables of the root group that are not numbers: nobody needs to read them.
 
     Raises:
-        ReaderError: data, links or filters that lie outside the file; a heap that does not add up; too
-            many objects; or a variable, a chunk or an attribute of absurd size.
+        ReaderError: data, links or filters that lie outside the file; a heap that does not add up;
+            too many objects; or a variable, a chunk or an attribute of absurd size.
     """
     size = stream.seek(0, io.SEEK_END)
     if size > MOST_FILE_BYTES:
-        raise ReaderError(f"{name} must be at most {MOST_FILE_BYTES >> 30} GiB, got {size} bytes (cut out one place with xarray)")
+        raise ReaderError(
+            f"{name} must be at most {MOST_FILE_BYTES >> 30} GiB, got {size} bytes (cut out one place with xarray)"
+        )
     if isinstance(stream, io.BytesIO):
         longest = require_sound_heaps(name, stream.getvalue())
     else:
@@ -77,9 +86,11 @@ def require_sound(name: str, stream: IO[bytes]) -> list[str]:
 
 def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
     """
-    Walk the global heaps, where references between dimensions and variables are kept, as the library will.
+    Walk the global heaps, where references between dimensions and variables are kept, as the
+    library will.
 
-    It takes the objects' sizes on trust: with one wrong bit in one of them it walks for ever (HDF5 2.0), and cannot be stopped.
+    It takes the objects' sizes on trust: with one wrong bit in one of them it walks for ever (HDF5
+    2.0), and cannot be stopped.
 
     Returns:
         The size of the largest object in a heap [bytes].
@@ -87,10 +98,13 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
     Raises:
         ReaderError: objects that do not fill their heap.
 
-    Source: HDF5 File Format Specification 3.0, section III.E, "Disk Format: Level 1E - Global Heap".
+    Source: HDF5 File Format Specification 3.0, section III.E, "Disk Format: Level 1E - Global
+    Heap".
     """
     if (data[9:11] if data[8] >= 2 else data[13:15]) != b"\x08\x08":
-        return len(data)  # lengths that are not of 8 bytes: nobody has written such a file since the 32-bit days
+        return len(
+            data
+        )  # lengths that are not of 8 bytes: nobody has written such a file since the 32-bit days
     longest = 0
     at = data.find(_HEAP)
     while at >= 0:
@@ -99,12 +113,16 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
         sound = size >= 16 and end <= len(data)
         while sound and here + 16 <= end:
             index, size = struct.unpack("<H6xQ", data[here : here + 16])
-            step = size if index == 0 else 16 + (size + 7) // 8 * 8  # object 0 is what is free, header and all
+            step = (
+                size if index == 0 else 16 + (size + 7) // 8 * 8
+            )  # object 0 is what is free, header and all
             sound = 16 <= step <= end - here
             longest = max(longest, size if index else 0)
             here += step
         if not sound:
-            raise ReaderError(f"{name} must be sound HDF5, but its heap at byte {at} does not add up")
+            raise ReaderError(
+                f"{name} must be sound HDF5, but its heap at byte {at} does not add up"
+            )
         at = data.find(_HEAP, at + 16)
     return longest
 
@@ -114,7 +132,10 @@ def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int
     h5py: Any = importlib.import_module("h5py")
     unread, axes = [], 0
     with h5py.File(stream, "r") as file:
-        file.attrs.get("_nc3_strict")  # where this fails, h5netcdf would leave a half-open file behind, and complaints on stderr
+        file.attrs.get(
+            "_nc3_strict"
+            # where this fails, h5netcdf would leave a half-open file behind, and complaints on stderr
+        )
         _require_sane_attributes(h5py, f"{name}: the file", file.id, size, longest)
         for path, item in _objects(h5py, name, file.id):
             where = f"{name}: variable {path}"
@@ -124,7 +145,9 @@ def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int
                 if "/" not in path and not _is_numeric(h5py, item):
                     unread.append(path)
             if axes > MOST_AXIS_BYTES:
-                raise ReaderError(f"{name} must hold at most {MOST_AXIS_BYTES >> 20} MiB of axes, got more by variable {path}")
+                raise ReaderError(
+                    f"{name} must hold at most {MOST_AXIS_BYTES >> 20} MiB of axes, got more by variable {path}"
+                )
     return unread
 
 
@@ -141,11 +164,18 @@ def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
             count += 1
             path = folder + key.decode("utf-8", "replace")
             if count > MOST_OBJECTS:
-                raise ReaderError(f"{name} must hold at most {MOST_OBJECTS} variables and groups, got more (cut it with xarray)")
+                raise ReaderError(
+                    f"{name} must hold at most {MOST_OBJECTS} variables and groups, got more (cut it with xarray)"
+                )
             kind = group.links.get_info(key).type
             if kind != h5py.h5l.TYPE_HARD:
-                words = {h5py.h5l.TYPE_SOFT: "a soft link", h5py.h5l.TYPE_EXTERNAL: "a link to another file"}
-                raise ReaderError(f"{name}: variable {path} must lie in the file itself, got {words.get(kind, 'a user-defined link')}")
+                words = {
+                    h5py.h5l.TYPE_SOFT: "a soft link",
+                    h5py.h5l.TYPE_EXTERNAL: "a link to another file",
+                }
+                raise ReaderError(
+                    f"{name}: variable {path} must lie in the file itself, got {words.get(kind, 'a user-defined link')}"
+                )
             item = h5py.h5o.open(group, key)
             address = h5py.h5o.get_info(item).addr
             if address in seen:
@@ -169,13 +199,21 @@ def _names(group: Any) -> list[bytes]:
 
 
 def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
-    """Judge where the data of a variable lie and how large they are; and return the bytes of an axis."""
+    """
+    Judge where the data of a variable lie and how large they are; and return the bytes of an axis.
+    """
     plan = item.get_create_plist()
     if plan.get_external_count():
-        raise ReaderError(f"{where} must lie in the file itself, got data in another file (HDF5 external storage)")
+        raise ReaderError(
+            f"{where} must lie in the file itself, got data in another file (HDF5 external storage)"
+        )
     layout = plan.get_layout()
-    if layout == h5py.h5d.VIRTUAL:  # asked before its shape, for which the library may open the other files
-        raise ReaderError(f"{where} must lie in the file itself, got data in other files (HDF5 virtual dataset)")
+    if (
+        layout == h5py.h5d.VIRTUAL
+    ):  # asked before its shape, for which the library may open the other files
+        raise ReaderError(
+            f"{where} must lie in the file itself, got data in other files (HDF5 virtual dataset)"
+        )
     shape = item.shape
     if max(shape or (0,), default=0) > MOST:
         raise ReaderError(f"{where} must be at most {MOST} long, got shape {shape}")
@@ -190,12 +228,16 @@ def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
                 )
         chunk = plan.get_chunk()
         if np.prod(chunk, dtype=np.float64) * width > MOST_CHUNK_BYTES:
-            raise ReaderError(f"{where} must have chunks of at most {MOST_CHUNK_BYTES >> 20} MiB, got {chunk} of {width} bytes each")
+            raise ReaderError(
+                f"{where} must have chunks of at most {MOST_CHUNK_BYTES >> 20} MiB, got {chunk} of {width} bytes each"
+            )
     declared = float(np.prod(shape or (0,), dtype=np.float64)) * width
     if len(shape or ()) != 1:
         return 0
     if declared > 2**20 + MOST_RATIO * size:
-        raise ReaderError(f"{where} must not be larger than its file can hold, got {shape} of {width} bytes each in {size} bytes")
+        raise ReaderError(
+            f"{where} must not be larger than its file can hold, got {shape} of {width} bytes each in {size} bytes"
+        )
     return int(declared)
 
 
@@ -204,7 +246,9 @@ def _is_numeric(h5py: Any, item: Any) -> bool:
     return item.get_type().get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT)
 
 
-def _require_sane_attributes(h5py: Any, where: str, item: Any, file_size: int, longest: int) -> None:
+def _require_sane_attributes(
+    h5py: Any, where: str, item: Any, file_size: int, longest: int
+) -> None:
     """
     Judge the number and sizes of an object's attributes.
 
@@ -217,8 +261,12 @@ def _require_sane_attributes(h5py: Any, where: str, item: Any, file_size: int, l
         attribute = h5py.h5a.open(item, index=i)
         kind = attribute.get_type()
         size, most = attribute.get_storage_size(), MOST_ATTRIBUTE_BYTES
-        if kind.get_class() == h5py.h5t.VLEN or (kind.get_class() == h5py.h5t.STRING and kind.is_variable_str()):
+        if kind.get_class() == h5py.h5t.VLEN or (
+            kind.get_class() == h5py.h5t.STRING and kind.is_variable_str()
+        ):
             size, most = size // 16 * longest, most + file_size
         if size > most:
             shown = attribute.name.decode("utf-8", "replace")
-            raise ReaderError(f"{where}: attribute {shown} must be at most {most >> 10} KiB, got {size} bytes")
+            raise ReaderError(
+                f"{where}: attribute {shown} must be at most {most >> 10} KiB, got {size} bytes"
+            )

@@ -1,9 +1,10 @@
 """
-The one layout in which every measured spectrum comes out, and the door through which its numbers pass.
+The one layout in which every measured spectrum comes out, and the door through which its numbers
+pass.
 
-    dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)   ef [m2/Hz]
-    freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north, ascending
-    dpt    (time) water depth [m], where known        lon, lat   where known
+    dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)
+    ef [m2/Hz] freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north,
+    ascending dpt    (time) water depth [m], where known        lon, lat   where known
     freq_bnds (freq, 2) edges of the bands [Hz], where the file has its own
 
 It is the layout of the wavespectra package, so its accessor works on it (`dataset.efth.spec.hs()`).
@@ -24,7 +25,9 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 LARGEST: Final = 1e6  # [m2/Hz/degree]; a 30 m sea, all in one bin of 0.01 Hz by 1 degree, is 6e3
-FILL: Final = 1e19  # beyond it stand the fill values of netCDF: 9.999e20, 9.969e36, 1e20, also where no attribute says so
+# beyond it stand the fill values of netCDF: 9.999e20, 9.969e36, 1e20, also where no attribute says
+# so
+FILL: Final = 1e19
 ROUNDING: Final = 1e-7  # of the largest density: the last bit of float32, in which files are packed
 NEGATIVE: Final = ("refuse", "clip")
 MAX_VALUES: Final = 2**27  # numbers in one dataset: 1 GiB
@@ -47,11 +50,15 @@ def science() -> Any:
 def missing(error: ImportError) -> ReaderError:
     """What to say when an optional package is not there."""
     hint = how_to_install("science")
-    return ReaderError(f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})")
+    return ReaderError(
+        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
+    )
 
 
 def announce(made: "Dataset") -> "Dataset":
-    """Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`."""
+    """
+    Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`.
+    """
     for key, text in made.attrs.items():
         if key.endswith("_note"):
             warnings.warn(str(text), SeaWarning, stacklevel=3)
@@ -63,10 +70,12 @@ def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
     Check a frequency axis.
 
     Returns:
-        The frequencies [Hz], ascending, and the order that sorted them: a descending axis is turned round.
+        The frequencies [Hz], ascending, and the order that sorted them: a descending axis is turned
+        round.
 
     Raises:
-        ReaderError: fewer than two, not finite, zero or negative, twice the same, or neither ascending nor descending.
+        ReaderError: fewer than two, not finite, zero or negative, twice the same, or neither
+            ascending nor descending.
     """
     f = np.asarray(values, dtype=np.float64).ravel()
     if f.size < 2:
@@ -79,19 +88,24 @@ def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
     if np.any(step <= 0.0):
         i = int(np.argmax(step <= 0.0))
         a, b = f[order][i], f[order][i + 1]
-        raise ReaderError(f"{where} must ascend or descend without repeats [Hz], got {a} " + ("twice" if a == b else f"before {b}"))
+        raise ReaderError(
+            f"{where} must ascend or descend without repeats [Hz], got {a} "
+            + ("twice" if a == b else f"before {b}")
+        )
     return f[order], order
 
 
 def above_zero(values: RealLike) -> tuple[npt.NDArray[np.bool_], dict[str, Any]]:
     """
-    Choose the frequencies that waves can have: analyses by FFT also give one of exactly 0 Hz, the mean level.
+    Choose the frequencies that waves can have: analyses by FFT also give one of exactly 0 Hz, the
+    mean level.
 
     Args:
         values: a frequency axis [Hz].
 
     Returns:
-        Where the axis is not 0, shape of `values`; and a note of how many were left out, empty where none.
+        Where the axis is not 0, shape of `values`; and a note of how many were left out, empty
+        where none.
     """
     kept = np.asarray(values, dtype=np.float64).ravel() != 0.0
     left_out = int(np.count_nonzero(~kept))
@@ -143,8 +157,9 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
         The directions in [0, 360), ascending, and the order that sorted them.
 
     Raises:
-        ReaderError: fewer than four, not finite, more than one turn, the same direction twice (0 and 360 are the same), or all
-            of them within 2 pi degrees: no instrument or model has such a sector, and radians do.
+        ReaderError: fewer than four, not finite, more than one turn, the same direction twice (0
+            and 360 are the same), or all of them within 2 pi degrees: no instrument or model has
+            such a sector, and radians do.
     """
     d = np.asarray(values, dtype=np.float64).ravel()
     if d.size < 4:
@@ -163,11 +178,15 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
         )
     span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
     if span <= 2.0 * np.pi + 1e-3:
-        raise ReaderError(f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: is it in radians?")
+        raise ReaderError(
+            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: is it in radians?"
+        )
     return turned[order], order
 
 
-def densities(where: str, values: RealLike, unit: str, *, negative: str = "refuse") -> tuple[Real, dict[str, Any]]:
+def densities(
+    where: str, values: RealLike, unit: str, *, negative: str = "refuse"
+) -> tuple[Real, dict[str, Any]]:
     """
     Check spectral densities: mask what is missing, forgive rounding, refuse the rest.
 
@@ -175,15 +194,17 @@ def densities(where: str, values: RealLike, unit: str, *, negative: str = "refus
         where: what to call them in an error.
         values: any shape, in `unit`; NaN is missing.
         unit: m2/Hz or m2/Hz/degree.
-        negative: "refuse" negative values beyond rounding, or "clip" them to 0. Of a spectrum with directions (the
-            last axis) the others of the same frequency are then made smaller, so that its energy stays what it was.
+        negative: "refuse" negative values beyond rounding, or "clip" them to 0. Of a spectrum with
+            directions (the last axis) the others of the same frequency are then made smaller, so
+            that its energy stays what it was.
 
     Returns:
-        float64 values >= 0, NaN where masked, same shape; and how many were masked, how many small negatives made 0,
-        and what was clipped.
+        float64 values >= 0, NaN where masked, same shape; and how many were masked, how many small
+        negatives made 0, and what was clipped.
 
     Raises:
-        ReaderError: infinite, negative by more than rounding (1e-7 of the largest), or larger than any sea's.
+        ReaderError: infinite, negative by more than rounding (1e-7 of the largest), or larger than
+            any sea's.
         ParameterError: `negative` is neither.
     """
     if negative not in NEGATIVE:
@@ -199,15 +220,23 @@ def densities(where: str, values: RealLike, unit: str, *, negative: str = "refus
         wrong &= e > LARGEST
     if np.any(wrong):
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
-        hint = ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)' if e[place] < 0.0 else ""
-        raise ReaderError(f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}")
+        hint = (
+            ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)'
+            if e[place] < 0.0
+            else ""
+        )
+        raise ReaderError(
+            f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}"
+        )
     with np.errstate(invalid="ignore"):
         small = e < 0.0
     e[small] = 0.0
     return e, {"masked_values": masked, "rounded_negatives": int(np.count_nonzero(small)), **notes}
 
 
-def _clipped(e: Real, wrong: npt.NDArray[np.bool_], *, turning: bool) -> tuple[Real, dict[str, Any]]:
+def _clipped(
+    e: Real, wrong: npt.NDArray[np.bool_], *, turning: bool
+) -> tuple[Real, dict[str, Any]]:
     """Make negative densities 0; over directions, keep the sum of each frequency."""
     count = int(np.count_nonzero(wrong))
     if not count:
@@ -216,7 +245,9 @@ def _clipped(e: Real, wrong: npt.NDArray[np.bool_], *, turning: bool) -> tuple[R
     if turning:
         before = np.nansum(e, axis=-1, keepdims=True)
         after = np.nansum(clipped, axis=-1, keepdims=True)
-        clipped = clipped * np.where(after > 0.0, np.maximum(before, 0.0) / np.where(after > 0.0, after, 1.0), 1.0)
+        clipped = clipped * np.where(
+            after > 0.0, np.maximum(before, 0.0) / np.where(after > 0.0, after, 1.0), 1.0
+        )
     share = float(-np.sum(e[wrong]) / np.nansum(np.abs(e)))
     kept = ", the energy of each frequency kept" if turning else ""
     return clipped, {
@@ -245,7 +276,8 @@ def dataset(
         source: the file's name.
         source_format: the format it was in, in words.
         frequency: (f,) ascending [Hz].
-        density: (time, f, d) [m2/Hz/degree], or (time, f) [m2/Hz] without directions; NaN is missing.
+        density: (time, f, d) [m2/Hz/degree], or (time, f) [m2/Hz] without directions; NaN is
+            missing.
         direction: (d,) ascending, FROM, clockwise from north [degrees].
         time: (time,) datetime64, where known.
         depth: (time,) [m], where known.
@@ -259,21 +291,38 @@ def dataset(
         "freq": ("freq", frequency, {"standard_name": "sea_surface_wave_frequency", "units": "Hz"}),
     }
     if time is not None:
-        coords["time"] = ("time", np.asarray(time, dtype="datetime64[ns]"), {"standard_name": "time"})
+        coords["time"] = (
+            "time",
+            np.asarray(time, dtype="datetime64[ns]"),
+            {"standard_name": "time"},
+        )
     if direction is None:
         name = {"standard_name": "sea_surface_wave_variance_spectral_density", "units": "m2 s"}
         variables["ef"] = (("time", "freq"), density, name)
     else:
-        name = {"standard_name": "sea_surface_wave_directional_variance_spectral_density", "units": "m2 s degree-1"}
+        name = {
+            "standard_name": "sea_surface_wave_directional_variance_spectral_density",
+            "units": "m2 s degree-1",
+        }
         variables["efth"] = (("time", "freq", "dir"), density, name)
-        coords["dir"] = ("dir", direction, {"standard_name": "sea_surface_wave_from_direction", "units": "degree"})
+        coords["dir"] = (
+            "dir",
+            direction,
+            {"standard_name": "sea_surface_wave_from_direction", "units": "degree"},
+        )
     if bands is not None:
         coords["freq"][2]["bounds"] = "freq_bnds"
         coords["freq_bnds"] = (("freq", "bnds"), bands)
     if depth is not None:
-        variables["dpt"] = ("time", depth, {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m"})
+        variables["dpt"] = (
+            "time",
+            depth,
+            {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m"},
+        )
     for key, value in (position or {}).items():
         unit = {"lon": "degrees_east", "lat": "degrees_north"}.get(key, "m")
         coords[key] = ((), float(value), {"units": unit})
-    made: Dataset = xr.Dataset(variables, coords, {"source": source, "source_format": source_format, **(notes or {})})
+    made: Dataset = xr.Dataset(
+        variables, coords, {"source": source, "source_format": source_format, **(notes or {})}
+    )
     return made

@@ -57,7 +57,9 @@ def from_spread(mean: Real, spread: Real) -> Complex:
     return np.asarray(r1 * np.exp(1j * np.radians(mean)), dtype=np.complex128)
 
 
-def from_centred(mean: Real, spread: Real, skewness: Real, kurtosis: Real) -> tuple[Complex, Complex]:
+def from_centred(
+    mean: Real, spread: Real, skewness: Real, kurtosis: Real
+) -> tuple[Complex, Complex]:
     """
     Return both moments of the four parameters of Kuik et al., which Datawell's buoys report.
 

@@ -1,9 +1,11 @@
 """
-The text files of the US National Data Buoy Center: the last 45 days ("realtime") and the yearly archive ("historical").
+The text files of the US National Data Buoy Center: the last 45 days ("realtime") and the yearly
+archive ("historical").
 
-Realtime: a set of five, `.data_spec` with S(f) and `.swdir .swdir2 .swr1 .swr2` with the mean directions a1, a2 and the
-coherences r1, r2 of D = (1/pi)(1/2 + r1 cos(theta - a1) + r2 cos 2(theta - a2)), directions FROM, clockwise from north. That
-series, cut after two terms, goes negative; here its two moments are unfolded by maximum entropy instead (`entropy.py`).
+Realtime: a set of five, `.data_spec` with S(f) and `.swdir .swdir2 .swr1 .swr2` with the mean
+directions a1, a2 and the coherences r1, r2 of D = (1/pi)(1/2 + r1 cos(theta - a1) + r2 cos 2(theta
+- a2)), directions FROM, clockwise from north. That series, cut after two terms, goes negative; here
+  its two moments are unfolded by maximum entropy instead (`entropy.py`).
 Historical: S(f) alone.
 
 Source: NDBC, Measurement Descriptions and Units; Earle, NDBC Technical Document 96-01 (1996).
@@ -31,7 +33,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class _Column:
-    """What one file of a set holds: how its header calls it, what may stand in it, and which numbers mean "missing"."""
+    """
+    What one file of a set holds: how its header calls it, what may stand in it, and which numbers
+    mean "missing".
+    """
 
     word: str
     unit: str
@@ -39,12 +44,15 @@ class _Column:
     fills: tuple[float, ...]
 
 
-# 99 is a direction like any other, but no coherence, and as a density to the last decimal it is a fill value, not a storm.
+# 99 is a direction like any other, but no coherence, and as a density to the last decimal it is a
+# fill value, not a storm.
 _KINDS: Final = {
     ".data_spec": _Column("spec_1", "m2/Hz", 360.0 * layout.LARGEST, (99.0, 999.0, 9999.0)),
     ".swdir": _Column("alpha1_1", "degrees", 360.0, (999.0, 9999.0)),
     ".swdir2": _Column("alpha2_1", "degrees", 360.0, (999.0, 9999.0)),
-    ".swr1": _Column("r1_1", "", 1.1, (99.0, 999.0, 9999.0)),  # beyond 1 by noise; `entropy` draws it in
+    ".swr1": _Column(
+        "r1_1", "", 1.1, (99.0, 999.0, 9999.0)
+    ),  # beyond 1 by noise; `entropy` draws it in
     ".swr2": _Column("r2_1", "", 1.1, (99.0, 999.0, 9999.0)),
 }
 _DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re.DOTALL)
@@ -83,33 +91,45 @@ def read(path: Path, *, bins: int) -> "Dataset":
     if not realtime:
         return _read_historical(path)
     stem = path.name.removesuffix(".gz").rpartition(".")[0] or path.name
-    spectrum = _table(path, _KINDS[".data_spec"], hint=f"; open {stem}.data_spec, the others are found beside it")
+    spectrum = _table(
+        path, _KINDS[".data_spec"], hint=f"; open {stem}.data_spec, the others are found beside it"
+    )
     beside = {suffix: _sibling(path, stem + suffix) for suffix in list(_KINDS)[1:]}
     there = [suffix for suffix, other in beside.items() if other]
     if not there:
         return _undirected(spectrum, "NDBC realtime text, without directions")
     if len(there) < len(beside):
         absent = ", ".join(stem + suffix for suffix in beside if suffix not in there)
-        raise ReaderError(f"{path.name} must have all four files of directions beside it, or none; missing: {absent}")
+        raise ReaderError(
+            f"{path.name} must have all four files of directions beside it, or none; missing: {absent}"
+        )
     moments = [_table(other, _KINDS[suffix]) for suffix, other in beside.items() if other]
     return _directed(spectrum, moments, bins)
 
 
 def set_of(name: str) -> str | None:
-    """Return the name of the `.data_spec` of a set, given the name of any of its files; None for other names."""
+    """
+    Return the name of the `.data_spec` of a set, given the name of any of its files; None for other
+    names.
+    """
     stem, dot, suffix = name.removesuffix(".gz").rpartition(".")
     return f"{stem}.data_spec" if stem and dot + suffix in _KINDS else None
 
 
 def _set_of(path: Path) -> Path:
-    """Return the `.data_spec` of the set to which a file of directions or coherences belongs; else the file."""
+    """
+    Return the `.data_spec` of the set to which a file of directions or coherences belongs; else the
+    file.
+    """
     name = path.name.removesuffix(".gz")
     stem, _, suffix = name.rpartition(".")
     if f".{suffix}" not in list(_KINDS)[1:] or not stem:
         return path
     found = _sibling(path, stem + ".data_spec")
     if found is None:
-        raise ReaderError(f"{path.name} must have {stem}.data_spec beside it, which holds the densities; it is missing")
+        raise ReaderError(
+            f"{path.name} must have {stem}.data_spec beside it, which holds the densities; it is missing"
+        )
     return found
 
 
@@ -124,12 +144,16 @@ def files_of(path: Path) -> list[Path]:
 
 
 def _sibling(path: Path, name: str) -> Path | None:
-    return next((p for p in (path.with_name(name), path.with_name(name + ".gz")) if p.is_file()), None)
+    return next(
+        (p for p in (path.with_name(name), path.with_name(name + ".gz")) if p.is_file()), None
+    )
 
 
 def _read_historical(path: Path) -> "Dataset":
     if re.match(r"[0-9a-z]{5}[dijk][0-9]", path.name.lower()):
-        raise ReaderError(f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds directions or coherences")
+        raise ReaderError(
+            f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds directions or coherences"
+        )
     return _undirected(_table(path, _KINDS[".data_spec"]), "NDBC historical text")
 
 
@@ -147,17 +171,25 @@ def _undirected(table: _Table, source_format: str) -> "Dataset":
     )
 
 
-def _directed(spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text") -> "Dataset":
+def _directed(
+    spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text"
+) -> "Dataset":
     frequency, order = layout.frequencies(f"{spectrum.name}: the frequencies", spectrum.frequency)
     for table in moments:
         if not np.array_equal(table.frequency, spectrum.frequency):
-            raise ReaderError(f"{table.name} must have the frequencies of {spectrum.name}, got others")
+            raise ReaderError(
+                f"{table.name} must have the frequencies of {spectrum.name}, got others"
+            )
     time = spectrum.time
     for table in moments:
         time = np.intersect1d(time, table.time)
     if not time.size:
-        raise ReaderError(f"{spectrum.name} and the files beside it must have records of the same times, got none")
-    s, a1, a2, r1, r2 = (table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments))
+        raise ReaderError(
+            f"{spectrum.name} and the files beside it must have records of the same times, got none"
+        )
+    s, a1, a2, r1, r2 = (
+        table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments)
+    )
     if s.size * bins > layout.MAX_VALUES:
         raise ReaderError(
             f"{spectrum.name} must have at most {layout.MAX_VALUES} values, got {s.shape} by {bins} bins (ask for fewer bins)"
@@ -174,7 +206,9 @@ def _directed(spectrum: _Table, moments: list[_Table], bins: int, source_format:
         time=_datetimes(time),
         notes={
             **counts,
-            "masked_moments": sum(int(np.count_nonzero(np.isnan(values))) for values in (a1, a2, r1, r2)),
+            "masked_moments": sum(
+                int(np.count_nonzero(np.isnan(values))) for values in (a1, a2, r1, r2)
+            ),
             **done,
             "repeated_times": spectrum.repeated,
             "unpaired_times": spectrum.time.size - time.size,
@@ -219,7 +253,9 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
             raise ReaderError(f"{where} must have the frequencies of the first record, got others")
         announced = f
         if not f or len(values) != len(f):
-            raise ReaderError(f"{where} must hold {len(f)} values after the date, got {len(values)}")
+            raise ReaderError(
+                f"{where} must hold {len(f)} values after the date, got {len(values)}"
+            )
         numbers = np.fromiter(_values(where, values, column), dtype=np.float64, count=len(values))
         repeated += seconds in records
         records.setdefault(seconds, numbers)
@@ -229,7 +265,11 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
         raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
     times = sorted(records)
     return _Table(
-        path.name, np.array(announced, dtype=np.float64), np.array(times, dtype=np.int64), np.array([records[t] for t in times]), repeated
+        path.name,
+        np.array(announced, dtype=np.float64),
+        np.array(times, dtype=np.int64),
+        np.array([records[t] for t in times]),
+        repeated,
     )
 
 
@@ -237,7 +277,9 @@ def _pairs(where: str, tokens: list[str]) -> tuple[list[str], list[float]]:
     """Values and frequencies of a realtime record: `0.060 (0.063) 0.218 (0.068) ...`."""
     bracketed = tokens[1::2]
     if len(tokens) % 2 or not all(t.startswith("(") and t.endswith(")") for t in bracketed):
-        raise ReaderError(f"{where} must hold pairs like 0.060 (0.063) after the date, got {' '.join(tokens[-2:])!r:.40} last: is it cut?")
+        raise ReaderError(
+            f"{where} must hold pairs like 0.060 (0.063) after the date, got {' '.join(tokens[-2:])!r:.40} last: is it cut?"
+        )
     return tokens[0::2], [files.number(where, token[1:-1]) for token in bracketed]
 
 
@@ -248,21 +290,32 @@ def _values(where: str, tokens: list[str], column: _Column) -> Iterator[float]:
             value = np.nan
         if value < -1e-12 or value > column.high:
             name, unit = column.word.removesuffix("_1"), f" {column.unit}" if column.unit else ""
-            raise ReaderError(f"{where}: {name} must be between 0 and {column.high:g}{unit}, got {token}")
+            raise ReaderError(
+                f"{where}: {name} must be between 0 and {column.high:g}{unit}, got {token}"
+            )
         yield value
 
 
 def _seconds(where: str, tokens: list[str], fields: int) -> int:
-    """Seconds since 1970 of a date in whole numbers; two-figure years are those of the last century, as in files up to 1998."""
+    """
+    Seconds since 1970 of a date in whole numbers; two-figure years are those of the last century,
+    as in files up to 1998.
+    """
     if len(tokens) < fields or not all(re.fullmatch(r"[0-9]{1,4}", t) for t in tokens):
-        raise ReaderError(f"{where} must begin with a date in {fields} whole numbers, got {' '.join(tokens)!r:.40}")
+        raise ReaderError(
+            f"{where} must begin with a date in {fields} whole numbers, got {' '.join(tokens)!r:.40}"
+        )
     year, *rest = (int(t) for t in tokens)
     try:
         date = datetime(year + 1900 if year < 100 else year, *rest)  # type: ignore[arg-type]
     except ValueError as error:
-        raise ReaderError(f"{where} must begin with a date, got {' '.join(tokens)!r} ({error})") from error
+        raise ReaderError(
+            f"{where} must begin with a date, got {' '.join(tokens)!r} ({error})"
+        ) from error
     if not 1900 <= date.year < 2200:
-        raise ReaderError(f"{where} must begin with a date between 1900 and 2200, got {' '.join(tokens)!r}")
+        raise ReaderError(
+            f"{where} must begin with a date between 1900 and 2200, got {' '.join(tokens)!r}"
+        )
     return int((date - datetime(1970, 1, 1)).total_seconds())
 
 

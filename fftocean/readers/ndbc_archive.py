@@ -23,7 +23,9 @@ from fftocean.readers.reader import Head, Reader
 if TYPE_CHECKING:
     from xarray import Dataset
 
-_NAME: Final = re.compile(r"([0-9a-z]{5})([wdijk])([0-9]{4}[^.]*(?:\.txt)?(?:\.gz)?)", re.IGNORECASE)
+_NAME: Final = re.compile(
+    r"([0-9a-z]{5})([wdijk])([0-9]{4}[^.]*(?:\.txt)?(?:\.gz)?)", re.IGNORECASE
+)
 _HUNDREDTHS: Final = ndbc._Column("r x 100", "hundredths", 110.0, (999.0, 9999.0))
 _COLUMNS: Final = {
     "w": ndbc._KINDS[".data_spec"],
@@ -64,7 +66,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
             f"{path.name} must have the other files of its set beside it "
             f"(w: S(f); d, i: directions; j, k: r1, r2), missing: {', '.join(absent)}"
         )
-    spectrum, *moments = (ndbc._table(other, _COLUMNS[kind]) for kind, other in found.items() if other is not None)
+    spectrum, *moments = (
+        ndbc._table(other, _COLUMNS[kind]) for kind, other in found.items() if other is not None
+    )
     for table in moments[2:]:
         largest = float(np.max(table.values, initial=0.0, where=~np.isnan(table.values)))
         if 0.0 < largest <= 1.0:  # no sea is as broad as that at all frequencies
@@ -101,7 +105,9 @@ def _like(letter: str, kind: str) -> str:
 def _beside(path: Path, name: str) -> Path | None:
     """Return the file of that name beside `path`, plain or packed, whichever `path` is."""
     plain = name.removesuffix(".gz")
-    return next((p for p in (path.with_name(plain), path.with_name(plain + ".gz")) if p.is_file()), None)
+    return next(
+        (p for p in (path.with_name(plain), path.with_name(plain + ".gz")) if p.is_file()), None
+    )
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":

@@ -1,11 +1,14 @@
 """
-Wave spectra in netCDF: WAVEWATCH III point output, ERA5 2-D wave spectra, the wavespectra package's layout, our own.
+Wave spectra in netCDF: WAVEWATCH III point output, ERA5 2-D wave spectra, the wavespectra package's
+layout, our own.
 
-What a variable is, its unit and the way its directions point are taken from its attributes. Names alone decide only where a
-format's own documents fix them: ERA5's `d2fd` and the `efth(freq, dir)` of wavespectra. Where two attributes disagree, or the
-one that matters is missing or unknown, the file is refused: a sea turned round by 180 degrees looks perfectly well.
+What a variable is, its unit and the way its directions point are taken from its attributes. Names
+alone decide only where a format's own documents fix them: ERA5's `d2fd` and the `efth(freq, dir)`
+of wavespectra. Where two attributes disagree, or the one that matters is missing or unknown, the
+file is refused: a sea turned round by 180 degrees looks perfectly well.
 
-Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data documentation, "Wave spectra".
+Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data
+documentation, "Wave spectra".
 """
 
 import io
@@ -70,7 +73,9 @@ class _Family:
     log10: bool = False
 
 
-_ERA5: Final = _Family("ERA5 2-D wave spectra netCDF", documented=True, goes_to=True, per="radian", log10=True)
+_ERA5: Final = _Family(
+    "ERA5 2-D wave spectra netCDF", documented=True, goes_to=True, per="radian", log10=True
+)
 _WAVESPECTRA: Final = _Family("wavespectra netCDF", documented=True, goes_to=False)
 _DECLARED: Final = _Family("CF netCDF (WAVEWATCH III)", documented=False)
 
@@ -85,7 +90,8 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
     Read the spectra of one place.
 
     Raises:
-        ReaderError: a broken file, one without spectra, or one whose attributes are missing, unknown or at odds.
+        ReaderError: a broken file, one without spectra, or one whose attributes are missing,
+            unknown or at odds.
         ParameterError: `site` is not in the file.
     """
     xr = layout.science()
@@ -96,8 +102,11 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
         )
     modern = magic.startswith(hdf5.MAGIC)
     with _broken(path.name), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of two fill values, odd calendars: what matters is checked below
-        # A stream of our own: what was checked is what is read, and the libraries cannot map the file or leave it open where they fail.
+        warnings.simplefilter(
+            "ignore"
+        )  # of two fill values, odd calendars: what matters is checked below
+        # A stream of our own: what was checked is what is read, and the libraries cannot map the
+        # file or leave it open where they fail.
         with files.contents(path) if files.is_packed(path) else files.opened(path) as stream:
             unread: list[str] = []
             if modern:
@@ -108,15 +117,22 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             stream.seek(0)
             for name in unread:
                 if name in _NAMES:
-                    raise ReaderError(f"{path.name}: variable {name} must hold numbers, got another type")
+                    raise ReaderError(
+                        f"{path.name}: variable {name} must hold numbers, got another type"
+                    )
             engine = "h5netcdf" if modern else "scipy"
-            with xr.open_dataset(stream, engine=engine, decode_timedelta=False, drop_variables=unread) as raw:
+            with xr.open_dataset(
+                stream, engine=engine, decode_timedelta=False, drop_variables=unread
+            ) as raw:
                 return tidy(raw, site=site, source=path.name, bins=bins, file_bytes=size)
 
 
 @contextmanager
 def _broken(name: str) -> Iterator[None]:
-    """The libraries below raise whatever broken bytes lead them to; here it becomes one error that names the file."""
+    """
+    The libraries below raise whatever broken bytes lead them to; here it becomes one error that
+    names the file.
+    """
     try:
         yield
     except ParameterError:
@@ -124,9 +140,13 @@ def _broken(name: str) -> Iterator[None]:
     except ImportError as error:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
             raise layout.missing(error) from error
-        raise ReaderError(f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}") from error
+        raise ReaderError(
+            f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
+        ) from error
     except Exception as error:
-        raise ReaderError(f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}") from error
+        raise ReaderError(
+            f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}"
+        ) from error
 
 
 def tidy(
@@ -140,12 +160,13 @@ def tidy(
     file_bytes: int | None = None,
 ) -> "Dataset":
     """
-    Put an opened dataset of any known kind into our layout; one that is in it already comes out as it went in.
+    Put an opened dataset of any known kind into our layout; one that is in it already comes out as
+    it went in.
 
     Args:
         raw: as xarray decodes it; dimensions in any order.
-        site: which place, where there are several: the position along all dimensions but time, frequency and direction, in the
-            variable's own order (a grid is counted row by row).
+        site: which place, where there are several: the position along all dimensions but time,
+            frequency and direction, in the variable's own order (a grid is counted row by row).
         time: one time only; all of them where None.
         source: what to call it in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
@@ -160,19 +181,25 @@ def tidy(
     spectrum, directional = _spectrum(raw, source)
     where = f"{source}: variable {spectrum.name}"
     if {"scale_factor", "add_offset", "_FillValue"} & spectrum.attrs.keys():
-        raise ReaderError(f"{where} must be decoded, got it packed (open it with mask_and_scale=True)")
+        raise ReaderError(
+            f"{where} must be decoded, got it packed (open it with mask_and_scale=True)"
+        )
     axes = _axes(raw, spectrum)
     if "freq" not in axes:
         raise ReaderError(f"{where} must have a frequency dimension, got {tuple(spectrum.dims)}")
     family = _family(spectrum, axes)
     _require_sane_packing(where, spectrum)
     if "dir" in axes and family is _WAVESPECTRA and spectrum.sizes[axes["dir"]] == 1:
-        spectrum = spectrum.isel({axes.pop("dir"): 0})  # how wavespectra holds a buoy without directions
+        spectrum = spectrum.isel(
+            {axes.pop("dir"): 0}
+        )  # how wavespectra holds a buoy without directions
         directional = False
     if directional is None:
         directional = "dir" in axes
     if directional and "dir" not in axes:
-        raise ReaderError(f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}")
+        raise ReaderError(
+            f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}"
+        )
 
     picked, notes = _pick(where, spectrum, axes, site=site, time=time)
     if file_bytes is not None:
@@ -182,7 +209,11 @@ def tidy(
         raise ReaderError(
             f"{where} must have at most {layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
         )
-    order = [axes[role] for role in ("time", "freq", "dir") if role in axes and axes[role] in spectrum.dims]
+    order = [
+        axes[role]
+        for role in ("time", "freq", "dir")
+        if role in axes and axes[role] in spectrum.dims
+    ]
     values = _numbers(where, spectrum.transpose(*order))
     with np.errstate(invalid="ignore"):
         values[np.abs(values) > layout.FILL] = np.nan
@@ -204,8 +235,14 @@ def tidy(
         there, bearing, goes_to = _direction(raw, axes, family, source)
         if goes_to and family is _WAVESPECTRA and scale == 1.0:
             goes_to = not _left_over(raw[axes["dir"]].attrs, spectrum.attrs)
-            taken = "go to there, and so it is taken" if goes_to else "come from there, and so it is taken: the attribute is left over"
-            notes["direction_note"] = f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+            taken = (
+                "go to there, and so it is taken"
+                if goes_to
+                else "come from there, and so it is taken: the attribute is left over"
+            )
+            notes["direction_note"] = (
+                f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+            )
         values, bearing, repeated = package.once_round(values, bearing)
         notes |= repeated
         if goes_to:
@@ -221,7 +258,9 @@ def tidy(
 
         def at_place(variable: "DataArray") -> Real:
             if file_bytes is not None:
-                _require_sane_read(f"{source}: variable {variable.name}", variable, picked, file_bytes)
+                _require_sane_read(
+                    f"{source}: variable {variable.name}", variable, picked, file_bytes
+                )
             return _table(source, variable.isel(picked), order)[:, f_order]
 
         pair = circular.find(raw, spectrum.name, source, at_place)
@@ -231,7 +270,9 @@ def tidy(
             notes |= done
     return layout.dataset(
         source=source if source != "the dataset" else str(raw.attrs.get("source", source)),
-        source_format=str(raw.attrs.get("source_format", circular.FAMILIES.get(str(spectrum.name), family.name))),
+        source_format=str(
+            raw.attrs.get("source_format", circular.FAMILIES.get(str(spectrum.name), family.name))
+        ),
         frequency=frequency,
         density=density,
         direction=direction,
@@ -259,16 +300,25 @@ def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
     found = [name for name, v in raw.data_vars.items() if v.attrs.get("standard_name") in _SPECTRA]
     if len(found) != 1:
         held = ", ".join(str(name) for name in found or raw.data_vars) or "nothing"
-        raise ReaderError(f"{source} must hold one wave spectrum (efth, d2fd, or a variable with its standard_name), got {held:.200}")
+        raise ReaderError(
+            f"{source} must hold one wave spectrum (efth, d2fd, or a variable with its standard_name), got {held:.200}"
+        )
     return raw[found[0]], _SPECTRA[raw[found[0]].attrs["standard_name"]]
 
 
 def _axes(raw: "Dataset", spectrum: "DataArray") -> dict[str, Hashable]:
-    """Which dimension is frequency, direction, time: by name, else by its coordinate's standard name."""
+    """
+    Which dimension is frequency, direction, time: by name, else by its coordinate's standard name.
+    """
     axes: dict[str, Hashable] = {}
     for role, names in _AXES.items():
         by_name = [d for d in spectrum.dims if d in names]
-        by_word = [d for d in spectrum.dims if d in raw and re.fullmatch(_STANDARD_AXES[role], str(raw[d].attrs.get("standard_name", "")))]
+        by_word = [
+            d
+            for d in spectrum.dims
+            if d in raw
+            and re.fullmatch(_STANDARD_AXES[role], str(raw[d].attrs.get("standard_name", "")))
+        ]
         for d in (*by_name, *by_word)[:1]:
             axes[role] = d
     return axes
@@ -277,7 +327,11 @@ def _axes(raw: "Dataset", spectrum: "DataArray") -> dict[str, Hashable]:
 def _family(spectrum: "DataArray", axes: Mapping[str, Hashable]) -> _Family:
     if spectrum.name == "d2fd":
         return _ERA5
-    if spectrum.name in ("efth", "ef") and axes["freq"] == "freq" and axes.get("dir", "dir") == "dir":
+    if (
+        spectrum.name in ("efth", "ef")
+        and axes["freq"] == "freq"
+        and axes.get("dir", "dir") == "dir"
+    ):
         return _WAVESPECTRA
     return _DECLARED
 
@@ -290,9 +344,13 @@ def _pick(
     shape = tuple(spectrum.sizes[d] for d in others)
     sites = int(np.prod(shape, dtype=np.int64))
     if sites < 1:
-        raise ReaderError(f"{where} must hold at least one place, got dimensions {dict(spectrum.sizes)}")
+        raise ReaderError(
+            f"{where} must hold at least one place, got dimensions {dict(spectrum.sizes)}"
+        )
     site = Count("", 0, sites - 1).check_whole("site", site)
-    picked = dict(zip(others, (int(i) for i in np.unravel_index(site, shape)) if others else (), strict=True))
+    picked = dict(
+        zip(others, (int(i) for i in np.unravel_index(site, shape)) if others else (), strict=True)
+    )
     times = spectrum.sizes[axes["time"]] if "time" in axes else 1
     if times < 1:
         raise ReaderError(f"{where} must hold at least one time, got none")
@@ -303,12 +361,19 @@ def _pick(
     return picked, {"site": site, "sites": sites}
 
 
-def _require_sane_read(where: str, spectrum: "DataArray", picked: Mapping[Hashable, int], file_bytes: int) -> None:
-    """Refuse values that take more unpacking than a file of this size can ask for, or than anybody will wait for."""
+def _require_sane_read(
+    where: str, spectrum: "DataArray", picked: Mapping[Hashable, int], file_bytes: int
+) -> None:
+    """
+    Refuse values that take more unpacking than a file of this size can ask for, or than anybody
+    will wait for.
+    """
     chunks = spectrum.encoding.get("chunksizes") or (1,) * spectrum.ndim
     read = np.dtype(spectrum.encoding.get("dtype", spectrum.dtype)).itemsize
     for dim, chunk in zip(spectrum.dims, chunks, strict=True):
-        read *= chunk * (1 if dim in picked else -(-spectrum.sizes[dim] // chunk))  # whole chunks are unpacked
+        read *= chunk * (
+            1 if dim in picked else -(-spectrum.sizes[dim] // chunk)
+        )  # whole chunks are unpacked
     if read > _MOST_READ or read > 2**20 + hdf5.MOST_RATIO * file_bytes:
         raise ReaderError(
             f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} MiB, and no more than its file "
@@ -322,15 +387,21 @@ def _numbers(where: str, variable: "DataArray") -> Real:
     return np.array(variable.values, dtype=np.float64)
 
 
-def _coordinate(raw: "Dataset", axes: Mapping[str, Hashable], role: str, source: str) -> tuple[str, "DataArray"]:
+def _coordinate(
+    raw: "Dataset", axes: Mapping[str, Hashable], role: str, source: str
+) -> tuple[str, "DataArray"]:
     name = axes[role]
     if name not in raw.variables or raw[name].dims != (name,):
-        raise ReaderError(f"{source}: dimension {name} must have a coordinate variable along itself, got none")
+        raise ReaderError(
+            f"{source}: dimension {name} must have a coordinate variable along itself, got none"
+        )
     _require_sane_packing(f"{source}: variable {name}", raw[name])
     return f"{source}: variable {name}", raw[name]
 
 
-def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real]:
+def _frequency(
+    raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str
+) -> tuple[str, Real]:
     """Where the frequencies stand, and they, in Hz."""
     where, f = _coordinate(raw, axes, "freq", source)
     values = _numbers(where, f)
@@ -342,17 +413,24 @@ def _frequency(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
     return where, values * unit.scale
 
 
-def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, source: str) -> Real | None:
+def _bands(
+    raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, source: str
+) -> Real | None:
     """
     Return the edges of the bands that the file states, (f, 2) [Hz], or None.
 
-    By CF's `bounds` attribute, WAVEWATCH III's `frequency1` and `frequency2`, or a width of each band.
+    By CF's `bounds` attribute, WAVEWATCH III's `frequency1` and `frequency2`, or a width of each
+    band.
     """
     f = raw[axis]
     name = f.attrs.get("bounds", f.encoding.get("bounds"))
     found: list[tuple[Hashable, DataArray]] = []
     if name in raw.variables:
-        found = [(name, raw[name].isel({raw[name].dims[-1]: i})) for i in range(2) if raw[name].ndim == 2 and raw[name].shape[1] == 2]
+        found = [
+            (name, raw[name].isel({raw[name].dims[-1]: i}))
+            for i in range(2)
+            if raw[name].ndim == 2 and raw[name].shape[1] == 2
+        ]
     elif _FIRST in raw.variables and _SECOND in raw.variables:
         found = [(_FIRST, raw[_FIRST]), (_SECOND, raw[_SECOND])]
     else:
@@ -360,10 +438,17 @@ def _bands(raw: "Dataset", axis: Hashable, frequency: Real, order: Integer, sour
         if width is None:
             return None
         where = f"{source}: variable {width}"
-        return bands.of_widths(where, frequency, _hertz(where, raw[width], f.attrs.get("units", "Hz"))[order])
+        return bands.of_widths(
+            where, frequency, _hertz(where, raw[width], f.attrs.get("units", "Hz"))[order]
+        )
     if not found or any(edge.dims != (axis,) for _, edge in found):
-        raise ReaderError(f"{source}: variable {name or _FIRST} must hold two edges of the band of each {axis}")
-    edges = [_hertz(f"{source}: variable {name}", edge, f.attrs.get("units", "Hz"))[order] for name, edge in found]
+        raise ReaderError(
+            f"{source}: variable {name or _FIRST} must hold two edges of the band of each {axis}"
+        )
+    edges = [
+        _hertz(f"{source}: variable {name}", edge, f.attrs.get("units", "Hz"))[order]
+        for name, edge in found
+    ]
     return bands.checked(f"{source}: variable {found[0][0]}", frequency, np.stack(edges, axis=1))
 
 
@@ -376,8 +461,13 @@ def _hertz(where: str, variable: "DataArray", unit: str) -> Real:
     return _numbers(where, variable) * parsed.scale
 
 
-def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str) -> tuple[str, Real, bool]:
-    """Where the directions stand, they, clockwise from north in degrees, and whether waves go there (or come from there)."""
+def _direction(
+    raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str
+) -> tuple[str, Real, bool]:
+    """
+    Where the directions stand, they, clockwise from north in degrees, and whether waves go there
+    (or come from there).
+    """
     where, d = _coordinate(raw, axes, "dir", source)
     values = _numbers(where, d)
     if family is _ERA5 and (numbers := _bin_numbers(where, values, 24)) is not None:
@@ -387,20 +477,29 @@ def _direction(raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, so
         turn = np.nanmax(np.abs(values), initial=0.0)
         if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
             if turn > 4.0 * np.pi + 1e-3:
-                raise ReaderError(f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in degrees?")
+                raise ReaderError(
+                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in degrees?"
+                )
             values = np.degrees(values)
         elif unit is None or not unit.is_(rad=1):
-            raise ReaderError(f"{where} must have units degree or radian, got {d.attrs.get('units')!r}")
+            raise ReaderError(
+                f"{where} must have units degree or radian, got {d.attrs.get('units')!r}"
+            )
     return where, values, _goes_to(where, d.attrs, family)
 
 
 def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
-    """ERA5's axes where they hold the numbers of bins, 1 to `most`, in place of Hz and degrees: no sea has waves of 1, 2, 3 Hz only."""
+    """
+    ERA5's axes where they hold the numbers of bins, 1 to `most`, in place of Hz and degrees: no sea
+    has waves of 1, 2, 3 Hz only.
+    """
     whole = bool(np.all(values == np.rint(values))) and bool(np.all(np.abs(np.diff(values)) == 1.0))
     if not whole or values.size < 2:
         return None
     if values.min() < 1.0 or values.max() > most:
-        raise ReaderError(f"{where} must hold bin numbers between 1 and {most}, got {values.min():g} to {values.max():g}")
+        raise ReaderError(
+            f"{where} must hold bin numbers between 1 and {most}, got {values.min():g} to {values.max():g}"
+        )
     return values
 
 
@@ -409,7 +508,9 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
     said: dict[bool, str] = {}
     for key in _WAYS:
         text = str(attrs.get(key, ""))
-        words = set(re.split(r"[^a-z]+", re.sub(r"(relative|respect|referred) to", "", text.lower())))
+        words = set(
+            re.split(r"[^a-z]+", re.sub(r"(relative|respect|referred) to", "", text.lower()))
+        )
         if key == "standard_name" and text and "wave" not in words:
             raise ReaderError(f"{where} must be a wave direction, got standard_name {text!r:.60}")
         if words & {"to", "toward", "towards"}:
@@ -417,7 +518,9 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
         if words & {"from"}:
             said[False] = f"{key} {text!r:.60}"
     if len(said) == 2:
-        raise ReaderError(f"{where} must say one way, where waves come from or where they go to, got {said[False]} and {said[True]}")
+        raise ReaderError(
+            f"{where} must say one way, where waves come from or where they go to, got {said[False]} and {said[True]}"
+        )
     if said:
         return next(iter(said))
     if family.goes_to is None:
@@ -434,21 +537,40 @@ def _left_over(direction: Mapping[str, Any], density: Mapping[str, Any]) -> bool
     The wavespectra package turns that model's directions round and makes densities per degree, but
     leaves its attributes on `dir`, of which `globwave_name` and an axis "Z" are no other's.
     """
-    return "globwave_name" in direction or direction.get("axis") == "Z" or "_variable_name" in density or density.get("units") is None
+    return (
+        "globwave_name" in direction
+        or direction.get("axis") == "Z"
+        or "_variable_name" in density
+        or density.get("units") is None
+    )
 
 
 def _require_sane_packing(where: str, variable: "DataArray") -> None:
     """Refuse a scale or an offset that would make all values nothing, or no numbers."""
     for key, low, high in (("scale_factor", 1e-30, 1e30), ("add_offset", 0.0, 1e30)):
         number = np.asarray(variable.encoding.get(key, 1.0))
-        right = number.size == 1 and number.dtype.kind in "iuf" and bool(low <= abs(float(number.ravel()[0])) <= high)
+        right = (
+            number.size == 1
+            and number.dtype.kind in "iuf"
+            and bool(low <= abs(float(number.ravel()[0])) <= high)
+        )
         if not right or (key == "scale_factor" and float(number.ravel()[0]) < 0.0):
-            rule = f"between {low:g} and {high:g}" if key == "scale_factor" else f"of a size up to {high:g}"
-            raise ReaderError(f"{where}: attribute {key} must be a number {rule}, got {variable.encoding.get(key)!r:.40}")
+            rule = (
+                f"between {low:g} and {high:g}"
+                if key == "scale_factor"
+                else f"of a size up to {high:g}"
+            )
+            raise ReaderError(
+                f"{where}: attribute {key} must be a number {rule}, got {variable.encoding.get(key)!r:.40}"
+            )
 
 
-def _assumed(raw: "Dataset", spectrum: "DataArray", axes: Mapping[str, Hashable], family: _Family) -> dict[str, str]:
-    """Say what attributes are silent about, and what was therefore taken from the format's documents."""
+def _assumed(
+    raw: "Dataset", spectrum: "DataArray", axes: Mapping[str, Hashable], family: _Family
+) -> dict[str, str]:
+    """
+    Say what attributes are silent about, and what was therefore taken from the format's documents.
+    """
     silent = []
     if "units" not in spectrum.attrs and "GRIB_units" not in spectrum.attrs:
         silent.append(f"densities per {family.per}" if "dir" in axes else "densities in m2/Hz")
@@ -458,13 +580,27 @@ def _assumed(raw: "Dataset", spectrum: "DataArray", axes: Mapping[str, Hashable]
         attrs = raw[axes["dir"]].attrs
         if "units" not in attrs:
             silent.append("directions in degrees")
-        if not re.search(r"(^|[^a-z])(to|towards?|from)([^a-z]|$)", " ".join(str(attrs.get(k, "")).lower() for k in _WAYS)):
-            silent.append("directions to which waves go" if family.goes_to else "directions from which waves come")
-    return {"assumed": f"{', '.join(silent)}, as {family.name} is documented"} if silent and family.documented else {}
+        if not re.search(
+            r"(^|[^a-z])(to|towards?|from)([^a-z]|$)",
+            " ".join(str(attrs.get(k, "")).lower() for k in _WAYS),
+        ):
+            silent.append(
+                "directions to which waves go"
+                if family.goes_to
+                else "directions from which waves come"
+            )
+    return (
+        {"assumed": f"{', '.join(silent)}, as {family.name} is documented"}
+        if silent and family.documented
+        else {}
+    )
 
 
 def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, directional: bool) -> float:
-    """What turns the variable's numbers into m2/Hz/degree (m2/Hz without directions); 1 for logarithms, which are scaled later."""
+    """
+    What turns the variable's numbers into m2/Hz/degree (m2/Hz without directions); 1 for
+    logarithms, which are scaled later.
+    """
     text = attrs.get("units", attrs.get("GRIB_units"))
     if text is None and family.documented:
         scale = np.pi / 180.0 if directional and family.per == "radian" else 1.0
@@ -478,16 +614,23 @@ def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, direction
 
 
 def _unit(where: str, text: Any, directional: bool) -> float:
-    """Return what turns numbers in a unit, in any of UDUNITS' spellings, into m2/Hz/degree (m2/Hz)."""
+    """
+    Return what turns numbers in a unit, in any of UDUNITS' spellings, into m2/Hz/degree (m2/Hz).
+    """
     unit = units.parse(text)
     right = {"m": 2, "s": 1, "rad": -1} if directional else {"m": 2, "s": 1}
     if unit is None or not unit.is_(**right):
-        raise ReaderError(f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}")
+        raise ReaderError(
+            f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}"
+        )
     return unit.scale * (np.pi / 180.0 if directional else 1.0)
 
 
 def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
-    """Return the base of the logarithms that a variable says it holds, and what was added before; None where it says none."""
+    """
+    Return the base of the logarithms that a variable says it holds, and what was added before; None
+    where it says none.
+    """
     unit = units.parse(attrs.get("units"))
     if unit is not None and unit.base is not None:
         return unit
@@ -499,18 +642,22 @@ def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
         return units.Unit(base=math.e)
     if words & {"ten", "10", "log10", "lg", "decadic", "common"}:
         return units.Unit(base=10.0)
-    raise ReaderError(f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), got {said!r:.80}")
+    raise ReaderError(
+        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), got {said!r:.80}"
+    )
 
 
 def _from_log10(where: str, values: Real) -> tuple[Real, int]:
     """
-    ERA5 keeps log10 of m2/Hz/radian, and nothing at all where there is almost nothing: there it is 0, but where a whole spectrum
-    is missing (land, ice) it stays missing.
+    ERA5 keeps log10 of m2/Hz/radian, and nothing at all where there is almost nothing: there it is
+    0, but where a whole spectrum is missing (land, ice) it stays missing.
     """
     with np.errstate(invalid="ignore"):
         wrong = values > np.log10(layout.LARGEST * 180.0 / np.pi)
     if np.any(wrong):
-        raise ReaderError(f"{where} must be log10 of a density, at most 7.7, got {values[wrong][0]}")
+        raise ReaderError(
+            f"{where} must be log10 of a density, at most 7.7, got {values[wrong][0]}"
+        )
     nothing = np.isnan(values)
     gaps = nothing & ~np.all(nothing, axis=(1, 2), keepdims=True)
     with np.errstate(under="ignore"):
@@ -519,12 +666,16 @@ def _from_log10(where: str, values: Real) -> tuple[Real, int]:
     return values, int(np.count_nonzero(gaps))
 
 
-def _times(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], source: str) -> Any:
+def _times(
+    raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], source: str
+) -> Any:
     """The times as datetime64, or None where there are none."""
     name = axes.get("time", "time")
     if name not in raw.variables:
         return None
-    times = np.asarray(raw[name].isel({d: i for d, i in picked.items() if d in raw[name].dims}).values)
+    times = np.asarray(
+        raw[name].isel({d: i for d, i in picked.items() if d in raw[name].dims}).values
+    )
     if not np.issubdtype(times.dtype, np.datetime64):
         raise ReaderError(
             f"{source}: variable {name} must be a time of the usual calendar with units like 'days since 1990-01-01', got {times.dtype}"
@@ -538,14 +689,20 @@ def _at(variable: "DataArray", picked: Mapping[Hashable, int]) -> "DataArray":
     return variable.isel({d: i for d, i in picked.items() if d in variable.dims})
 
 
-def _depth(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], count: int) -> Real | None:
+def _depth(
+    raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], count: int
+) -> Real | None:
     """The water depth at each time [m], NaN where it is not known or not above 0."""
     for name, variable in raw.variables.items():
-        if name == "dpt" or str(variable.attrs.get("standard_name", "")).startswith("sea_floor_depth_below"):
+        if name == "dpt" or str(variable.attrs.get("standard_name", "")).startswith(
+            "sea_floor_depth_below"
+        ):
             depth = _at(raw[name], picked)
             unit = units.parse(variable.attrs.get("units", "m"))
             if set(depth.dims) <= {axes.get("time")} and unit is not None and unit.is_(m=1):
-                values = unit.scale * np.broadcast_to(np.asarray(depth.values, dtype=np.float64), (count,))
+                values = unit.scale * np.broadcast_to(
+                    np.asarray(depth.values, dtype=np.float64), (count,)
+                )
                 return np.where((values > 0.0) & (values < 1e5), values, np.nan)
     return None
 
@@ -553,11 +710,20 @@ def _depth(raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashabl
 def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float]:
     """Longitude and latitude, or x and y, of the place; of the first time where it moves."""
     position = {}
-    for key, names in (("lon", ("lon", "longitude")), ("lat", ("lat", "latitude")), ("x", ("x",)), ("y", ("y",))):
+    for key, names in (
+        ("lon", ("lon", "longitude")),
+        ("lat", ("lat", "latitude")),
+        ("x", ("x",)),
+        ("y", ("y",)),
+    ):
         for name in names:
             if name in raw.variables:
                 values = np.asarray(_at(raw[name], picked).values).ravel()
-                if values.size and np.issubdtype(values.dtype, np.number) and np.isfinite(values[0]):
+                if (
+                    values.size
+                    and np.issubdtype(values.dtype, np.number)
+                    and np.isfinite(values[0])
+                ):
                     position[key] = float(values[0])
     return position
 

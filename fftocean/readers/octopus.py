@@ -106,7 +106,9 @@ def read(path: Path) -> "Dataset":
         for _ in _LAST:
             cells = rows.next("the sums fSpec and den")
             if cells[0].lower() not in _LAST:
-                raise ReaderError(f"{rows.where} must begin with fSpec or den, got {cells[0]!r:.40}")
+                raise ReaderError(
+                    f"{rows.where} must begin with fSpec or den, got {cells[0]!r:.40}"
+                )
         if record and not (np.array_equal(f, frequency) and np.array_equal(d, direction)):
             raise ReaderError(f"{rows.where}: record {record + 1} must have the axes of the first")
         frequency, direction = f, d
@@ -114,7 +116,9 @@ def read(path: Path) -> "Dataset":
         tables.append(table)
         heights.append(height)
     if (extra := rows.maybe()) is not None:
-        raise ReaderError(f"{rows.where} must be the end, after {times} records, got {extra[0]!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must be the end, after {times} records, got {extra[0]!r:.40}"
+        )
     which, repeated = layout.in_order(np.array(seconds))
     energy, hs = np.array(tables)[which], np.array(heights)[which]
     frequency, f_order = layout.frequencies(f"{path.name}: freq", frequency)
@@ -122,7 +126,9 @@ def read(path: Path) -> "Dataset":
     energy = energy[:, f_order][:, :, d_order]
     edges = np.concatenate([frequency[:1], 0.5 * (frequency[1:] + frequency[:-1]), frequency[-1:]])
     step = _step(path.name, bearing)
-    density, counts = layout.densities(path.name, energy / (np.diff(edges)[:, np.newaxis] * step), "m2/Hz/degree")
+    density, counts = layout.densities(
+        path.name, energy / (np.diff(edges)[:, np.newaxis] * step), "m2/Hz/degree"
+    )
     m0 = np.sum(energy, axis=(1, 2))
     return layout.dataset(
         source=path.name,
@@ -148,17 +154,23 @@ def _bulk(rows: _Rows) -> tuple[np.datetime64, float]:
     """Return the time and the significant wave height of a record."""
     names = [name.lower() for name in rows.next("a record")]
     if names[:2] != ["ccyymm", "ddhhmm"]:
-        raise ReaderError(f"{rows.where} must begin with CCYYMM,DDHHmm, got {','.join(names)!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must begin with CCYYMM,DDHHmm, got {','.join(names)!r:.40}"
+        )
     cells = [cell.lstrip("'") for cell in rows.next("the values of a record")]
     if len(cells) != len(names):
         raise ReaderError(f"{rows.where} must hold {len(names)} values, got {len(cells)}")
     text = "".join(cells[:2])
     if not re.fullmatch(r"[0-9]{12}", text[:12]) or len(text) not in (12, 14):
-        raise ReaderError(f"{rows.where} must begin with a time like 201803,110000, got {text!r:.40}")
+        raise ReaderError(
+            f"{rows.where} must begin with a time like 201803,110000, got {text!r:.40}"
+        )
     try:
         time = datetime.strptime(text[:12], "%Y%m%d%H%M")
     except ValueError as error:
-        raise ReaderError(f"{rows.where} must begin with a time like 201803,110000 ({error})") from error
+        raise ReaderError(
+            f"{rows.where} must begin with a time like 201803,110000 ({error})"
+        ) from error
     if not 1900 <= time.year < 2200:
         raise ReaderError(f"{rows.where} must begin with a time between 1900 and 2200, got {text}")
     hs = np.nan
@@ -180,7 +192,9 @@ def _step(name: str, bearing: Real) -> float:
     """Return the width of the directions, which must be equal and go all round."""
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.ptp(steps) > 1e-3 * 360.0 / bearing.size:
-        raise ReaderError(f"{name}: the directions must be equally spaced all round, got {bearing[0]:g} ...")
+        raise ReaderError(
+            f"{name}: the directions must be equally spaced all round, got {bearing[0]:g} ..."
+        )
     return 360.0 / bearing.size
 
 

@@ -39,7 +39,9 @@ def as_dataset(given: Any, source: str) -> "Dataset":
     elif hasattr(given, "dims") and hasattr(given, "coords") and hasattr(given, "to_dataset"):
         dataset = _named(given, source)
     else:
-        raise ReaderError(f"{source} must be an xarray.Dataset or DataArray, got {type(given).__name__}")
+        raise ReaderError(
+            f"{source} must be an xarray.Dataset or DataArray, got {type(given).__name__}"
+        )
     return _without_left_overs(dataset)
 
 
@@ -64,7 +66,11 @@ def _without_left_overs(dataset: "Dataset") -> "Dataset":
     if name is None:
         return dataset
     spectrum = dataset[name]
-    if "dir" not in spectrum.dims and spectrum.attrs.get("standard_name") in (_DIRECTIONAL, None) and name == "efth":
+    if (
+        "dir" not in spectrum.dims
+        and spectrum.attrs.get("standard_name") in (_DIRECTIONAL, None)
+        and name == "efth"
+    ):
         attrs = {**spectrum.attrs, "standard_name": _UNDIRECTED}
         if _per_angle(attrs.get("units")):
             attrs["units"] = "m2 s"
@@ -74,7 +80,11 @@ def _without_left_overs(dataset: "Dataset") -> "Dataset":
             continue
         attrs = dict(dataset[axis].attrs)
         unit = units.parse(attrs.get("units"))
-        prose = isinstance(attrs.get("units"), str) and unit is None and re.search(r"\s", attrs["units"]) is not None
+        prose = (
+            isinstance(attrs.get("units"), str)
+            and unit is None
+            and re.search(r"\s", attrs["units"]) is not None
+        )
         turned = axis == "dir" and unit is not None and unit.is_(**powers) and unit.scale == 1.0
         if prose or (turned and np.ptp(dataset[axis].values) > 2.0 * np.pi + 1e-3):
             attrs["units"] = right

@@ -54,8 +54,12 @@ class Reader:
 
     def __post_init__(self) -> None:
         if not self.name.strip() or not self.description.strip().endswith("."):
-            raise ValueError(f"a reader must have a name and a sentence that describes it, got {self!r}")
+            raise ValueError(
+                f"a reader must have a name and a sentence that describes it, got {self!r}"
+            )
         if not self.extensions or not all(e.startswith(".") for e in self.extensions):
-            raise ValueError(f"the extensions of {self.name} must begin with a dot, got {self.extensions!r}")
+            raise ValueError(
+                f"the extensions of {self.name} must begin with a dot, got {self.extensions!r}"
+            )
         if not callable(self.sniff) or not callable(self.read):
             raise TypeError(f"sniff and read of {self.name} must be functions, got {self!r}")

@@ -1,4 +1,7 @@
-"""Seas made from measured spectra: straight lines with the moments of the source's own bands, and our directions."""
+"""
+Seas made from measured spectra: straight lines with the moments of the source's own bands, and our
+directions.
+"""
 
 import math
 import numbers
@@ -30,11 +33,15 @@ class Realised:
     """A sea made from a measured spectrum, and what was done to make it."""
 
     sea: Sea
-    hs_source: float  # significant wave height of the source's own sum over bands [m]; what `sea` has
+    hs_source: (
+        float  # significant wave height of the source's own sum over bands [m]; what `sea` has
+    )
     factor: float  # m0 of the source's bands over that of straight lines through its densities [-]
     tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
     tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
-    depth_source: float | None = None  # the measurement's own water depth [m]; None where it has none
+    depth_source: float | None = (
+        None  # the measurement's own water depth [m]; None where it has none
+    )
     notes: tuple[str, ...] = ()  # what was masked, repaired or assumed, in words
 
     @classmethod
@@ -52,27 +59,32 @@ class Realised:
         """
         Realise one spectrum of a dataset.
 
-        The source's moments are sums over its bands of S(f) f^n df. Bands are the dataset's own where
-        it has them (`freq_bnds`, and what netCDF files call them); else each reaches half way to its
-        neighbours and the outermost as far out as in: so buoys are summed, and so does the wavespectra
-        package (`hs(tail=False)`). Between frequencies and directions the sea is drawn in straight
-        lines, which have the same m0, m1 and m2, hence Hs, Tm01 and Tm02 (`bands.straight_lines`);
-        outside the bands it is 0. A frequency that is missing altogether is bridged; single missing
-        bins are empty, as in ERA5.
+        The source's moments are sums over its bands of S(f) f^n df. Bands are the dataset's own
+        where it has them (`freq_bnds`, and what netCDF files call them); else each reaches half way
+        to its neighbours and the outermost as far out as in: so buoys are summed, and so does the
+        wavespectra package (`hs(tail=False)`). Between frequencies and directions the sea is drawn
+        in straight lines, which have the same m0, m1 and m2, hence Hs, Tm01 and Tm02
+        (`bands.straight_lines`); outside the bands it is 0. A frequency that is missing altogether
+        is bridged; single missing bins are empty, as in ERA5.
 
         Args:
-            dataset: from `readers.open`, the wavespectra package, or opened by xarray: dimensions freq, dir, perhaps time, site.
+            dataset: from `readers.open`, the wavespectra package, or opened by xarray: dimensions
+                freq, dir, perhaps time, site.
             time: which time, from 0; -1 is the last. (By name: `dataset.sel(time=...)` before.)
             site: which place, from 0.
-            depth: still-water depth [m]; None takes `dpt` of the dataset, and deep water where it has none.
-            direction: toward which the waves go, counter-clockwise from +x [degrees]: for a spectrum without directions.
+            depth: still-water depth [m]; None takes `dpt` of the dataset, and deep water where it
+                has none.
+            direction: toward which the waves go, counter-clockwise from +x [degrees]: for a
+                spectrum without directions.
             spreading: how they spread: for a spectrum without directions, which needs both.
-            negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each frequency: for
-                directions that were drawn as a cut Fourier series (`wavespectra.read_ndbc`).
+            negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each
+                frequency: for directions that were drawn as a cut Fourier series
+                    (`wavespectra.read_ndbc`).
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
-            ParameterError: a time, site or depth that cannot be; directions missing, or given twice.
+            ParameterError: a time, site or depth that cannot be; directions missing, or given
+                twice.
         """
         spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
         notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
@@ -83,8 +95,12 @@ class Realised:
         compass = None
         if "efth" in spectrum:
             if direction is not None or spreading is not None:
-                raise ParameterError(f"a spectrum with directions takes no others, got direction={direction!r}, spreading={spreading!r}")
-            compass, density = _whole_circle(np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]), notes)
+                raise ParameterError(
+                    f"a spectrum with directions takes no others, got direction={direction!r}, spreading={spreading!r}"
+                )
+            compass, density = _whole_circle(
+                np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]), notes
+            )
             measured = ~np.all(np.isnan(density), axis=1)
             density = density[measured]
             if empty := int(np.count_nonzero(np.isnan(density))):
@@ -117,21 +133,39 @@ class Realised:
                 f"time {time}: the significant wave height must be {SIGNIFICANT_WAVE_HEIGHT.rule}, got {hs:g} (in other units?)"
             )
         if not m0 > 0.0:
-            warnings.warn("the spectrum holds no energy: the sea is exactly flat", SeaWarning, stacklevel=2)
+            warnings.warn(
+                "the spectrum holds no energy: the sea is exactly flat", SeaWarning, stacklevel=2
+            )
             return cls(
-                sea=Sea(depth=depth), hs_source=0.0, factor=1.0, depth_source=own_depth, notes=(*notes, "the spectrum holds no energy")
+                sea=Sea(depth=depth),
+                hs_source=0.0,
+                factor=1.0,
+                depth_source=own_depth,
+                notes=(*notes, "the spectrum holds no energy"),
             )
         if lines.matched < 2:
             kept = "Hs and Tm01" if lines.matched else "Hs"
-            notes.append(f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02")
+            notes.append(
+                f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02"
+            )
         if compass is not None:
-            toward = 270.0 - compass  # clockwise from north, FROM -> counter-clockwise from east, TOWARD
+            toward = (
+                270.0 - compass
+            )  # clockwise from north, FROM -> counter-clockwise from east, TOWARD
             energy = density * (edges[:, 1] - edges[:, 0])[:, np.newaxis] * bin_widths(compass)
-            direction, _ = mean_direction_and_spread(energy, np.radians(np.broadcast_to(toward, energy.shape)))
-            spreading = TabulatedSpreading(frequency=frequency.tolist(), direction=(toward - direction).tolist(), density=density.tolist())
+            direction, _ = mean_direction_and_spread(
+                energy, np.radians(np.broadcast_to(toward, energy.shape))
+            )
+            spreading = TabulatedSpreading(
+                frequency=frequency.tolist(),
+                direction=(toward - direction).tolist(),
+                density=density.tolist(),
+            )
         assert direction is not None
         assert spreading is not None
-        straight = TabulatedSpectrum(frequency=lines.frequency.tolist(), density=lines.density.tolist())
+        straight = TabulatedSpectrum(
+            frequency=lines.frequency.tolist(), density=lines.density.tolist()
+        )
         system = WaveSystem(spectrum=straight, spreading=spreading, direction=direction)
         return cls(
             sea=Sea(system, depth=depth),
@@ -150,7 +184,9 @@ _COUNTED: Final = {
     "limited_moments": "pairs of directional moments that no sea can have were drawn in",
     "undirected_densities": "densities without a direction were spread all round",
 }
-"""The counts among a dataset's attributes that are worth saying; those of a reader are of all times."""
+"""
+The counts among a dataset's attributes that are worth saying; those of a reader are of all times.
+"""
 
 
 def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
@@ -188,7 +224,9 @@ def _own_depth(spectrum: "Dataset") -> float | None:
 
 
 def _depth(own: float | None, depth: float | None, notes: list[str]) -> float:
-    """Return the depth that is asked for, else the dataset's own, else deep water; and note which."""
+    """
+    Return the depth that is asked for, else the dataset's own, else deep water; and note which.
+    """
     if depth is not None:
         return depth
     if own is None:
@@ -208,7 +246,10 @@ def sea_from_spectrum(
     spreading: Spreading | None = None,
     negative: str = "refuse",
 ) -> Sea:
-    """The sea of one measured spectrum: `Realised.from_spectrum(...)`, which has the arguments, without its report."""
+    """
+    The sea of one measured spectrum: `Realised.from_spectrum(...)`, which has the arguments,
+    without its report.
+    """
     return Realised.from_spectrum(
         dataset,
         time=time,
@@ -222,7 +263,8 @@ def sea_from_spectrum(
 
 def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real, Real]:
     """
-    Close a sector: where directions leave out more than twice their usual step, nothing was computed and nothing comes from there.
+    Close a sector: where directions leave out more than twice their usual step, nothing was
+    computed and nothing comes from there.
 
     Args:
         compass: (d,) ascending in [0, 360) [degrees].
@@ -234,7 +276,9 @@ def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real,
     wide = np.flatnonzero(gaps > 2.5 * step)
     if not wide.size:
         return compass, density
-    notes.append(f"directions leave out {float(np.sum(gaps[wide] - 2.0 * step)):g} degrees of the circle: nothing comes from there")
+    notes.append(
+        f"directions leave out {float(np.sum(gaps[wide] - 2.0 * step)):g} degrees of the circle: nothing comes from there"
+    )
     ends = np.concatenate([compass[wide] + step, compass[(wide + 1) % compass.size] - step]) % 360.0
     silent = np.all(np.isnan(density), axis=1, keepdims=True)
     compass = np.concatenate([compass, ends])

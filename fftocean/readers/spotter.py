@@ -51,7 +51,11 @@ _APART: Final = 1.0  # largest difference of `direction` from the moments' own [
 def recognises(head: Head) -> bool:
     """Return whether the first line names a Spotter's columns."""
     first = head.first_line
-    return "Epoch Time" in first and "," in first and re.search(r"\bvarianceDensity_0\b|\bf_0\b", first) is not None
+    return (
+        "Epoch Time" in first
+        and "," in first
+        and re.search(r"\bvarianceDensity_0\b|\bf_0\b", first) is not None
+    )
 
 
 def read(path: Path, *, bins: int) -> "Dataset":
@@ -70,15 +74,21 @@ def read(path: Path, *, bins: int) -> "Dataset":
     f = records["f"]
     if not np.all(f == f[0]):
         line = int(np.flatnonzero(np.any(f != f[0], axis=1))[0]) + 2
-        raise ReaderError(f"{path.name}: line {line} must have the frequencies of line 2, got others")
+        raise ReaderError(
+            f"{path.name}: line {line} must have the frequencies of line 2, got others"
+        )
     time = records["time"][:, 0]
     wrong = ~((time > 0.0) & (time < _LATEST))
     if np.any(wrong):
-        raise ReaderError(f"{path.name}: Epoch Time must be seconds since 1970, got {time[wrong][0]}")
+        raise ReaderError(
+            f"{path.name}: Epoch Time must be seconds since 1970, got {time[wrong][0]}"
+        )
     which, repeated = layout.in_order(np.rint(time))
     records = {name: values[which] for name, values in records.items()}
     frequency, order = layout.frequencies(f"{path.name}: f", f[0])
-    density, counts = layout.densities(f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz")
+    density, counts = layout.densities(
+        f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz"
+    )
     notes: dict[str, Any] = {**counts, "repeated_times": repeated, "sites": 1}
     edges = None
     width = np.gradient(frequency)
@@ -88,7 +98,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
             raise ReaderError(f"{path.name}: df must be the same in all lines, got others")
         edges = bands.of_widths(f"{path.name}: df", frequency, width)
     if "hs" in columns:
-        notes |= layout.compare_heights(path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4)
+        notes |= layout.compare_heights(
+            path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4
+        )
     c1, c2 = _moments(path.name, columns, records)
     direction = None
     if c1 is not None and c2 is not None:
@@ -102,18 +114,26 @@ def read(path: Path, *, bins: int) -> "Dataset":
         density=density,
         direction=direction,
         time=np.rint(records["time"][:, 0]).astype("int64").astype("datetime64[s]"),
-        position={key: float(records[key][0, 0]) for key in ("lon", "lat") if key in columns and np.isfinite(records[key][0, 0])},
+        position={
+            key: float(records[key][0, 0])
+            for key in ("lon", "lat")
+            if key in columns and np.isfinite(records[key][0, 0])
+        },
         bands=edges,
         notes=notes,
     )
 
 
-def _moments(name: str, columns: dict[str, list[int]], records: dict[str, Real]) -> tuple[Complex, Complex] | tuple[None, None]:
+def _moments(
+    name: str, columns: dict[str, list[int]], records: dict[str, Real]
+) -> tuple[Complex, Complex] | tuple[None, None]:
     """Return both moments of directions FROM, clockwise from north, by what the file has."""
     has = {word for word in _BY_FREQUENCY if word in columns}
     if {"a1", "b1"} <= has:
         toward = records["a1"] + 1j * records["b1"]
-        c1 = np.asarray(np.exp(1.5j * np.pi) * np.conj(toward), dtype=np.complex128)  # from = 270 - toward
+        c1 = np.asarray(
+            np.exp(1.5j * np.pi) * np.conj(toward), dtype=np.complex128
+        )  # from = 270 - toward
         c2: Complex = np.full_like(c1, np.nan)
         if {"a2", "b2"} <= has:
             c2 = np.asarray(-np.conj(records["a2"] + 1j * records["b2"]), dtype=np.complex128)
@@ -146,8 +166,17 @@ def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Rea
     for where, line in rows:
         cells = [cell.strip() for cell in line.split(",")]
         if len(cells) != len(names):
-            raise ReaderError(f"{where} must hold {len(names)} cells, as line 1 does, got {len(cells)}")
-        records.append([np.nan if cells[i] in _MISSING else files.number(f"{where}, column {names[i]},", cells[i]) for i in wanted])
+            raise ReaderError(
+                f"{where} must hold {len(names)} cells, as line 1 does, got {len(cells)}"
+            )
+        records.append(
+            [
+                np.nan
+                if cells[i] in _MISSING
+                else files.number(f"{where}, column {names[i]},", cells[i])
+                for i in wanted
+            ]
+        )
         if len(records) * count * bins > layout.MAX_VALUES:
             raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
     if not records:
@@ -180,7 +209,9 @@ def _columns(where: str, names: list[str]) -> dict[str, list[int]]:
             raise ReaderError(f"{where} must name a column {word}, got {', '.join(names)!r:.60}")
     for word in _BY_FREQUENCY:
         if word in columns and len(columns[word]) != len(columns["f"]):
-            raise ReaderError(f"{where} must name as many {word}_i as f_i, got {len(columns[word])}")
+            raise ReaderError(
+                f"{where} must name as many {word}_i as f_i, got {len(columns[word])}"
+            )
     return columns
 
 

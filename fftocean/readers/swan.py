@@ -21,7 +21,9 @@ from fftocean.readers.reader import Reader
 if TYPE_CHECKING:
     from xarray import Dataset
 
-_ENERGY: Final = 1025.0 * 9.81  # rho g [kg/m^2/s^2] by which SWAN turns variance into energy, unless it was told otherwise
+_ENERGY: Final = (
+    1025.0 * 9.81
+)  # rho g [kg/m^2/s^2] by which SWAN turns variance into energy, unless it was told otherwise
 _MOST: Final = 10**6  # places, frequencies, directions
 
 
@@ -31,7 +33,10 @@ def recognises(first_line: str) -> bool:
 
 
 class _Lines:
-    """The file's lines, one after another, comments left out; running out of them is an error unless it is asked for."""
+    """
+    The file's lines, one after another, comments left out; running out of them is an error unless
+    it is asked for.
+    """
 
     def __init__(self, path: Path) -> None:
         self.name = path.name
@@ -41,7 +46,9 @@ class _Lines:
     def next(self, wanted: str) -> str:
         line = self.maybe()
         if line is None:
-            raise ReaderError(f"{self.name} ends after {self.where.rpartition(': ')[2]}, where {wanted} must follow: the file is cut short")
+            raise ReaderError(
+                f"{self.name} ends after {self.where.rpartition(': ')[2]}, where {wanted} must follow: the file is cut short"
+            )
         return line
 
     def maybe(self) -> str | None:
@@ -52,14 +59,19 @@ class _Lines:
         return None
 
     def table(self, wanted: str, columns: int) -> Real:
-        """A count, then as many lines; of each the first `columns` numbers (a name may follow a place)."""
+        """
+        A count, then as many lines; of each the first `columns` numbers (a name may follow a
+        place).
+        """
         rows = files.count(self.where, self.next(f"the number of {wanted}"), _MOST)
         return np.array([self._row(wanted, columns) for _ in range(rows)])
 
     def _row(self, wanted: str, columns: int) -> list[float]:
         tokens = self.next(wanted).split()
         if len(tokens) < columns:
-            raise ReaderError(f"{self.where} must hold {columns} numbers for {wanted}, got {' '.join(tokens)!r:.40}")
+            raise ReaderError(
+                f"{self.where} must hold {columns} numbers for {wanted}, got {' '.join(tokens)!r:.40}"
+            )
         return [files.number(self.where, token) for token in tokens[:columns]]
 
 
@@ -72,7 +84,8 @@ def read(path: Path, *, site: int) -> "Dataset":
         site: which place, from 0.
 
     Raises:
-        ReaderError: a 1-D file, another version, units or time code, counts that do not agree, a file that is cut.
+        ReaderError: a 1-D file, another version, units or time code, counts that do not agree, a
+            file that is cut.
         ParameterError: `site` is not in the file.
     """
     lines = _Lines(path)
@@ -84,7 +97,9 @@ def read(path: Path, *, site: int) -> "Dataset":
     if dated:
         code = files.count(lines.where, lines.next("the time coding option"), 6)
         if code != 1:
-            raise ReaderError(f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}")
+            raise ReaderError(
+                f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
+            )
         keyword = lines.next("LONLAT or LOCATIONS").split()[0]
     if keyword not in ("LONLAT", "LOCATIONS"):
         raise ReaderError(f"{lines.where} must be LONLAT or LOCATIONS, got {keyword!r:.40}")
@@ -95,7 +110,9 @@ def read(path: Path, *, site: int) -> "Dataset":
     keyword = lines.next("AFREQ or RFREQ").split()[0]
     if keyword not in ("AFREQ", "RFREQ"):
         raise ReaderError(f"{lines.where} must be AFREQ or RFREQ, got {keyword!r:.40}")
-    frequency, f_order = layout.frequencies(f"{lines.name}: {keyword}", lines.table("frequencies", 1))
+    frequency, f_order = layout.frequencies(
+        f"{lines.name}: {keyword}", lines.table("frequencies", 1)
+    )
     keyword = lines.next("NDIR or CDIR").split()[0]
     if keyword not in ("NDIR", "CDIR"):
         one = " (a 1-D file: it has no directions to read)" if keyword == "QUANT" else ""
@@ -106,7 +123,9 @@ def read(path: Path, *, site: int) -> "Dataset":
         bearings = np.where(np.abs(bearings) > 360.0, np.mod(bearings, 360.0), bearings)
     direction, d_order = layout.directions(f"{lines.name}: {keyword}", bearings)
     if frequency.size * direction.size > _MOST:
-        raise ReaderError(f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}")
+        raise ReaderError(
+            f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}"
+        )
     per_degree, fill = _quantity(lines)
 
     time: list[datetime] = []
@@ -116,7 +135,9 @@ def read(path: Path, *, site: int) -> "Dataset":
         if dated:
             time.append(_time(lines.where, line))
         elif blocks:
-            raise ReaderError(f"{lines.where} must be the end of a file without TIME, got {line!r:.40}")
+            raise ReaderError(
+                f"{lines.where} must be the end of a file without TIME, got {line!r:.40}"
+            )
         for place in range(len(places)):
             keyword = lines.next("FACTOR, ZERO or NODATA") if dated or place else line
             block = _block(lines, keyword, shape, fill, wanted=place == site)
@@ -125,7 +146,9 @@ def read(path: Path, *, site: int) -> "Dataset":
         if len(blocks) * shape[0] * shape[1] > layout.MAX_VALUES:
             raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
     if not blocks:
-        raise ReaderError(f"{lines.name} must hold at least one spectrum after its header, got none")
+        raise ReaderError(
+            f"{lines.name} must hold at least one spectrum after its header, got none"
+        )
     values = np.array(blocks)[:, f_order][:, :, d_order] * per_degree
     density, counts = layout.densities(lines.name, values, "m2/Hz/degree")
     return layout.dataset(
@@ -151,12 +174,20 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
     unit = lines.next("the unit").split()[0]
     known = {("VaDens", "m2/Hz/degr"): 1.0, ("EnDens", "J/m2/Hz/degr"): 1.0 / _ENERGY}
     if (quantity, unit) not in known:
-        raise ReaderError(f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr, got {quantity} in {unit}")
-    return known[quantity, unit], files.number(lines.where, lines.next("the exception value").split()[0])
+        raise ReaderError(
+            f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr, got {quantity} in {unit}"
+        )
+    return known[quantity, unit], files.number(
+        lines.where, lines.next("the exception value").split()[0]
+    )
 
 
-def _block(lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, wanted: bool) -> Real:
-    """One spectrum, (f, d), in the file's unit; only counted through where it is of another place."""
+def _block(
+    lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, wanted: bool
+) -> Real:
+    """
+    One spectrum, (f, d), in the file's unit; only counted through where it is of another place.
+    """
     word = keyword.split()[0]
     if word in ("ZERO", "NODATA"):
         return np.full(shape if wanted else (0, 0), 0.0 if word == "ZERO" else np.nan)
@@ -171,7 +202,9 @@ def _block(lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, 
         while len(tokens) < row.size:  # a long row may go on in the next line
             tokens += lines.next("the rest of a row").split()
         if len(tokens) > row.size:
-            raise ReaderError(f"{lines.where} must hold {row.size} densities, one a direction, got {len(tokens)}")
+            raise ReaderError(
+                f"{lines.where} must hold {row.size} densities, one a direction, got {len(tokens)}"
+            )
         if wanted:
             row[:] = [_density(lines.where, token, fill) for token in tokens]
     if factor == 0.0 and wanted and np.any(block > 0.0):
@@ -186,7 +219,9 @@ def _density(where: str, token: str, fill: float) -> float:
     if value == fill:
         return float("nan")
     if value < 0.0:
-        raise ReaderError(f"{where}: a density must be at least 0 (or {fill:g}, missing), got {token}")
+        raise ReaderError(
+            f"{where}: a density must be at least 0 (or {fill:g}, missing), got {token}"
+        )
     return value
 
 
@@ -197,7 +232,9 @@ def _time(where: str, line: str) -> datetime:
     try:
         time = datetime.strptime(token, "%Y%m%d.%H%M%S")
     except ValueError as error:
-        raise ReaderError(f"{where} must begin with a time like 20161011.000000, got {token} ({error})") from error
+        raise ReaderError(
+            f"{where} must begin with a time like 20161011.000000, got {token} ({error})"
+        ) from error
     if not 1900 <= time.year < 2200:
         raise ReaderError(f"{where} must begin with a time between 1900 and 2200, got {token}")
     return time

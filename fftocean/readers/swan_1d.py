@@ -73,7 +73,9 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
         if dated:
             time.append(swan._time(lines.where, line))
         elif blocks:
-            raise ReaderError(f"{lines.where} must be the end of a file without TIME, got {line!r:.40}")
+            raise ReaderError(
+                f"{lines.where} must be the end of a file without TIME, got {line!r:.40}"
+            )
         for place in range(len(places)):
             line = lines.next("LOCATION or NODATA") if dated or place else line
             block = _block(lines, line, f.size, quantities, number=place + 1)
@@ -82,13 +84,17 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
         if len(blocks) * f.size * bins > layout.MAX_VALUES:
             raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
     if not blocks:
-        raise ReaderError(f"{lines.name} must hold at least one spectrum after its header, got none")
+        raise ReaderError(
+            f"{lines.name} must hold at least one spectrum after its header, got none"
+        )
     values = np.array(blocks)  # (time, f, quantity)
     kept, notes = layout.above_zero(f)
     frequency, order = layout.frequencies(f"{lines.name}: {keyword}", f[kept])
     values = values[:, kept][:, order]
     columns = {name: values[:, :, i] for i, (name, _, _) in enumerate(quantities)}
-    name, scale = next((name, scale) for name, scale, _ in quantities if name in ("VaDens", "EnDens"))
+    name, scale = next(
+        (name, scale) for name, scale, _ in quantities if name in ("VaDens", "EnDens")
+    )
     density, counts = layout.densities(lines.name, columns[name] * scale, "m2/Hz")
     direction = None
     mean = columns.get("NDIR", 270.0 - columns["CDIR"] if "CDIR" in columns else None)
@@ -116,7 +122,9 @@ def _header(lines: swan._Lines) -> tuple[bool, tuple[str, str], Real]:
     if dated:
         code = files.count(lines.where, lines.next("the time coding option"), 6)
         if code != 1:
-            raise ReaderError(f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}")
+            raise ReaderError(
+                f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
+            )
         keyword = lines.next("LONLAT or LOCATIONS").split()[0]
     if keyword not in ("LONLAT", "LOCATIONS"):
         raise ReaderError(f"{lines.where} must be LONLAT or LOCATIONS, got {keyword!r:.40}")
@@ -136,15 +144,23 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
         unit = lines.next("the unit").split()[0]
         if name in ("VaDens", "EnDens"):
             if (name, unit) not in _DENSITIES:
-                raise ReaderError(f"{lines.where}: VaDens must be in m2/Hz, EnDens in J/m2/Hz, got {unit}")
+                raise ReaderError(
+                    f"{lines.where}: VaDens must be in m2/Hz, EnDens in J/m2/Hz, got {unit}"
+                )
             scale = _DENSITIES[name, unit]
         elif unit not in ("degr", "degrees", "deg"):
             raise ReaderError(f"{lines.where}: the unit of {name} must be degr, got {unit!r:.40}")
         else:
             scale = 1.0
-        found.append((name, scale, files.number(lines.where, lines.next("the exception value").split()[0])))
+        found.append(
+            (name, scale, files.number(lines.where, lines.next("the exception value").split()[0]))
+        )
     names = [name for name, _, _ in found]
-    if len(set(names)) != len(names) or sum(n in ("VaDens", "EnDens") for n in names) != 1 or {"NDIR", "CDIR"} <= set(names):
+    if (
+        len(set(names)) != len(names)
+        or sum(n in ("VaDens", "EnDens") for n in names) != 1
+        or {"NDIR", "CDIR"} <= set(names)
+    ):
         raise ReaderError(f"{lines.where}: there must be one density and one direction at most")
     return found
 
@@ -162,15 +178,22 @@ def _block(
     if words[0] == "NODATA":
         return np.full((rows, len(quantities)), np.nan)
     if words[0] == "ZERO":
-        return np.array([[0.0 if name.endswith("Dens") else np.nan for name, _, _ in quantities]] * rows)
+        return np.array(
+            [[0.0 if name.endswith("Dens") else np.nan for name, _, _ in quantities]] * rows
+        )
     if words[0] != "LOCATION" or (len(words) > 1 and words[1] != str(number)):
         raise ReaderError(f"{lines.where} must be LOCATION {number} or NODATA, got {line!r:.40}")
     block = np.empty((rows, len(quantities)))
     for row in block:
         tokens = lines.next("a row of a frequency").split()
         if len(tokens) != len(quantities):
-            raise ReaderError(f"{lines.where} must hold {len(quantities)} numbers, got {len(tokens)}")
-        row[:] = [_value(lines.where, token, *quantity) for token, quantity in zip(tokens, quantities, strict=True)]
+            raise ReaderError(
+                f"{lines.where} must hold {len(quantities)} numbers, got {len(tokens)}"
+            )
+        row[:] = [
+            _value(lines.where, token, *quantity)
+            for token, quantity in zip(tokens, quantities, strict=True)
+        ]
     return block
 
 
@@ -178,7 +201,9 @@ def _value(where: str, token: str, name: str, scale: float, fill: float) -> floa
     value = files.number(where, token)
     if value == fill:
         return float("nan")
-    low, high = {"NDIR": (-360.0, 720.0), "CDIR": (-360.0, 720.0), "DSPRDEGR": (0.0, 180.0)}.get(name, (0.0, np.inf))
+    low, high = {"NDIR": (-360.0, 720.0), "CDIR": (-360.0, 720.0), "DSPRDEGR": (0.0, 180.0)}.get(
+        name, (0.0, np.inf)
+    )
     if not low <= value <= high:
         raise ReaderError(f"{where}: {name} must be between {low:g} and {high:g}, got {token}")
     return value

@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
 _MOST: Final = 100_000  # frequencies or directions
 _POSITION: Final = re.compile(r"(\d{2})(\d{2}\.\d+)([NS])\s*(\d{2,3})(\d{2}\.\d+)([EW])")
-_REPEATED: Final = 1e-5  # of the largest density: how far the columns of 0 and 360 degrees may differ
+_REPEATED: Final = (
+    1e-5  # of the largest density: how far the columns of 0 and 360 degrees may differ
+)
 
 
 def recognises(head: Head) -> bool:
@@ -59,10 +61,14 @@ def read(path: Path) -> "Dataset":
             if len(table) * len(table[0]) > layout.MAX_VALUES:
                 raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
             if len(table[-1]) != len(table[0]):
-                raise ReaderError(f"{where} must hold {len(table[0])} numbers, got {len(table[-1])}")
+                raise ReaderError(
+                    f"{where} must hold {len(table[0])} numbers, got {len(table[-1])}"
+                )
     kind = _value(path.name, keys, "TYPE")[1].upper()
     if kind not in ("DIRECTIONAL SPECTRUM", "NON-DIRECTIONAL SPECTRUM"):
-        raise ReaderError(f"{path.name} must be a DIRECTIONAL or NON-DIRECTIONAL SPECTRUM, got TYPE {kind!r:.40}")
+        raise ReaderError(
+            f"{path.name} must be a DIRECTIONAL or NON-DIRECTIONAL SPECTRUM, got TYPE {kind!r:.40}"
+        )
     nf = nf or _count(path.name, keys, "NUMBER OF FREQUENCIES")
     if len(table) != nf:
         raise ReaderError(f"{path.name} must hold {nf} rows, got {len(table)}: is it cut?")
@@ -107,13 +113,21 @@ def _directed(name: str, keys: dict[str, tuple[str, str]], values: Real) -> tupl
         raise ReaderError(f"{where}: COLUMNS must be like 0.00 TO 360.00 DEG, got {text!r:.40}")
     start, end = (files.number(where, match[i]) for i in (1, 2))
     if count < 5 or abs(start + step * (count - 1) - end) > 1e-3 * max(abs(step), 1e-6):
-        raise ReaderError(f"{where}: COLUMNS must be {count} directions {step:g} degrees apart, got {text!r:.40}")
+        raise ReaderError(
+            f"{where}: COLUMNS must be {count} directions {step:g} degrees apart, got {text!r:.40}"
+        )
     if values.shape[1] != count:
-        raise ReaderError(f"{name} must hold {count} columns, its NUMBER OF DIRECTIONS, got {values.shape[1]}")
+        raise ReaderError(
+            f"{name} must hold {count} columns, its NUMBER OF DIRECTIONS, got {values.shape[1]}"
+        )
     direction = start + step * np.arange(count)
     if abs(abs(direction[-1] - direction[0]) - 360.0) < 1e-3:
-        if np.max(np.abs(values[:, 0] - values[:, -1])) > _REPEATED * np.max(np.abs(values), initial=1e-6):
-            raise ReaderError(f"{name}: columns {direction[0]:g} and {direction[-1]:g} degrees must be equal")
+        if np.max(np.abs(values[:, 0] - values[:, -1])) > _REPEATED * np.max(
+            np.abs(values), initial=1e-6
+        ):
+            raise ReaderError(
+                f"{name}: columns {direction[0]:g} and {direction[-1]:g} degrees must be equal"
+            )
         values, direction = values[:, :-1], direction[:-1]
     return values, direction
 
@@ -121,7 +135,9 @@ def _directed(name: str, keys: dict[str, tuple[str, str]], values: Real) -> tupl
 def _column(name: str, values: Real, f: Real, spacing: float) -> Real:
     """Return the densities of a table of frequency and density."""
     if values.shape[1] != 2:
-        raise ReaderError(f"{name} must hold 2 columns, frequency and density, got {values.shape[1]}")
+        raise ReaderError(
+            f"{name} must hold 2 columns, frequency and density, got {values.shape[1]}"
+        )
     apart = np.abs(values[:, 0] - f)
     if np.max(apart) > 0.1 * abs(spacing):
         i = int(np.argmax(apart > 0.1 * abs(spacing)))
@@ -131,7 +147,9 @@ def _column(name: str, values: Real, f: Real, spacing: float) -> Real:
 
 def _value(name: str, keys: dict[str, tuple[str, str]], key: str) -> tuple[str, str]:
     if key not in keys:
-        raise ReaderError(f"{name} must state {key} in its header, got {', '.join(keys) or 'nothing'!s:.200}")
+        raise ReaderError(
+            f"{name} must state {key} in its header, got {', '.join(keys) or 'nothing'!s:.200}"
+        )
     return keys[key]
 
 

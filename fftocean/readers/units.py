@@ -81,9 +81,15 @@ _NAMES: Final = {
     **dict.fromkeys(("kg", "kilogram", "kilograms"), Unit(1.0, {"kg": 1})),
     **dict.fromkeys(("J", "joule", "joules"), Unit(1.0, {"kg": 1, "m": 2, "s": -2})),
     **dict.fromkeys(("cycle", "cycles"), Unit()),
-    **dict.fromkeys(("cm", "centimeter", "centimetre", "centimeters", "centimetres"), Unit(1e-2, {"m": 1})),
-    **dict.fromkeys(("mm", "millimeter", "millimetre", "millimeters", "millimetres"), Unit(1e-3, {"m": 1})),
-    **dict.fromkeys(("km", "kilometer", "kilometre", "kilometers", "kilometres"), Unit(1e3, {"m": 1})),
+    **dict.fromkeys(
+        ("cm", "centimeter", "centimetre", "centimeters", "centimetres"), Unit(1e-2, {"m": 1})
+    ),
+    **dict.fromkeys(
+        ("mm", "millimeter", "millimetre", "millimeters", "millimetres"), Unit(1e-3, {"m": 1})
+    ),
+    **dict.fromkeys(
+        ("km", "kilometer", "kilometre", "kilometers", "kilometres"), Unit(1e3, {"m": 1})
+    ),
     **dict.fromkeys(("ft", "foot", "feet"), Unit(0.3048, {"m": 1})),
     **dict.fromkeys(("mHz", "millihertz"), Unit(1e-3, {"s": -1})),
     **dict.fromkeys(("fathom", "fathoms"), Unit(1.8288, {"m": 1})),
@@ -104,7 +110,9 @@ _TOKEN: Final = re.compile(
     rf"\s*(?:(?P<name>[A-Za-z_°]+(?:[+-]?[0-9]+)?(?!\.?[0-9]))|(?P<number>{_NUMBER})"
     r"|(?:\*\*|\^)\s*(?P<power>[+-]?[0-9]+)(?!\.?[0-9])|(?P<op>[*./·×()]))|\s*$"
 )
-_LOGARITHM: Final = re.compile(r"\s*(log10|lg|log|ln|lb|log2)\s*\((?:\s*re:?\s)?(.*)\)\s*", re.IGNORECASE)
+_LOGARITHM: Final = re.compile(
+    r"\s*(log10|lg|log|ln|lb|log2)\s*\((?:\s*re:?\s)?(.*)\)\s*", re.IGNORECASE
+)
 _ADDED: Final = re.compile(rf"(.*?)\+\s*({_NUMBER})\s*")
 _BASES: Final = {"log10": 10.0, "lg": 10.0, "log": 10.0, "ln": math.e, "lb": 2.0, "log2": 2.0}
 

@@ -30,7 +30,9 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 _MOST: Final = 10_000  # frequencies, directions, points
-_TITLE: Final = re.compile(r"'WAVEWATCH III SPECTRA'\s*(\d{1,6})\s+(\d{1,6})\s+(\d{1,6})\b.*", re.IGNORECASE)
+_TITLE: Final = re.compile(
+    r"'WAVEWATCH III SPECTRA'\s*(\d{1,6})\s+(\d{1,6})\s+(\d{1,6})\b.*", re.IGNORECASE
+)
 _TIME: Final = re.compile(r"(\d{8})\s+(\d{1,6})")
 _POINT: Final = re.compile(r"'([^']*)'(.*)")
 _PLAIN: Final = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
@@ -112,7 +114,9 @@ def read(path: Path, *, site: int) -> "Dataset":
             f"got {nf}, {nd} and {points}"
         )
     site = Count("", 0, points - 1).check_whole("site", site)
-    frequency, f_order = layout.frequencies(f"{path.name}: the frequencies", lines.numbers(nf, "frequencies"))
+    frequency, f_order = layout.frequencies(
+        f"{path.name}: the frequencies", lines.numbers(nf, "frequencies")
+    )
     toward = lines.numbers(nd, "directions")
     if np.max(np.abs(toward)) > 2.0 * np.pi + 0.01:
         raise ReaderError(f"{path.name}: the directions must be in radians, got {np.max(toward):g}")
@@ -137,7 +141,9 @@ def read(path: Path, *, site: int) -> "Dataset":
                 continue
             here = (name, numbers[0], numbers[1])
             if place is not None and here[0] != place[0]:
-                raise ReaderError(f"{lines.where}: point {site} must be {place[0]!r} at all times, got {name!r}")
+                raise ReaderError(
+                    f"{lines.where}: point {site} must be {place[0]!r} at all times, got {name!r}"
+                )
             place = place or here
             time.append(moment)
             depths.append(numbers[2])
@@ -197,7 +203,9 @@ def _point(lines: _Lines, line: str) -> tuple[str, list[float]]:
     """Return a point's name, latitude, longitude, depth, and what follows."""
     match = _POINT.fullmatch(line)
     if not match:
-        raise ReaderError(f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}")
+        raise ReaderError(
+            f"{lines.where} must be a point ('name' lat lon depth ...), got {line!r:.40}"
+        )
     numbers = lines.split(match[2], _PLAIN)
     if len(numbers) < 3:
         raise ReaderError(f"{lines.where} must hold latitude, longitude and depth of a point")

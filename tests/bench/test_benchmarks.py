@@ -1,4 +1,7 @@
-"""The questions of benchmarks/, at sizes where they take no time: that each answers, and that the report is made of the answers alone."""
+"""
+The questions of benchmarks/, at sizes where they take no time: that each answers, and that the
+report is made of the answers alone.
+"""
 
 import importlib
 import json
@@ -22,7 +25,9 @@ PNG = b"\x89PNG\r\n\x1a\n"
 
 @pytest.fixture
 def script(monkeypatch):
-    """Import a script of benchmarks/ as Python does when it is run from there; forget it afterwards."""
+    """
+    Import a script of benchmarks/ as Python does when it is run from there; forget it afterwards.
+    """
     monkeypatch.syspath_prepend(str(FOLDER))
     before = set(sys.modules)
     yield importlib.import_module
@@ -66,7 +71,13 @@ def test_direct_sum_answers(script, tmp_path):
     flags = ("--n", "4", "6", "16", "20", "24", "--seconds", "0", "--limit", "1e5")
     result, picture = asked(script, "direct_sum", tmp_path, *flags)
     assert picture[:8] == PNG
-    assert [r.at["points"] == int(r.at["n"]) ** 2 for r in result.all("direct sum")] == [True, True, True, False, False]
+    assert [r.at["points"] == int(r.at["n"]) ** 2 for r in result.all("direct sum")] == [
+        True,
+        True,
+        True,
+        False,
+        False,
+    ]
     for r in result.all("direct sum / FFT", dtype="float32"):
         assert r.median > 0.0
     assert result.find("exponent of N, direct sum").count == 3
@@ -76,9 +87,13 @@ def test_direct_sum_reckons_a_part_up_to_the_whole(script, monkeypatch):
     direct_sum, seen = script("direct_sum"), []
     real = direct_sum.race
     monkeypatch.setattr(direct_sum, "race", lambda *a, **k: seen.append(real(*a, **k)) or seen[-1])
-    readings = direct_sum.at_one_size(16, 0.0, 224 * 64.5)  # 224 waves: room for 64 of the 256 points
+    readings = direct_sum.at_one_size(
+        16, 0.0, 224 * 64.5
+    )  # 224 waves: room for 64 of the 256 points
     for raw, whole in zip(seen[0], readings, strict=True):
-        assert whole.median == pytest.approx(raw.median * (4.0 if "direct sum" in raw.what else 1.0))
+        assert whole.median == pytest.approx(
+            raw.median * (4.0 if "direct sum" in raw.what else 1.0)
+        )
     assert next(r.at["points"] for r in readings if r.what == "direct sum") == 64
 
 
@@ -87,15 +102,24 @@ def costs(n, fft, direct):
     for i, size in enumerate(n):
         for dtype in ("float32", "float64"):
             yield Reading.single("FFT", "ms", fft[i], {"n": size, "dtype": dtype})
-            yield Reading.single("direct sum / FFT", "x", direct[i] / fft[i], {"n": size, "dtype": dtype})
-        yield Reading.single("direct sum", "ms", direct[i], {"n": size, "points": size**2, "waves": size**2})
+            yield Reading.single(
+                "direct sum / FFT", "x", direct[i] / fft[i], {"n": size, "dtype": dtype}
+            )
+        yield Reading.single(
+            "direct sum", "ms", direct[i], {"n": size, "points": size**2, "waves": size**2}
+        )
 
 
 def test_direct_sum_concludes_from_synthetic_curves(script):
-    """The FFT at 0.1 ms + 2e-6 N log2 N, the sum at 1e-5 N^2: they cross where N^2 = 1e4, at n = 10 and a bit for the logarithm."""
+    """
+    The FFT at 0.1 ms + 2e-6 N log2 N, the sum at 1e-5 N^2: they cross where N^2 = 1e4, at n = 10
+    and a bit for the logarithm.
+    """
     n = np.array([4, 6, 8, 9, 10, 11, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512])
     count = n.astype(float) ** 2
-    found = script("direct_sum").conclusions(list(costs([int(v) for v in n], 0.1 + 2e-6 * count * np.log2(count), 1e-5 * count**2)))
+    found = script("direct_sum").conclusions(
+        list(costs([int(v) for v in n], 0.1 + 2e-6 * count * np.log2(count), 1e-5 * count**2))
+    )
     by = {(r.what, r.at.get("dtype")): r for r in found}
     cross = by["crossover", "float32"]
     assert (cross.low, cross.high) == (10.0, 11.0)
@@ -106,13 +130,19 @@ def test_direct_sum_concludes_from_synthetic_curves(script):
     assert by["misfit of N^2, direct sum", None].median < 1e-9
     assert by["misfit of N log N, FFT", "float64"].median < 1e-9
     assert by["misfit of N^2, FFT", "float64"].median > 10.0
-    pure = script("direct_sum").conclusions(list(costs([int(v) for v in n], 1e-6 * count * np.log2(count), 1e-5 * count**2)))
-    divided = {(r.what, r.at.get("dtype")): r.median for r in pure}["exponent of N, FFT, the logarithm divided out", "float32"]
+    pure = script("direct_sum").conclusions(
+        list(costs([int(v) for v in n], 1e-6 * count * np.log2(count), 1e-5 * count**2))
+    )
+    divided = {(r.what, r.at.get("dtype")): r.median for r in pure}[
+        "exponent of N, FFT, the logarithm divided out", "float32"
+    ]
     assert divided == pytest.approx(1.0, abs=1e-12)
 
 
 def test_scaling_answers(script, tmp_path):
-    result, picture = asked(script, "scaling", tmp_path, "--n", "16", "30", "31", "32", "33", "64", "--seconds", "0")
+    result, picture = asked(
+        script, "scaling", tmp_path, "--n", "16", "30", "31", "32", "33", "64", "--seconds", "0"
+    )
     assert picture[:8] == PNG
     for r in result.all("full frame"):
         n = int(r.at["n"])
@@ -140,26 +170,43 @@ def test_memory_answers(script, tmp_path):
     result, picture = asked(script, "memory", tmp_path, "--n", "64", "--runs", "1")
     assert picture[:8] == PNG
     arrays = result.find("of it the frame's own arrays", n=64).median
-    assert arrays == 64 * 64 * 7 * 4 / 2**20  # height, two displacements, Jacobian, three of the normal
+    assert (
+        arrays == 64 * 64 * 7 * 4 / 2**20
+    )  # height, two displacements, Jacobian, three of the normal
     assert result.find("after the imports").median > 10.0  # NumPy alone takes more
-    assert result.find("peak above imports").median >= result.find("resident while streaming").median > 0.0
+    assert (
+        result.find("peak above imports").median
+        >= result.find("resident while streaming").median
+        > 0.0
+    )
 
 
 def test_memory_counts_what_is_held(script):
-    """The child's own arithmetic, on a process that holds 64 MiB while the ocean is made and lets them go again."""
+    """
+    The child's own arithmetic, on a process that holds 64 MiB while the ocean is made and lets them
+    go again.
+    """
     memory, fresh = script("memory"), script("fresh")
     hoard = "make = lambda *a, **k: (bytearray(64 * 2**20), fo.Ocean(*a, **k))[1]\nmake.from_modes = fo.Ocean.from_modes"
     child = memory.CHILD.replace(
-        "make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean", f"_ = fo.Sea.from_wind(speed=10.0, fetch=100e3), 0\n{hoard}"
+        "make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean",
+        f"_ = fo.Sea.from_wind(speed=10.0, fetch=100e3), 0\n{hoard}",
     )
     assert child != memory.CHILD
-    plain, hoarding = (fresh.python("-c", text, "16", "height", "auto").said for text in (memory.CHILD, child))
-    assert hoarding["making"] - plain["making"] == pytest.approx(64.0, abs=4.0)  # pages that other allocations take or give back
+    plain, hoarding = (
+        fresh.python("-c", text, "16", "height", "auto").said for text in (memory.CHILD, child)
+    )
+    assert hoarding["making"] - plain["making"] == pytest.approx(
+        64.0, abs=4.0
+    )  # pages that other allocations take or give back
     assert abs(hoarding["resident"] - plain["resident"]) < 4.0
 
 
 def test_startup_answers(script, tmp_path, monkeypatch):
-    """Lives of processes that we choose: an idle one of 0.5 s, an import of 0.75 s, the first frame 9 s, later ones 2 s."""
+    """
+    Lives of processes that we choose: an idle one of 0.5 s, an import of 0.75 s, the first frame 9
+    s, later ones 2 s.
+    """
     fresh = script("fresh")
     cold = []
 
@@ -198,7 +245,10 @@ def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp
 
 
 def test_a_profile_is_sorted_by_room(script):
-    """A profile made by hand: own times go to the room of the file; a library's to whoever called it; the system's to the disk."""
+    """
+    A profile made by hand: own times go to the room of the file; a library's to whoever called it;
+    the system's to the disk.
+    """
     bake = script("bake")
     at = lambda path, name: (str(bake.PACKAGE / path), 1, name)  # noqa: E731
     baker, frame, encode, halves = (
@@ -262,7 +312,10 @@ def test_kernels_are_seen_by_the_profiler_and_put_back(script):
         profile.runcall(surface.jacobian, *fields[:3], np.float32(1.0), fields[3])
     assert surface.jacobian is before
     if os.environ.get("NUMBA_DISABLE_JIT") != "1":
-        assert any(Path(file).name == "surface.py" and name == "jacobian" for file, _, name in pstats.Stats(profile).stats)
+        assert any(
+            Path(file).name == "surface.py" and name == "jacobian"
+            for file, _, name in pstats.Stats(profile).stats
+        )
     assert np.all(fields[3] == 3.0)  # 2 x 2 - 1 x 1
 
 
@@ -270,7 +323,13 @@ def test_kernels_are_seen_by_the_profiler_and_put_back(script):
 
 
 def invented(question, *readings):
-    return answer(question, f"How is {question}?", readings, {"n": [64]}, {"utc": "2026-01-31 12:00", "load": 0.25})
+    return answer(
+        question,
+        f"How is {question}?",
+        readings,
+        {"n": [64]},
+        {"utc": "2026-01-31 12:00", "load": 0.25},
+    )
 
 
 def test_each_goal_is_held_to_its_reading(script):
@@ -281,9 +340,20 @@ def test_each_goal_is_held_to_its_reading(script):
             "frame",
             Reading("textbook / full frame", "x", 9.5, 9.0, 9.9, 20, "cpu", at),
             Reading("textbook / full frame", "x", 8.5, 8.0, 8.9, 20, "cpu", {**at, "n": 512}),
-            Reading("full frame / floor", "x", 1.05, 1.0, 1.1, 20, "cpu", {"n": 256, "backend": "pyfftw"}),
+            Reading(
+                "full frame / floor",
+                "x",
+                1.05,
+                1.0,
+                1.1,
+                20,
+                "cpu",
+                {"n": 256, "backend": "pyfftw"},
+            ),
         ),
-        "memory": invented("memory", Reading("peak above imports", "MiB", 401.0, 400.0, 402.0, 3, "", {"n": 2048})),
+        "memory": invented(
+            "memory", Reading("peak above imports", "MiB", 401.0, 400.0, 402.0, 3, "", {"n": 2048})
+        ),
     }
     lines = report.report(results).splitlines()
 
@@ -291,21 +361,42 @@ def test_each_goal_is_held_to_its_reading(script):
         (line,) = (line for line in lines if line.startswith(f"| {words} |"))
         return [cell.strip() for cell in line.strip("|").split("|")]
 
-    assert row("textbook NumPy / full frame, 256 x 256, pyfftw")[1:] == ["at least 9 x", "9.5 x", "9 to 9.9", "met"]
-    assert row("textbook NumPy / full frame, 512 x 512, pyfftw")[1:] == ["at least 9 x", "8.5 x", "8 to 8.9", "**not met**"]
+    assert row("textbook NumPy / full frame, 256 x 256, pyfftw")[1:] == [
+        "at least 9 x",
+        "9.5 x",
+        "9 to 9.9",
+        "met",
+    ]
+    assert row("textbook NumPy / full frame, 512 x 512, pyfftw")[1:] == [
+        "at least 9 x",
+        "8.5 x",
+        "8 to 8.9",
+        "**not met**",
+    ]
     assert row("full frame / eight raw c2r and a copy, 256 x 256, pyfftw")[-1] == "met"
-    assert row("peak memory above imports, full frames, 2048 x 2048")[1:] == ["at most 400 MiB", "401 MiB", "400 to 402", "**not met**"]
+    assert row("peak memory above imports, full frames, 2048 x 2048")[1:] == [
+        "at most 400 MiB",
+        "401 MiB",
+        "400 to 402",
+        "**not met**",
+    ]
     assert row("first frame after installation")[1:] == ["at most 15", "not measured", "", ""]
     assert len([line for line in lines if "not measured" in line]) == len(report.goals()) - 4
 
 
 def test_every_goal_names_a_reading_that_its_question_makes(script, tmp_path):
-    """What the goals look for is what the questions write: at tiny sizes, put in the goals' place."""
+    """
+    What the goals look for is what the questions write: at tiny sizes, put in the goals' place.
+    """
     report = script("report")
     made = {"frame": asked(script, "frame", tmp_path, "--n", "16", "--seconds", "0")[0]}
     made["direct_sum"] = asked(script, "direct_sum", tmp_path, "--n", "4", "8", "--seconds", "0")[0]
     for goal in report.goals():
-        if goal.question in made and goal.at.get("backend", "scipy") in machine.backends() and host.cores() > 1:
+        if (
+            goal.question in made
+            and goal.at.get("backend", "scipy") in machine.backends()
+            and host.cores() > 1
+        ):
             size = {"n": 16} if goal.question == "frame" else {"n": 8}
             assert len(made[goal.question].all(goal.reading, **{**goal.at, **size})) == 1, goal
     sources = {name: (FOLDER / f"{name}.py").read_text() for name in ("memory", "startup", "bake")}
@@ -321,8 +412,13 @@ def test_the_report_is_made_from_the_files_and_from_nothing_else(script):
     assert (FOLDER / "RESULTS.md").read_text(encoding="utf-8") == report.report(report.gather())
 
 
-def test_every_question_is_asked_by_the_one_command_and_has_its_picture(script, monkeypatch, tmp_path):
-    """`all.py` runs each script with the flags that this script knows, and writes the report of what is there."""
+def test_every_question_is_asked_by_the_one_command_and_has_its_picture(
+    script, monkeypatch, tmp_path
+):
+    """
+    `all.py` runs each script with the flags that this script knows, and writes the report of what
+    is there.
+    """
     everything = script("all")
     ran = []
 
@@ -347,7 +443,9 @@ def test_every_question_is_asked_by_the_one_command_and_has_its_picture(script, 
         assert str(tmp_path / "results" / f"{name}.png") in flags
         parser = __import__("argparse").ArgumentParser()
         script(name).flags(parser)
-        parser.parse_args(flags[: flags.index("--json")])  # leaves with an error if a flag is unknown
+        parser.parse_args(
+            flags[: flags.index("--json")]
+        )  # leaves with an error if a flag is unknown
     monkeypatch.setattr(everything.subprocess, "run", lambda *_, **__: Done())
     assert everything.main(["--only", "frame", "--output", str(tmp_path)]) == 0
 

@@ -1,11 +1,22 @@
-"""Every contender makes the same water, or it is no contender; every floor is really eight inverse transforms."""
+"""
+Every contender makes the same water, or it is no contender; every floor is really eight inverse
+transforms.
+"""
 
 import numpy as np
 import pytest
 
 import fftocean as fo
 from fftocean.bench import contenders
-from fftocean.bench.contenders import Careful, DirectSum, Fast, Textbook, floor, require_same_water, same_water
+from fftocean.bench.contenders import (
+    Careful,
+    DirectSum,
+    Fast,
+    Textbook,
+    floor,
+    require_same_water,
+    same_water,
+)
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT
@@ -15,10 +26,14 @@ SHALLOW = {"n": (24, 31), "size": (300.0, 200.0), "seed": 3}
 
 
 def shallow(dtype="float64"):
-    return fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=1e5, depth=8.0), **SHALLOW, dtype=dtype, choppiness=0.7)
+    return fo.Ocean(
+        fo.Sea.from_wind(speed=10.0, fetch=1e5, depth=8.0), **SHALLOW, dtype=dtype, choppiness=0.7
+    )
 
 
-@pytest.mark.parametrize("make", [lambda: ocean(32, dtype="float64"), shallow], ids=["deep square", "shallow oblong"])
+@pytest.mark.parametrize(
+    "make", [lambda: ocean(32, dtype="float64"), shallow], ids=["deep square", "shallow oblong"]
+)
 def test_all_make_the_same_water(make):
     own = make()
     assert same_water(own, Textbook(own)) < 1e-13  # two double-precision transforms of 1e3 points
@@ -28,7 +43,10 @@ def test_all_make_the_same_water(make):
 
 
 def test_waves_that_none_comes_toward_are_the_same_too():
-    """Of each pair k and -k only one wave is there: its other half in the spectrum turns with it, not with a wave of its own."""
+    """
+    Of each pair k and -k only one wave is there: its other half in the spectrum turns with it, not
+    with a wave of its own.
+    """
     waves = [(1, 0, 0.5, 0.3), (-2, 3, 0.2, 1.0), (0, -4, 0.1, 2.0)]
     own = fo.Ocean.from_modes(waves, n=16, size=100.0, dtype="float64")
     for kind in (Textbook, DirectSum):
@@ -38,7 +56,12 @@ def test_waves_that_none_comes_toward_are_the_same_too():
 
 def test_all_make_the_same_water_in_single_precision():
     own = ocean(32)
-    assert require_same_water(own, {"t": Textbook(own), "c": Careful(own), "d": DirectSum(own)}, within=WITHIN) < 1e-6
+    assert (
+        require_same_water(
+            own, {"t": Textbook(own), "c": Careful(own), "d": DirectSum(own)}, within=WITHIN
+        )
+        < 1e-6
+    )
 
 
 def test_a_part_of_the_points_is_compared_where_it_is():
@@ -71,7 +94,9 @@ def test_no_two_calls_make_the_same_frame(kind, monkeypatch):
     contender = kind(own)
     if kind is Fast:
         real = fo.Ocean.frame
-        monkeypatch.setattr(fo.Ocean, "frame", lambda self, t, *a, **k: (seen.append(t), real(self, t, *a, **k))[1])
+        monkeypatch.setattr(
+            fo.Ocean, "frame", lambda self, t, *a, **k: (seen.append(t), real(self, t, *a, **k))[1]
+        )
     else:
         real = kind.at
         monkeypatch.setattr(kind, "at", lambda self, t: (seen.append(t), real(self, t))[1])
@@ -92,7 +117,10 @@ LIBRARIES = [name for name in contenders._PLANNERS if name != "mkl" or contender
 @pytest.mark.parametrize("library", LIBRARIES)
 @pytest.mark.parametrize("n", [32, 45])
 def test_the_floor_is_eight_inverse_transforms_and_a_copy(library, n):
-    """Filled with the spectra of known fields, it must give these fields back, n^2 times, and copy them."""
+    """
+    Filled with the spectra of known fields, it must give these fields back, n^2 times, and copy
+    them.
+    """
     bare = floor(n, library)
     fields = np.random.default_rng(n).standard_normal((8, n, n))
     bare.spectra[:] = np.fft.rfft2(fields)
@@ -100,7 +128,9 @@ def test_the_floor_is_eight_inverse_transforms_and_a_copy(library, n):
     assert copied is bare.copied
     assert copied is not bare.fields
     np.testing.assert_array_equal(copied, bare.fields)
-    assert np.max(np.abs(copied / n**2 - fields)) < 5e-7 * np.max(np.abs(fields))  # Parseval's bound of float32 in RELIABILITY
+    assert np.max(np.abs(copied / n**2 - fields)) < 5e-7 * np.max(
+        np.abs(fields)
+    )  # Parseval's bound of float32 in RELIABILITY
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
@@ -108,7 +138,9 @@ def test_the_floor_is_eight_inverse_transforms_and_a_copy(library, n):
 def test_the_floor_keeps_the_faster_of_two_ways_and_both_are_right(library, how, monkeypatch):
     """The stop watch is ours: it finds the way that we name the faster one."""
     ways = iter(("all at once", "one by one"))
-    monkeypatch.setattr(contenders.timeit, "repeat", lambda *_, **__: [1.0, 0.5 if next(ways) == how else 0.75])
+    monkeypatch.setattr(
+        contenders.timeit, "repeat", lambda *_, **__: [1.0, 0.5 if next(ways) == how else 0.75]
+    )
     bare = floor(20, library, count=3)
     assert bare.how == how
     fields = np.random.default_rng(2).standard_normal((3, 20, 20))
@@ -123,7 +155,12 @@ def test_the_floor_times_zeros_that_stay_zeros(library):
         bare()
     assert not bare.spectra.any()
     assert not bare.fields.any()
-    assert bare.spectra.ctypes.data % 64 == bare.fields.ctypes.data % 64 == bare.copied.ctypes.data % 64 == 0
+    assert (
+        bare.spectra.ctypes.data % 64
+        == bare.fields.ctypes.data % 64
+        == bare.copied.ctypes.data % 64
+        == 0
+    )
 
 
 def test_what_planning_scribbles_is_wiped_away(monkeypatch):
@@ -136,7 +173,9 @@ def test_what_planning_scribbles_is_wiped_away(monkeypatch):
 
 
 def test_an_unknown_or_absent_library_has_no_floor(monkeypatch):
-    with pytest.raises(ParameterError, match="library must be one of pyfftw, mkl, scipy, got 'fftpack'"):
+    with pytest.raises(
+        ParameterError, match="library must be one of pyfftw, mkl, scipy, got 'fftpack'"
+    ):
         floor(16, "fftpack")
     monkeypatch.setattr(contenders, "mkl_candidates", list)
     with pytest.raises(ParameterError, match="'mkl' must be installed"):

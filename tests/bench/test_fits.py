@@ -32,12 +32,17 @@ def test_the_standard_error_is_that_of_linear_regression():
 
 
 def test_the_standard_error_covers_the_truth_as_often_as_it_should():
-    """Of 400 fits to noise of 10 %, two standard errors hold the true exponent in 93 % (Student's t with 9 degrees: 0.9234)."""
+    """
+    Of 400 fits to noise of 10 %, two standard errors hold the true exponent in 93 % (Student's t
+    with 9 degrees: 0.9234).
+    """
     hits = 0
     for seed in range(400):
         law = power_law(SIZES, noisy(SIZES**2, 0.1, seed))
         hits += abs(law.exponent - 2.0) < 2.0 * law.error
-    assert hits / 400 == pytest.approx(0.9234, abs=3.0 * np.sqrt(0.9234 * 0.0766 / 400))  # three standard deviations of a binomial
+    assert hits / 400 == pytest.approx(
+        0.9234, abs=3.0 * np.sqrt(0.9234 * 0.0766 / 400)
+    )  # three standard deviations of a binomial
 
 
 def test_the_laws_are_what_they_are_called():
@@ -55,7 +60,9 @@ def test_overhead_and_factor_are_told_apart(law):
 
 
 def test_the_wrong_law_misfits():
-    """A sum that grows as N^2 is no N log N, nor the other way round; noise of 5 % does not hide it."""
+    """
+    A sum that grows as N^2 is no N log N, nor the other way round; noise of 5 % does not hide it.
+    """
     work = SIZES**2
     for right, wrong in ((n_log_n, square), (square, n_log_n)):
         times = noisy(1e-4 + 1e-7 * right(work), 0.05, 1)
@@ -91,7 +98,10 @@ def test_two_points_are_no_law():
 
 
 def test_the_crossing_of_two_powers_is_where_they_meet():
-    """2 n^4 = 50 n^2 at n = 5: both are straight lines between the logarithms, so that the point between two sizes is exact."""
+    """
+    2 n^4 = 50 n^2 at n = 5: both are straight lines between the logarithms, so that the point
+    between two sizes is exact.
+    """
     cross = crossover(SIZES, 50.0 * SIZES**2, 2.0 * SIZES**4)
     assert (cross.below, cross.above) == (4.0, 6.0)
     assert cross.at == pytest.approx(5.0, rel=1e-12)

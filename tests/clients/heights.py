@@ -7,19 +7,28 @@ import fftocean as fo
 
 
 def heights_bake(engine, folder):
-    """Bake heights by place for an engine; return what the sidecar says, and our own heights (frames, ny, nx) [m]."""
-    baked = job(bake__engine=engine, bake__format="bin", bake__maps=["height"], bake__lookup="eulerian")
+    """
+    Bake heights by place for an engine; return what the sidecar says, and our own heights (frames,
+    ny, nx) [m].
+    """
+    baked = job(
+        bake__engine=engine, bake__format="bin", bake__maps=["height"], bake__lookup="eulerian"
+    )
     fo.bake(baked, folder, executor="serial")
     water = fo.Eulerian(baked.ocean(dtype="float64"))
-    fields = [water.frame(j * LOOP / FRAMES, ("height",)).height.astype(float) for j in range(FRAMES)]
+    fields = [
+        water.frame(j * LOOP / FRAMES, ("height",)).height.astype(float) for j in range(FRAMES)
+    ]
     return Text.of(folder, "height"), np.stack(fields)
 
 
 def questions(said, heights):
     """
-    Return places X, Z and times, (points, 3), with the heights there in the engine's unit, and their tolerance.
+    Return places X, Z and times, (points, 3), with the heights there in the engine's unit, and
+    their tolerance.
 
-    At samples, between them, outside the tile, before the start and after the loop. A reader weighs halves, each off by half its step.
+    At samples, between them, outside the tile, before the start and after the loop. A reader weighs
+    halves, each off by half its step.
     """
     rng = np.random.default_rng(5)
     x = np.concatenate([[0.0, OBLONG[0] / 32, -0.001, 1234.5], rng.uniform(-100, 100, 40)])
@@ -33,4 +42,8 @@ def questions(said, heights):
     place = said.world(x, y)
     horizontal = ["XYZ".index(letter) for letter, (axis, _) in said.axes.items() if axis != "z"]
     rounding = 0.5 * half_step(np.abs(heights).max())
-    return np.column_stack([place[:, horizontal], t]), said.per_metre * expected, said.per_metre * (rounding + 1e-5)
+    return (
+        np.column_stack([place[:, horizontal], t]),
+        said.per_metre * expected,
+        said.per_metre * (rounding + 1e-5),
+    )

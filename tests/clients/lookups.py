@@ -10,12 +10,21 @@ from web import floats
 import fftocean as fo
 
 MAPS = ("displacement", "derivative", "normal", "height")
-SUFFIX = {"exr": "/{frame:04d}.exr", "exr-float": "/{frame:04d}.exr", "exr-atlas": ".exr", "bin": ".bin", "ktx2": ".ktx2"}
+SUFFIX = {
+    "exr": "/{frame:04d}.exr",
+    "exr-float": "/{frame:04d}.exr",
+    "exr-atlas": ".exr",
+    "bin": ".bin",
+    "ktx2": ".ktx2",
+}
 
 
 @dataclass
 class Lookup:
-    """One map of one format and frame: the numbers that the engine found, those that it must find, and their tolerance."""
+    """
+    One map of one format and frame: the numbers that the engine found, those that it must find, and
+    their tolerance.
+    """
 
     keys: list
     seen: np.ndarray
@@ -34,18 +43,26 @@ def baked(browser, engine, format_, maps, label, **keys):
 
 
 def texture(folder, format_, name, frame, **more):
-    """Return how a page loads one map of a bake: by the loader of the format, from these addresses."""
+    """
+    Return how a page loads one map of a bake: by the loader of the format, from these addresses.
+    """
     path = f"{name}{SUFFIX[format_].format(frame=frame)}"
     assert (folder / path).is_file()
-    return {"loader": format_, "url": f"/bakes/{folder.name}/{path}", "sidecar": f"/bakes/{folder.name}/{name}.json", **more}
+    return {
+        "loader": format_,
+        "url": f"/bakes/{folder.name}/{path}",
+        "sidecar": f"/bakes/{folder.name}/{name}.json",
+        **more,
+    }
 
 
 def look_up(browser, engine, page, formats, frames):
     """
     Return {(format, map, frame): Lookup}, of all formats by one page, and the page's other answers.
 
-    A half is off by half its step at most. Between samples, the weights of a filter are fractions of 8 bits or more, so that 1/256 of
-    the difference of neighbours may be added along each axis. At samples some tiles away, u has single precision: 1e-4 of a texel.
+    A half is off by half its step at most. Between samples, the weights of a filter are fractions
+    of 8 bits or more, so that 1/256 of the difference of neighbours may be added along each axis.
+    At samples some tiles away, u has single precision: 1e-4 of a texel.
     """
     x, y, exact = places()
     weights = np.where(exact, 1e-4, 2 / 256)[:, None]
@@ -55,21 +72,31 @@ def look_up(browser, engine, page, formats, frames):
         water = truth(asked)
         for name in maps:
             said = Text.of(folder, name)
-            keys = sorted(key for key in said.meaning if name != "derivative" or not key.startswith("normal"))  # those are no sums
+            keys = sorted(
+                key for key in said.meaning if name != "derivative" or not key.startswith("normal")
+            )  # those are no sums
             fields = np.stack([said.expected(water, key) for key in keys], axis=-1)
             for frame in frames:
                 at = f"{format_} {name} {frame}"
                 textures[at] = texture(folder, format_, name, frame)
                 time = frame * LOOP / FRAMES + 2 * LOOP
-                rows = np.concatenate([said.world(x, y), np.full((x.size, 1), time)], axis=1).tolist()
+                rows = np.concatenate(
+                    [said.world(x, y), np.full((x.size, 1), time)], axis=1
+                ).tolist()
                 meaning = [said.meaning[key] for key in keys]
-                samples.append({"texture": at, "sampling": said.sampling, "meaning": meaning, "places": rows})
+                samples.append(
+                    {"texture": at, "sampling": said.sampling, "meaning": meaning, "places": rows}
+                )
                 largest = np.abs(fields).max()
                 rounding = 1e-6 * largest if format_ == "exr-float" else 0.5 * half_step(largest)
                 if "packed" in said.conventions["normals"] and name == "normal":
-                    rounding = 2e-7 if format_ == "exr-float" else half_step(0.5)  # n = 2 c - 1, where c is below 1
+                    rounding = (
+                        2e-7 if format_ == "exr-float" else half_step(0.5)
+                    )  # n = 2 c - 1, where c is below 1
                 expected = between(fields[frame], x, y, OBLONG)
-                answers.append(((format_, name, frame), keys, expected, rounding + weights * steepest(fields)))
+                answers.append(
+                    ((format_, name, frame), keys, expected, rounding + weights * steepest(fields))
+                )
     value, _ = browser.run(page, {"textures": textures, "samples": samples})
     assert value["error"] == 0
     found = {}
@@ -79,7 +106,10 @@ def look_up(browser, engine, page, formats, frames):
 
 
 def hold(found):
-    """Hold what an engine found against what it must find, and see that the map is not so flat that anything would pass."""
+    """
+    Hold what an engine found against what it must find, and see that the map is not so flat that
+    anything would pass.
+    """
     apart = np.abs(found.seen - found.expected)
     place, channel = np.unravel_index(np.argmax(apart / found.tolerance), apart.shape)
     said = f"{found.keys[channel]} is off by {apart[place, channel]:.3g} at place {place}, allowed {found.tolerance[place, channel]:.3g}"
@@ -89,7 +119,10 @@ def hold(found):
 
 
 def on_screen(value, said):
-    """Hold where the engine draws X and Z, looking down with north up: east to the right, and north up."""
+    """
+    Hold where the engine draws X and Z, looking down with north up: east to the right, and north
+    up.
+    """
     east, north = (next(k for k, (axis, _) in said.axes.items() if axis == a) for a in "xy")
     for axis, sign, index in ((east, said.axes[east][1], 0), (north, said.axes[north][1], 1)):
         direction = np.array(value["screen"][axis][:2])

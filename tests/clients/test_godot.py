@@ -1,4 +1,7 @@
-"""Godot 4.6, its web build in a browser: the GDScript reader, a Texture2DArray in a shader, and a normal map in its stock material."""
+"""
+Godot 4.6, its web build in a browser: the GDScript reader, a Texture2DArray in a shader, and a
+normal map in its stock material.
+"""
 
 import base64
 import json
@@ -21,9 +24,15 @@ FRAME = 3
 
 
 def shader(said, meaning):
-    """Return a canvas shader: the bits of up to four formulas of a map, looked up by the sidecar's, as bytes of a picture."""
+    """
+    Return a canvas shader: the bits of up to four formulas of a map, looked up by the sidecar's, as
+    bytes of a picture.
+    """
     real = lambda text: re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"\1.0", text)  # noqa: E731
-    numbers = "".join(f"const float {name} = {float(number)!r};\n" for name, number in said.sampling["values"].items())
+    numbers = "".join(
+        f"const float {name} = {float(number)!r};\n"
+        for name, number in said.sampling["values"].items()
+    )
     given = [real(text) for text in meaning] + ["0.0"] * (4 - len(meaning))
     return f"""shader_type canvas_item;
 render_mode unshaded, blend_disabled;
@@ -51,47 +60,87 @@ void fragment() {{
 
 @pytest.fixture(scope="module")
 def godot(browser):
-    """Run the project once on all bakes; return its answers, what it complained of, and what the tests must find."""
+    """
+    Run the project once on all bakes; return its answers, what it complained of, and what the tests
+    must find.
+    """
     site = browser.site.folders["bakes"]
     said, heights = heights_bake("godot", site / "godot-heights")
     points, expected, tolerance = questions(said, heights)
     asked, folder = baked(browser, "godot", "bin", MAPS, "sea")
-    files = {name: (HERE / "godot" / name).read_bytes() for name in ("project.godot", "main.tscn", "main.gd")}
+    files = {
+        name: (HERE / "godot" / name).read_bytes()
+        for name in ("project.godot", "main.tscn", "main.gd")
+    }
     files["sea_heights.gd"] = READER.read_bytes()
-    files |= {f"sea/{file}": (site / "godot-heights" / file).read_bytes() for file in ("height.json", "height.bin")}
-    files["sea/other.json"] = json.dumps({**json.loads(files["sea/height.json"]), "lookup": "lagrangian"}).encode()
-    files |= {f"sea/{m}.{end}": (folder / f"{m}.{end}").read_bytes() for m in MAPS for end in ("json", "bin")}
+    files |= {
+        f"sea/{file}": (site / "godot-heights" / file).read_bytes()
+        for file in ("height.json", "height.bin")
+    }
+    files["sea/other.json"] = json.dumps(
+        {**json.loads(files["sea/height.json"]), "lookup": "lagrangian"}
+    ).encode()
+    files |= {
+        f"sea/{m}.{end}": (folder / f"{m}.{end}").read_bytes()
+        for m in MAPS
+        for end in ("json", "bin")
+    }
     for sea, wind in (("flat", 0.0), ("sea", 7.0)):
-        steep, one = baked(browser, "godot", "bin", ["normal"], sea + "-lit", ocean__size=SQUARE, sea__wind__speed=wind)
-        files |= {f"sea/normal_{sea}.{end}": (one / f"normal.{end}").read_bytes() for end in ("json", "bin")}
+        steep, one = baked(
+            browser,
+            "godot",
+            "bin",
+            ["normal"],
+            sea + "-lit",
+            ocean__size=SQUARE,
+            sea__wind__speed=wind,
+        )
+        files |= {
+            f"sea/normal_{sea}.{end}": (one / f"normal.{end}").read_bytes()
+            for end in ("json", "bin")
+        }
     x, y, exact = places()
     water, shaders, lookups = truth(asked), {}, {}
     for name in MAPS:
         text = Text.of(folder, name)
-        keys = sorted(key for key in text.meaning if name != "derivative" or not key.startswith("normal"))
+        keys = sorted(
+            key for key in text.meaning if name != "derivative" or not key.startswith("normal")
+        )
         shaders[name] = shader(text, [text.meaning[key] for key in keys])
         fields = np.stack([text.expected(water, key) for key in keys], axis=-1)
         packed = name == "normal" and "packed" in text.conventions["normals"]
         rounding = half_step(0.5) if packed else 0.5 * half_step(np.abs(fields).max())
-        # weights of a filter: fractions of 8 bits or more along each axis; at samples, single precision of u some tiles away
+        # weights of a filter: fractions of 8 bits or more along each axis; at samples, single
+        # precision of u some tiles away
         allowed = rounding + np.where(exact, 1e-4, 2 / 256)[:, None] * steepest(fields)
         lookups[name] = keys, between(fields[FRAME], x, y, OBLONG), allowed
-    rows = np.concatenate([text.world(x, y), np.full((x.size, 1), FRAME * LOOP / FRAMES + 2 * LOOP)], axis=1)
+    rows = np.concatenate(
+        [text.world(x, y), np.full((x.size, 1), FRAME * LOOP / FRAMES + 2 * LOOP)], axis=1
+    )
     ask = {"points": points.tolist(), "places": rows.ravel().tolist(), "maps": shaders}
     files["ask.json"] = json.dumps(ask).encode()
     (site / "godot.pck").write_bytes(pack(files))
     value, _ = browser.run("godot.html", {"pack": "/bakes/godot.pck"})
     waves = truth(steep)
     normals = np.stack([waves[f"normal_{axis}"][0] for axis in "xyz"], axis=-1)
-    return value["answers"], value["errors"], {"normals": normals, "heights": (expected, tolerance), "lookups": lookups, "said": text}
+    return (
+        value["answers"],
+        value["errors"],
+        {"normals": normals, "heights": (expected, tolerance), "lookups": lookups, "said": text},
+    )
 
 
 def test_the_reader_finds_the_water_and_refuses_what_it_does_not_understand(godot):
-    """Heights at samples, between them, outside the tile and the loop; and a sidecar of another lookup gives none."""
+    """
+    Heights at samples, between them, outside the tile and the loop; and a sidecar of another lookup
+    gives none.
+    """
     answers, errors, must = godot
     expected, tolerance = must["heights"]
     found = np.array(answers["heights"])
-    print(f"Godot {answers['version']}: largest {np.abs(found - expected).max():.3g} m, allowed {tolerance:.3g} m")
+    print(
+        f"Godot {answers['version']}: largest {np.abs(found - expected).max():.3g} m, allowed {tolerance:.3g} m"
+    )
     assert np.abs(found - expected).max() <= tolerance
     assert answers["refused"] == ["lookup must be eulerian, got lagrangian", True]
     assert any("lookup must be eulerian" in error for error in errors)
@@ -99,10 +148,17 @@ def test_the_reader_finds_the_water_and_refuses_what_it_does_not_understand(godo
 
 @pytest.mark.parametrize("name", MAPS)
 def test_a_texture_array_in_a_shader_is_the_water(godot, name):
-    """At every sample, the same some tiles away, and between samples, the channels give what the formulas say they give."""
+    """
+    At every sample, the same some tiles away, and between samples, the channels give what the
+    formulas say they give.
+    """
     answers, _, must = godot
     keys, expected, tolerance = must["lookups"][name]
-    pixels = np.frombuffer(base64.b64decode(answers[name]), np.uint8).reshape(8, len(expected), 4).astype(np.uint32)
+    pixels = (
+        np.frombuffer(base64.b64decode(answers[name]), np.uint8)
+        .reshape(8, len(expected), 4)
+        .astype(np.uint32)
+    )
     halves = pixels[..., 0] | pixels[..., 1] << 8
     bits = halves[0::2] | halves[1::2] << 16
     seen = bits.astype("<u4").view("<f4").astype(float).T[:, : len(keys)]
@@ -111,14 +167,17 @@ def test_a_texture_array_in_a_shader_is_the_water(godot, name):
 
 def test_a_stock_material_lights_the_sea_by_its_normals(godot):
     """
-    A flat sea looks as if it had no normal map, to one step of 8 bits; a steep one is as bright as its normals face the sun.
+    A flat sea looks as if it had no normal map, to one step of 8 bits; a steep one is as bright as
+    its normals face the sun.
 
-    The sun stands along (0.334, 0.717, 0.611), main.gd's rotation in radians. Highlights and 8 bits leave a correlation above
-    0.99; with one sign of the normals turned it would be about 0.
+    The sun stands along (0.334, 0.717, 0.611), main.gd's rotation in radians. Highlights and 8 bits
+    leave a correlation above 0.99; with one sign of the normals turned it would be about 0.
     """
     answers, _, must = godot
     pictures = {
-        key[4:]: np.frombuffer(base64.b64decode(answers[key]), np.uint8).reshape(64, 64, 4) for key in answers if key.startswith("lit ")
+        key[4:]: np.frombuffer(base64.b64decode(answers[key]), np.uint8).reshape(64, 64, 4)
+        for key in answers
+        if key.startswith("lit ")
     }
     still = pictures[""].astype(int)
     assert still[..., :3].min() > 20
@@ -132,11 +191,16 @@ def test_a_stock_material_lights_the_sea_by_its_normals(godot):
     linear = np.where(seen <= 0.04045, seen / 12.92, ((seen + 0.055) / 1.055) ** 2.4)
     assert np.corrcoef(linear, facing)[0, 1] > 0.99
     for turned in ([-1, 1, 1], [1, -1, 1]):
-        assert np.corrcoef(linear, normals * turned @ [0.334, -0.611, 0.717])[0, 1] < 0.5  # what must fail would fail
+        assert (
+            np.corrcoef(linear, normals * turned @ [0.334, -0.611, 0.717])[0, 1] < 0.5
+        )  # what must fail would fail
 
 
 def test_the_axes_lie_on_the_screen_as_the_manifest_says(godot):
-    """A right-handed frame with Y up: the engine's own camera puts the axes where "east" and "north" are."""
+    """
+    A right-handed frame with Y up: the engine's own camera puts the axes where "east" and "north"
+    are.
+    """
     answers, _, must = godot
     assert must["said"].handed == "right"
     on_screen(answers, must["said"])

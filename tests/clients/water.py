@@ -14,7 +14,9 @@ OBLONG, SQUARE = (50.0, 20.0), (40.0, 40.0)  # [m]
 
 
 def job(**keys):
-    """Return a small, steep sea on an oblong tile; keys with `_` for `.`, such as bake_engine="three"."""
+    """
+    Return a small, steep sea on an oblong tile; keys with `_` for `.`, such as bake_engine="three".
+    """
     settings = {
         "ocean.n": N,
         "ocean.size": OBLONG,
@@ -25,14 +27,28 @@ def job(**keys):
         "sea.wind.speed": 7.0,
         "sea.wind.direction": 30.0,
     }
-    return fo.Job.default().replaced({**settings, **{k.replace("__", "."): v for k, v in keys.items()}})
+    return fo.Job.default().replaced(
+        {**settings, **{k.replace("__", "."): v for k, v in keys.items()}}
+    )
 
 
-FIELDS = ("height", "displace_x", "displace_y", "slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+FIELDS = (
+    "height",
+    "displace_x",
+    "displace_y",
+    "slope_x",
+    "slope_y",
+    "stretch_xx",
+    "stretch_xy",
+    "stretch_yy",
+)
 
 
 def truth(baked):
-    """Return the job's water by names, in our own axes, metres, row 0 south, each (frames, ny, nx), float64: by its ocean alone."""
+    """
+    Return the job's water by names, in our own axes, metres, row 0 south, each (frames, ny, nx),
+    float64: by its ocean alone.
+    """
     ocean = baked.ocean(dtype="float64")
     frames = [ocean.frame(j * LOOP / FRAMES, FIELDS) for j in range(FRAMES)]
     of = lambda name: np.stack([getattr(f, name) for f in frames]).astype(float)  # noqa: E731
@@ -58,22 +74,34 @@ def between(field, x, y, size):
 
 def places(size=OBLONG):
     """
-    Return x and y [m], and where they are samples: all samples of the tile, the same some tiles away, and the middles between samples
-    along each axis and along both.
+    Return x and y [m], and where they are samples: all samples of the tile, the same some tiles
+    away, and the middles between samples along each axis and along both.
     """
     (nx, ny), (lx, ly) = N, size
     j, i = (a.ravel() for a in np.mgrid[0:ny, 0:nx])
     shifts = ((0, 0), (2 * nx, -ny), (-3 * nx, 2 * ny), (0.5, 0), (0, 0.5), (0.5, 0.5))
-    x, y = (np.concatenate([(k + s[axis]) * side / n for s in shifts]) for axis, k, side, n in ((0, i, lx, nx), (1, j, ly, ny)))
+    x, y = (
+        np.concatenate([(k + s[axis]) * side / n for s in shifts])
+        for axis, k, side, n in ((0, i, lx, nx), (1, j, ly, ny))
+    )
     return x, y, np.arange(x.size) < 3 * i.size
 
 
-COMPASS = {"east": ("x", 1.0), "west": ("x", -1.0), "north": ("y", 1.0), "south": ("y", -1.0), "up": ("z", 1.0), "down": ("z", -1.0)}
+COMPASS = {
+    "east": ("x", 1.0),
+    "west": ("x", -1.0),
+    "north": ("y", 1.0),
+    "south": ("y", -1.0),
+    "up": ("z", 1.0),
+    "down": ("z", -1.0),
+}
 
 
 @dataclass
 class Text:
-    """What a bake says of a map: the frame of its numbers, and the formulas by which it is sampled."""
+    """
+    What a bake says of a map: the frame of its numbers, and the formulas by which it is sampled.
+    """
 
     conventions: dict
     sampling: dict  # formulas for places and times, and the numbers in them
@@ -93,7 +121,9 @@ class Text:
     @property
     def axes(self):
         """Return where each of the engine's axes points: {"X": ("x", 1.0), ...}."""
-        found = dict(re.findall(r"\b([XYZ]) (east|west|north|south|up|down)\b", self.conventions["axes"]))
+        found = dict(
+            re.findall(r"\b([XYZ]) (east|west|north|south|up|down)\b", self.conventions["axes"])
+        )
         assert sorted(found) == ["X", "Y", "Z"], self.conventions["axes"]
         return {letter: COMPASS[word] for letter, word in found.items()}
 
@@ -111,10 +141,19 @@ class Text:
     def world(self, x, y, z=0.0):
         """Return our x, y, z [m] in the engine's own axes and unit, (places, 3)."""
         ours = {"x": x, "y": y, "z": np.broadcast_to(z, np.shape(x))}
-        return np.stack([sign * self.per_metre * np.asarray(ours[axis]) for axis, sign in (self.axes[letter] for letter in "XYZ")], axis=-1)
+        return np.stack(
+            [
+                sign * self.per_metre * np.asarray(ours[axis])
+                for axis, sign in (self.axes[letter] for letter in "XYZ")
+            ],
+            axis=-1,
+        )
 
     def expected(self, fields, key):
-        """Return what the formula for `key` must give, of our fields (frames, ny, nx): "X", "slope_X", "stretch_X" or "normal_X"."""
+        """
+        Return what the formula for `key` must give, of our fields (frames, ny, nx): "X", "slope_X",
+        "stretch_X" or "normal_X".
+        """
         kind, _, letter = key.rpartition("_")
         axis, sign = self.axes[letter]
         if kind == "stretch":
@@ -132,5 +171,10 @@ def half_step(values):
 def steepest(field):
     """Return the largest difference of neighbouring samples, per channel, (channels,)."""
     return np.maximum(
-        *(np.max(np.abs(field - np.roll(field, 1, axis)), axis=(-3, -2)).reshape(-1, field.shape[-1]).max(axis=0) for axis in (-3, -2))
+        *(
+            np.max(np.abs(field - np.roll(field, 1, axis)), axis=(-3, -2))
+            .reshape(-1, field.shape[-1])
+            .max(axis=0)
+            for axis in (-3, -2)
+        )
     )

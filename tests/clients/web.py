@@ -1,4 +1,6 @@
-"""A server on a free port of the loopback interface, and a headless browser that opens its pages."""
+"""
+A server on a free port of the loopback interface, and a headless browser that opens its pages.
+"""
 
 import base64
 import functools
@@ -11,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-LONGEST = 300.0  # [s] that one page may take, also on a machine that is busy with other work; it takes a few
+# [s] that one page may take, also on a machine that is busy with other work; it takes a few
+LONGEST = 300.0
 
 
 class Site:
@@ -24,7 +27,9 @@ class Site:
         handler = functools.partial(_Handler, self.folders)
         self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
         self._server.daemon_threads = True
-        self._thread = threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.1})
+        self._thread = threading.Thread(
+            target=self._server.serve_forever, kwargs={"poll_interval": 0.1}
+        )
         self._thread.start()
         self.address = f"http://127.0.0.1:{self._server.server_address[1]}"
         return self
@@ -36,7 +41,9 @@ class Site:
 
 
 class _Handler(http.server.SimpleHTTPRequestHandler):
-    """GET of files below the folders; isolated from other origins, as engines with threads demand."""
+    """
+    GET of files below the folders; isolated from other origins, as engines with threads demand.
+    """
 
     extensions_map = {  # noqa: RUF012
         **http.server.SimpleHTTPRequestHandler.extensions_map,
@@ -70,13 +77,20 @@ class Browser:
 
     def __init__(self, chromium, modules, site, *, log):
         self.site = site
-        self._command = ["node", str(Path(__file__).with_name("driver.mjs")), chromium, str(modules)]
+        self._command = [
+            "node",
+            str(Path(__file__).with_name("driver.mjs")),
+            chromium,
+            str(modules),
+        ]
         self._log = log
 
     def __enter__(self):
         self._errors = self._log.open("wb")
         pipe = subprocess.PIPE
-        self._process = subprocess.Popen(self._command, stdin=pipe, stdout=pipe, stderr=self._errors)
+        self._process = subprocess.Popen(
+            self._command, stdin=pipe, stdout=pipe, stderr=self._errors
+        )
         self._lines = queue.SimpleQueue()
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
@@ -99,7 +113,9 @@ class Browser:
         self._errors.close()
 
     def run(self, page, args):
-        """Return what `run(args)` of a page gives; and its console, without errors, or the test fails."""
+        """
+        Return what `run(args)` of a page gives; and its console, without errors, or the test fails.
+        """
         url = f"{self.site.address}/pages/{page}"
         self._process.stdin.write(json.dumps({"url": url, "args": args}).encode() + b"\n")
         self._process.stdin.flush()
@@ -119,7 +135,9 @@ class Browser:
             self._process.kill()
             raise TimeoutError(f"the browser did not answer within {LONGEST:g} s") from None
         if line is None:
-            raise RuntimeError(f"the browser's driver ended: {self._log.read_text(errors='replace')[-2000:]}")
+            raise RuntimeError(
+                f"the browser's driver ended: {self._log.read_text(errors='replace')[-2000:]}"
+            )
         return json.loads(line)
 
 

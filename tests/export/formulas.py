@@ -1,4 +1,7 @@
-"""A small evaluator of the formulas in sidecars: numbers, names, + - * /, floor, mod, an index; nothing else."""
+"""
+A small evaluator of the formulas in sidecars: numbers, names, + - * /, floor, mod, an index;
+nothing else.
+"""
 
 import ast
 import functools
@@ -6,7 +9,12 @@ import operator
 
 import numpy as np
 
-OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
+OPERATORS = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
 FUNCTIONS = {"floor": np.floor, "mod": lambda a, b: a - b * np.floor(a / b)}
 
 
@@ -16,7 +24,9 @@ def parsed(formula):
 
 
 def value_of(formula, names):
-    """Return the value of a formula: numbers, names, + - * /, floor, mod, an index; nothing else."""
+    """
+    Return the value of a formula: numbers, names, + - * /, floor, mod, an index; nothing else.
+    """
 
     def of(node):
         match node:

@@ -1,4 +1,7 @@
-"""Bakes for engines from end to end: what is refused before anything is written, encodings of normals, the text beside the data."""
+"""
+Bakes for engines from end to end: what is refused before anything is written, encodings of normals,
+the text beside the data.
+"""
 
 import json
 
@@ -7,10 +10,10 @@ import pytest
 from formulas import value_of
 
 import fftocean as fo
-from fftocean.bake import baker
-from fftocean.bake.check import check
-from fftocean.bake.load import load
-from fftocean.bake.tiles import bake_tiles
+from fftocean.baking import bake as baker
+from fftocean.baking.cascade import bake_tiles
+from fftocean.baking.finished.check import check
+from fftocean.baking.finished.load import load
 from fftocean.cli import main
 from fftocean.errors import JobError
 from fftocean.export import engines, rules
@@ -28,7 +31,9 @@ def quick(monkeypatch):
 
 def job(**changes):
     small = {"ocean.n": (8, 6), "ocean.size": (40.0, 25.0), "bake.frames": 4, "bake.pictures": []}
-    return fo.Job.default().replaced({**small, **{key.replace("__", "."): value for key, value in changes.items()}})
+    return fo.Job.default().replaced(
+        {**small, **{key.replace("__", "."): value for key, value in changes.items()}}
+    )
 
 
 PAIRS = [pair for pair, cell in engines.TABLE.items() if isinstance(cell, engines.Refusal)]
@@ -49,12 +54,26 @@ def test_a_pair_that_cannot_be_writes_nothing(engine, form, tmp_path):
 
 @pytest.mark.parametrize("more", [[], ["--dry-run"], ["--tiles", "8:40,8:9"]])
 def test_the_command_line_names_the_way_out(more, tmp_path, capsys):
-    flags = ["bake", "-o", str(tmp_path / "out"), "--engine", "godot", "--format", "png16", "--maps", "height", *more]
+    flags = [
+        "bake",
+        "-o",
+        str(tmp_path / "out"),
+        "--engine",
+        "godot",
+        "--format",
+        "png16",
+        "--maps",
+        "height",
+        *more,
+    ]
     with pytest.raises(SystemExit) as caught:
         raise SystemExit(main(flags))
     assert caught.value.code == 2
     said = capsys.readouterr()
-    assert "engine godot cannot use format png16: it reads PNG with 8 bits; choose format exr" in said.err
+    assert (
+        "engine godot cannot use format png16: it reads PNG with 8 bits; choose format exr"
+        in said.err
+    )
     assert not (tmp_path / "out").exists()
 
 
@@ -62,7 +81,8 @@ def test_the_command_line_names_the_way_out(more, tmp_path, capsys):
 @pytest.mark.parametrize("form", [name for name in FORMATS if 3 in FORMATS[name].channels])
 def test_normals_are_read_back_from_either_encoding(form, normals, tmp_path):
     """
-    To the rounding of what is stored, doubled where n = 2 c - 1; recorded in the manifest, and in the sidecar.
+    To the rounding of what is stored, doubled where n = 2 c - 1; recorded in the manifest, and in
+    the sidecar.
 
     A half has steps of 2^-11 below 1; sixteen bits have steps of 2/65535 over -1..1.
     """
@@ -75,7 +95,11 @@ def test_normals_are_read_back_from_either_encoding(form, normals, tmp_path):
         text = json.loads((tmp_path / sidecar.format(stem="normal")).read_text())
         assert text.get("attributes", text)["conventions"]["normals"] == encoding
     frame = order.ocean().loop_frame(3, 4, ("normal",))
-    step = {"float16": 2.0**-12, "float32": 2.0**-25, "uint16": 0.5 / 65535 if normals == "packed" else 0.5 / 32767}
+    step = {
+        "float16": 2.0**-12,
+        "float32": 2.0**-25,
+        "uint16": 0.5 / 65535 if normals == "packed" else 0.5 / 32767,
+    }
     allowed = step[FORMATS[form].stored] * (2 if normals == "packed" else 1) + 2.0**-22
     assert np.max(np.abs(load(tmp_path)["normal"][3] - frame.normal)) <= allowed
 
@@ -87,7 +111,13 @@ def test_the_encoding_is_the_engines_own_unless_it_is_chosen(tmp_path):
         ("canonical", "engine", "signed"),
         ("canonical", "packed", "packed"),
     ):
-        order = job(bake__engine=engine, bake__format="bin", bake__normals=normals, bake__maps=["normal"], sea__wind__speed=0.0)
+        order = job(
+            bake__engine=engine,
+            bake__format="bin",
+            bake__normals=normals,
+            bake__maps=["normal"],
+            sea__wind__speed=0.0,
+        )
         folder = tmp_path / f"{engine}-{normals}"
         assert fo.bake(order, folder)["conventions"]["normals"].startswith(encoding)
         texel = np.fromfile(folder / "normal.bin", "<f2")[:3]
@@ -96,7 +126,9 @@ def test_the_encoding_is_the_engines_own_unless_it_is_chosen(tmp_path):
 
 
 def test_a_bake_of_an_older_version_is_read_as_it_was_written():
-    """Its manifest's words on rows and normals count; normals were signed before there was a choice."""
+    """
+    Its manifest's words on rows and normals count; normals were signed before there was a choice.
+    """
     from fftocean.export.profiles import recorded
 
     now = engines.profile_for("babylon", "exr")
@@ -108,7 +140,10 @@ def test_a_bake_of_an_older_version_is_read_as_it_was_written():
 
 @pytest.mark.parametrize("engine", ["godot", "unreal", "babylon", "three"])
 def test_the_manifest_says_what_a_sidecar_says(engine, tmp_path):
-    """For formats without one: rule, numbers, meaning of the channels; of a part of the loop, its own start and length."""
+    """
+    For formats without one: rule, numbers, meaning of the channels; of a part of the loop, its own
+    start and length.
+    """
     order = job(bake__engine=engine, bake__maps=["displacement"])
     fo.bake(order.replaced({"bake.format": "bin"}), tmp_path / "bin", frames="1:4:2")
     side = json.loads((tmp_path / "bin/displacement.json").read_text())
@@ -137,7 +172,8 @@ def test_a_part_that_does_not_close_says_so(tmp_path):
 @pytest.mark.parametrize("engine", ["canonical", "godot", "unreal"])
 def test_cascade_json_finds_the_sea(engine, tmp_path):
     """
-    Its rule for u and v, evaluated for points that are samples of both tiles; heights added: the direct sum of all waves.
+    Its rule for u and v, evaluated for points that are samples of both tiles; heights added: the
+    direct sum of all waves.
 
     Halves round heights below 4 m by at most 1 mm each.
     """
@@ -148,15 +184,22 @@ def test_cascade_json_finds_the_sea(engine, tmp_path):
     rule = listed["sampling"]
     scale = 100.0 if rule["unit"] == "cm" else 1.0
     axes = {name: points for name, points in rule["axes"].items() if points != "up"}
-    x, y = (at.ravel() for at in np.meshgrid(np.arange(-8.0, 40.0, 2.0), np.arange(-8.0, 40.0, 2.0)))
+    x, y = (
+        at.ravel() for at in np.meshgrid(np.arange(-8.0, 40.0, 2.0), np.arange(-8.0, 40.0, 2.0))
+    )
     ours = {"east": x, "north": y, "south": -y}
     total = np.zeros(x.shape)
     for tile in listed["tiles"]:
-        names = {key: value_of(rule[key], {"n": tile["n"], "size": tile["size"]}) for key in ("nx", "ny", "size_x", "size_y")}
+        names = {
+            key: value_of(rule[key], {"n": tile["n"], "size": tile["size"]})
+            for key in ("nx", "ny", "size_x", "size_y")
+        }
         names |= {name: scale * ours[points] for name, points in axes.items()}
         column = np.rint(value_of(rule["u"], names) * names["nx"] - 0.5).astype(int) % names["nx"]
         row = np.rint(value_of(rule["v"], names) * names["ny"] - 0.5).astype(int) % names["ny"]
-        texture = np.fromfile(tmp_path / tile["path"] / "height.bin", "<f2").reshape(-1, names["ny"], names["nx"], 4)
+        texture = np.fromfile(tmp_path / tile["path"] / "height.bin", "<f2").reshape(
+            -1, names["ny"], names["nx"], 4
+        )
         total += texture[0, row, column, 0].astype(float) / scale
     cascade = fo.Cascade(order.sea(), tiles, seed=order.settings["ocean.seed"], loop=16.0)
     expected = fo.gerstner.surface(cascade, x, y, 0.0).z

@@ -1,4 +1,7 @@
-"""The Blender example refuses every bake that it would show wrongly, before Blender is needed; the rest it understands."""
+"""
+The Blender example refuses every bake that it would show wrongly, before Blender is needed; the
+rest it understands.
+"""
 
 import importlib.util
 import json
@@ -11,7 +14,7 @@ from unittest.mock import MagicMock
 import pytest
 
 import fftocean as fo
-from fftocean.bake import baker
+from fftocean.baking import bake as baker
 
 SCRIPT = Path(__file__).resolve().parents[2] / "examples" / "blender" / "displace.py"
 SMALL = {
@@ -44,18 +47,28 @@ def script():
 @pytest.mark.parametrize("form", ["exr", "exr-float"])
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
 def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
-    manifest = fo.bake(fo.Job.default().replaced({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path)
+    manifest = fo.bake(
+        fo.Job.default().replaced({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path
+    )
     assert script.read_bake(tmp_path) == json.loads(json.dumps(manifest))
 
 
 @pytest.mark.parametrize(
     ("changes", "frames", "why"),
     [
-        ({"bake.format": "png16"}, None, "format exr or exr-float, got png16: bake with --format exr"),
+        (
+            {"bake.format": "png16"},
+            None,
+            "format exr or exr-float, got png16: bake with --format exr",
+        ),
         ({"bake.format": "npz"}, None, "must be sampled at .*: bake with --engine blender"),
         ({}, "0:2", "must hold the whole loop, got frames 0:2:1 of 4"),
         ({}, "0:4:2", "must hold the whole loop, got frames 0:3:2 of 4"),
-        ({"bake.maps": ["height"]}, None, "must have displacement maps, got height: bake with --maps displacement"),
+        (
+            {"bake.maps": ["height"]},
+            None,
+            "must have displacement maps, got height: bake with --maps displacement",
+        ),
         ({"bake.engine": "unity"}, None, "not in Blender's axes"),
         ({"bake.engine": "unreal"}, None, "not in Blender's axes"),
     ],
@@ -85,12 +98,19 @@ def test_what_is_no_bake_or_another_tools_is_refused(script, tmp_path):
 
 
 def test_the_image_sequence_is_set_as_the_page_says(script, monkeypatch):
-    """The numbers of docs/engines.md for Blender's image user are those that the example sets; Blender itself is not asked here."""
+    """
+    The numbers of docs/engines.md for Blender's image user are those that the example sets; Blender
+    itself is not asked here.
+    """
     monkeypatch.setitem(sys.modules, "bpy", MagicMock())
     page = (SCRIPT.parents[2] / "docs" / "engines.md").read_text(encoding="utf-8")
     user = script.sequence_texture([Path(f"{j:04d}.exr") for j in range(6)]).image_user
     (start,) = re.findall(r"\*\*Start\*\* (\d+)", page)
     (offset,) = re.findall(r"\*\*Offset (-?\d+)\*\*", page)
-    assert (user.frame_start, user.frame_offset, user.frame_duration) == (int(start), int(offset), 6)
+    assert (user.frame_start, user.frame_offset, user.frame_duration) == (
+        int(start),
+        int(offset),
+        6,
+    )
     assert user.use_cyclic is True
     assert user.use_auto_refresh is True

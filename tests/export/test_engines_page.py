@@ -1,4 +1,7 @@
-"""The page for users says what the table of engines does: its own tables and rules are read as a machine would."""
+"""
+The page for users says what the table of engines does: its own tables and rules are read as a
+machine would.
+"""
 
 import re
 from pathlib import Path
@@ -13,13 +16,21 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "engines.md").read_text(e
 
 
 def table(heading):
-    """The rows of the table that begins with a heading, the heading first, without the line below it."""
+    """
+    The rows of the table that begins with a heading, the heading first, without the line below it.
+    """
     lines = PAGE[PAGE.index(f"| {heading} |") :].split("\n\n")[0].splitlines()
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in [lines[0], *lines[2:]]]
+    return [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in [lines[0], *lines[2:]]
+    ]
 
 
 def usable(engine, loaded):
-    return [cell for (name, _), cell in TABLE.items() if name == engine and not isinstance(cell, Refusal) and cell.loaded == loaded]
+    return [
+        cell
+        for (name, _), cell in TABLE.items()
+        if name == engine and not isinstance(cell, Refusal) and cell.loaded == loaded
+    ]
 
 
 def test_the_table_of_engines_is_the_profiles():
@@ -29,13 +40,24 @@ def test_the_table_of_engines_is_the_profiles():
         if files in ("raw", "pictures"):
             told[shown, files == "pictures"] = facts
         else:
-            told |= dict.fromkeys([(name.strip(), True) for name in f"{shown}, {files}".strip(", ").split(",")], facts)
+            told |= dict.fromkeys(
+                [(name.strip(), True) for name in f"{shown}, {files}".strip(", ").split(",")], facts
+            )
     assert {name for name, _ in told} == CELLS.keys() - {"three-exr"}
     for (name, pictures), facts in told.items():
         for profile in usable(name, pictures):
-            axes = ", ".join({"+x": "x", "+y": "y", "-y": "-y", "+z": "up"}[axis] for axis in profile.axes)
+            axes = ", ".join(
+                {"+x": "x", "+y": "y", "-y": "-y", "+z": "up"}[axis] for axis in profile.axes
+            )
             green = "toward row 0" if profile.green > 0 else "away from row 0"
-            assert facts == [axes, profile.first_row, str(profile.first_v), profile.unit, green, profile.normals], name
+            assert facts == [
+                axes,
+                profile.first_row,
+                str(profile.first_v),
+                profile.unit,
+                green,
+                profile.normals,
+            ], name
 
 
 def test_every_cell_of_engine_and_format_is_on_the_page():
@@ -45,7 +67,13 @@ def test_every_cell_of_engine_and_format_is_on_the_page():
     for engine, *cells in rows:
         for name, said in zip(FORMATS, cells, strict=True):
             cell = TABLE[engine, name]
-            assert said == (f"no: {cell.instead}" if isinstance(cell, Refusal) else "loader" if cell.loaded else "bytes")
+            assert said == (
+                f"no: {cell.instead}"
+                if isinstance(cell, Refusal)
+                else "loader"
+                if cell.loaded
+                else "bytes"
+            )
 
 
 def test_every_format_is_on_the_page():
@@ -56,7 +84,9 @@ def test_the_rules_on_the_page_are_those_that_are_tested():
     """Those of `rules`, which tests/export/test_matrix.py evaluates against the water."""
     for engine, *said in table("engine, v")[1:]:
         for loaded, formula in zip((True, False), said, strict=True):
-            assert {rules.sampling(cell)["v"] for cell in usable(engine, loaded)} == {formula.strip("`")}
+            assert {rules.sampling(cell)["v"] for cell in usable(engine, loaded)} == {
+                formula.strip("`")
+            }
     for cell in TABLE.values():
         if not isinstance(cell, Refusal):
             rule = rules.sampling(cell)
@@ -69,6 +99,9 @@ def test_the_example_of_a_meaning_of_channels_is_the_sidecars():
         assert f"`{name} = {formula}`" in PAGE.replace("\n", " ")
 
 
-@pytest.mark.parametrize("words", ["Offset -1", "Start** 1", "frame rate of the scene F / loop", "Clamp", "bounds", "extremes"])
+@pytest.mark.parametrize(
+    "words",
+    ["Offset -1", "Start** 1", "frame rate of the scene F / loop", "Clamp", "bounds", "extremes"],
+)
 def test_what_was_forgotten_once_is_there(words):
     assert words in PAGE

@@ -1,4 +1,6 @@
-"""EXR files: the pixels that went in, rounded once, the north row on top, and never a silent clip."""
+"""
+EXR files: the pixels that went in, rounded once, the north row on top, and never a silent clip.
+"""
 
 import io
 import struct
@@ -8,7 +10,7 @@ import OpenEXR
 import pytest
 
 import fftocean as fo
-from fftocean.bake.maps import MAPS
+from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.export import exr
 from fftocean.export.formats import encode
@@ -27,13 +29,22 @@ def raw(data):
 
 
 def fields(shape, dtype=np.float64, seed=0):
-    """Three channels over all the sizes that a half can hold, from subnormals to thousands, of both signs."""
+    """
+    Three channels over all the sizes that a half can hold, from subnormals to thousands, of both
+    signs.
+    """
     rng = np.random.default_rng(seed)
-    return [(rng.choice([-1.0, 1.0], shape) * 10.0 ** rng.uniform(-8.0, 4.8, shape)).astype(dtype) for _ in range(3)]
+    return [
+        (rng.choice([-1.0, 1.0], shape) * 10.0 ** rng.uniform(-8.0, 4.8, shape)).astype(dtype)
+        for _ in range(3)
+    ]
 
 
 def rounded(values):
-    """The nearest half of each value, ties to even, by C's own packing: not by numpy, whose cast is what is tested."""
+    """
+    The nearest half of each value, ties to even, by C's own packing: not by numpy, whose cast is
+    what is tested.
+    """
     flat = [struct.unpack("<e", struct.pack("<e", float(v)))[0] for v in np.ravel(values)]
     return np.array(flat, dtype=np.float64).reshape(np.shape(values))
 
@@ -41,7 +52,10 @@ def rounded(values):
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_pixels_are_the_fields_rounded_once_and_row_0_is_north(shape, dtype):
-    """By the raw reader: R, G, B as given, the last row of a field (the northmost) first, every value its nearest half."""
+    """
+    By the raw reader: R, G, B as given, the last row of a field (the northmost) first, every value
+    its nearest half.
+    """
     channels = fields(shape, dtype)
     _, pixels = raw(exr.encode_half(*channels))
     assert sorted(pixels) == ["B", "G", "R"]
@@ -52,7 +66,9 @@ def test_pixels_are_the_fields_rounded_once_and_row_0_is_north(shape, dtype):
 
 
 def test_rounding_is_at_most_half_a_step():
-    """|stored - given| <= 0.5 ulp of the stored half, ties and the smallest subnormals (2^-24) included."""
+    """
+    |stored - given| <= 0.5 ulp of the stored half, ties and the smallest subnormals (2^-24) included.
+    """
     steps = np.arange(-4096, 4096) * 2.0**-25  # every second one is a tie between two subnormals
     values = np.concatenate([steps, *(np.ravel(c) for c in fields((64, 64)))])[None, :]
     stored, _, _ = exr.decode(exr.encode_half(values, values, values))
@@ -64,7 +80,9 @@ def test_every_half_survives_to_the_bit():
     """All 63 488 finite halves, -0 among them."""
     bits = np.arange(2**16, dtype=np.uint16)
     halves = bits[(bits & 0x7C00) != 0x7C00].view(np.float16).reshape(248, 256)
-    red, green, blue = exr.decode(exr.encode_half(halves.astype(np.float32), halves.astype(np.float64), halves))
+    red, green, blue = exr.decode(
+        exr.encode_half(halves.astype(np.float32), halves.astype(np.float64), halves)
+    )
     for channel in (red, green, blue):
         assert np.array_equal(channel.view(np.uint16), halves.view(np.uint16))
 
@@ -80,13 +98,27 @@ def test_every_half_survives_to_the_bit():
         lambda a: a[:, ::-1].copy()[:, ::-1],
         lambda a: np.stack([a, a + 1, a + 2], axis=-1)[..., 0],
         lambda a: np.broadcast_to(a[:1], a.shape),
-        lambda a: np.frombuffer(b"\0" + a.tobytes(), dtype=np.uint8)[1:].view(a.dtype).reshape(a.shape),
+        lambda a: (
+            np.frombuffer(b"\0" + a.tobytes(), dtype=np.uint8)[1:].view(a.dtype).reshape(a.shape)
+        ),
     ],
-    ids=["transposed", "fortran", "strided", "upside-down", "mirrored", "interleaved", "broadcast", "misaligned"],
+    ids=[
+        "transposed",
+        "fortran",
+        "strided",
+        "upside-down",
+        "mirrored",
+        "interleaved",
+        "broadcast",
+        "misaligned",
+    ],
 )
 @pytest.mark.parametrize("shape", [(5, 7), (1, 7), (7, 1)])
 def test_arrays_of_any_layout_give_their_own_pixels(shape, view, dtype):
-    """OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing: the encoder must not hand it any."""
+    """
+    OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing: the encoder must
+    not hand it any.
+    """
     values = view(np.arange(shape[0] * shape[1], dtype=dtype).reshape(shape))
     _, pixels = raw(exr.encode_half(values, values, values))
     for name in "RGB":
@@ -98,7 +130,9 @@ def test_openexr_still_needs_contiguous_arrays_or_the_guard_can_go():
     values = np.arange(35, dtype=np.float16).reshape(7, 5).T
     stream = io.BytesIO()
     try:
-        OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, {"R": values}).write(stream)
+        OpenEXR.File(
+            {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, {"R": values}
+        ).write(stream)
         same = np.array_equal(raw(stream.getvalue())[1]["R"], values)
     except Exception:
         same = False
@@ -106,7 +140,10 @@ def test_openexr_still_needs_contiguous_arrays_or_the_guard_can_go():
 
 
 def test_header_is_one_that_every_engine_opens():
-    """One part, scanlines, ZIP, marked as data and as periodic; and no clock in it: the same pixels are the same bytes."""
+    """
+    One part, scanlines, ZIP, marked as data and as periodic; and no clock in it: the same pixels
+    are the same bytes.
+    """
     channels = fields((9, 4), np.float32)
     data = exr.encode_half(*channels)
     header, _ = raw(data)
@@ -114,13 +151,19 @@ def test_header_is_one_that_every_engine_opens():
     assert header["type"] == OpenEXR.scanlineimage
     assert header["wrapmodes"] == "periodic,periodic"
     assert header["colorInteropID"] == "data"
-    assert struct.unpack("<II", data[:8]) == (20000630, 2)  # magic number; version 2 without flags for tiles, deep or several parts
+    assert struct.unpack("<II", data[:8]) == (
+        20000630,
+        2,
+    )  # magic number; version 2 without flags for tiles, deep or several parts
     assert exr.encode_half(*channels) == data
 
 
 def as_before(red, green, blue):
     """The first encoder of this package, word for word: files of then and now must be the same."""
-    channels = {name: np.ascontiguousarray(values[::-1], dtype=np.float16) for name, values in (("R", red), ("G", green), ("B", blue))}
+    channels = {
+        name: np.ascontiguousarray(values[::-1], dtype=np.float16)
+        for name, values in (("R", red), ("G", green), ("B", blue))
+    }
     header = {
         "compression": OpenEXR.ZIP_COMPRESSION,
         "type": OpenEXR.scanlineimage,
@@ -145,7 +188,10 @@ def test_the_bytes_are_those_of_ever(shape):
 @pytest.mark.parametrize("channels", [1, 3, 4])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_pixels_stand_as_given(shape, channels, dtype):
-    """Row 0 on top, in the precision given, RGB or RGBA; one channel stands in all three. By the raw reader, and by ours."""
+    """
+    Row 0 on top, in the precision given, RGB or RGBA; one channel stands in all three. By the raw
+    reader, and by ours.
+    """
     pixels = np.random.default_rng(1).standard_normal((*shape, channels)).astype(dtype)
     header, found = raw(exr.encode(pixels, periodic=False))
     assert "wrapmodes" not in header
@@ -166,9 +212,15 @@ def test_another_size_or_other_channels_are_refused():
     with pytest.raises(IntegrityError, match="an EXR picture cannot be read: 'R'"):
         exr.read(stream.getvalue())
     stream = io.BytesIO()
-    mixed = {"R": np.zeros((4, 4), np.float16), "G": np.zeros((4, 4), np.float32), "B": np.zeros((4, 4), np.float16)}
+    mixed = {
+        "R": np.zeros((4, 4), np.float16),
+        "G": np.zeros((4, 4), np.float32),
+        "B": np.zeros((4, 4), np.float16),
+    }
     OpenEXR.File({"type": OpenEXR.scanlineimage}, mixed).write(stream)
-    with pytest.raises(IntegrityError, match=r"must have channels R, G, B \(, A\) of one type, got B, G, R"):
+    with pytest.raises(
+        IntegrityError, match=r"must have channels R, G, B \(, A\) of one type, got B, G, R"
+    ):
         exr.read(stream.getvalue())
 
 
@@ -180,7 +232,10 @@ def test_decode_turns_south_up_again():
 
 
 def test_a_cut_or_flipped_file_is_never_other_water():
-    """Cut anywhere, it is refused; with a bit flipped too, or the flip was in a remark of the header: ZIP has a checksum for the rest."""
+    """
+    Cut anywhere, it is refused; with a bit flipped too, or the flip was in a remark of the header:
+    ZIP has a checksum for the rest.
+    """
     values = np.random.default_rng(0).normal(size=(40, 30)).astype(np.float32)
     data = exr.encode_half(values, values, values)
     for end in range(0, len(data), 211):
@@ -197,10 +252,15 @@ def test_a_cut_or_flipped_file_is_never_other_water():
 @pytest.mark.parametrize("bad", [65505.0, -65505.0, 65520.0, 1e30, np.inf, -np.inf, np.nan])
 @pytest.mark.parametrize("where", [0, 1, 2])
 def test_what_a_half_cannot_hold_is_refused(where, bad):
-    """Beyond +-65504 a half is infinite: one such value in any channel is an error that names the channel and the value."""
+    """
+    Beyond +-65504 a half is infinite: one such value in any channel is an error that names the
+    channel and the value.
+    """
     channels = [np.zeros((3, 4), np.float32) for _ in range(3)]
     channels[where][1, 2] = bad
-    with pytest.raises(OutputError, match=rf"channel {'RGB'[where]} must stay within \+-65504 .* got ") as caught:
+    with pytest.raises(
+        OutputError, match=rf"channel {'RGB'[where]} must stay within \+-65504 .* got "
+    ) as caught:
         exr.encode_half(*channels)
     assert caught.value.exit_code == 4
 
@@ -232,11 +292,18 @@ def test_a_flat_sea_points_exactly_up(n):
 
 
 def test_north_is_up_in_a_baked_map():
-    """A wave whose crest lies on the row iy = ny/4: in the file it is 3/4 of the way down, whichever map it is read from."""
-    ocean = fo.Ocean.from_modes([(0, 1, 1.0, 0.5 * np.pi)], n=(8, 16), size=(8.0, 16.0), loop=100.0, dtype="float64")  # cos(ky - pi/2)
+    """
+    A wave whose crest lies on the row iy = ny/4: in the file it is 3/4 of the way down, whichever
+    map it is read from.
+    """
+    ocean = fo.Ocean.from_modes(
+        [(0, 1, 1.0, 0.5 * np.pi)], n=(8, 16), size=(8.0, 16.0), loop=100.0, dtype="float64"
+    )  # cos(ky - pi/2)
     frame = ocean.frame(0.0)
     _, pixels = raw(baked("displacement", frame))
     assert np.all(np.argmax(pixels["B"], axis=0) == 16 - 1 - 4)  # blue is the height
-    toward_crest = pixels["G"][:, 0]  # green is the displacement north: south of the crest water is drawn north
+    toward_crest = pixels["G"][
+        :, 0
+    ]  # green is the displacement north: south of the crest water is drawn north
     assert toward_crest[16 - 1 - 3] > 0.0
     assert toward_crest[16 - 1 - 5] < 0.0

@@ -1,4 +1,7 @@
-"""KTX 2.0 against a reader written from the Khronos specifications: header, index, descriptor, key/values, padding, texels."""
+"""
+KTX 2.0 against a reader written from the Khronos specifications: header, index, descriptor,
+key/values, padding, texels.
+"""
 
 import math
 import struct
@@ -13,11 +16,18 @@ from fftocean.export.profiles import PROFILES
 
 
 def by_the_specification(data):
-    """Every rule of KTX 2.0 (sections 3 to 5) and KDF 1.4 (chapter 5) that bears on an uncompressed array, asserted; and its images."""
+    """
+    Every rule of KTX 2.0 (sections 3 to 5) and KDF 1.4 (chapter 5) that bears on an uncompressed
+    array, asserted; and its images.
+    """
     u32 = lambda at: struct.unpack_from("<I", data, at)[0]  # noqa: E731
     u64 = lambda at: struct.unpack_from("<Q", data, at)[0]  # noqa: E731
-    assert data[:12] == bytes([0xAB, 0x4B, 0x54, 0x58, 0x20, 0x32, 0x30, 0xBB, 0x0D, 0x0A, 0x1A, 0x0A])
-    vk_format, type_size, width, height, depth, layers, faces, levels, scheme = (u32(12 + 4 * i) for i in range(9))
+    assert data[:12] == bytes(
+        [0xAB, 0x4B, 0x54, 0x58, 0x20, 0x32, 0x30, 0xBB, 0x0D, 0x0A, 0x1A, 0x0A]
+    )
+    vk_format, type_size, width, height, depth, layers, faces, levels, scheme = (
+        u32(12 + 4 * i) for i in range(9)
+    )
     assert vk_format == 97  # VK_FORMAT_R16G16B16A16_SFLOAT
     assert type_size == 2
     assert width > 0
@@ -63,7 +73,8 @@ def by_the_specification(data):
     assert values["KTXorientation"] in (b"rd\0", b"ru\0")
     assert values["KTXwriter"].startswith(b"fftocean ")
     assert values["KTXwriter"].endswith(b"\0")
-    # levels: the smallest first, each on a multiple of lcm(8, 4), zeros between, the largest to the end
+    # levels: the smallest first, each on a multiple of lcm(8, 4), zeros between, the largest to the
+    # end
     end, images = at, []
     for p in reversed(range(levels)):
         offset, length, plain = index[p]
@@ -72,7 +83,12 @@ def by_the_specification(data):
         assert 0 <= offset - end < 8
         assert not any(data[end:offset])
         assert length == plain == layers * h * w * 8
-        images.insert(0, np.frombuffer(data, dtype="<f2", count=length // 2, offset=offset).reshape(layers, h, w, 4))
+        images.insert(
+            0,
+            np.frombuffer(data, dtype="<f2", count=length // 2, offset=offset).reshape(
+                layers, h, w, 4
+            ),
+        )
         end = offset + length
     assert end == len(data)
     return images, values
@@ -81,17 +97,31 @@ def by_the_specification(data):
 def loop(frames, rows, columns, channels, levels, **more):
     rng = np.random.default_rng(7)
     chains = [
-        [rng.standard_normal((max(1, rows >> p), max(1, columns >> p), channels)).astype(np.float32) for p in range(levels)]
+        [
+            rng.standard_normal((max(1, rows >> p), max(1, columns >> p), channels)).astype(
+                np.float32
+            )
+            for p in range(levels)
+        ]
         for _ in range(frames)
     ]
     parts = [encode("ktx2", chain[0], levels=chain[1:]) for chain in chains]
-    files = assemble("ktx2", parts, stem="m", shape=(frames, rows, columns, channels), levels=levels, **more)
+    files = assemble(
+        "ktx2", parts, stem="m", shape=(frames, rows, columns, channels), levels=levels, **more
+    )
     return chains, parts, bytes(files["m.ktx2"])
 
 
 @pytest.mark.parametrize(
     ("frames", "rows", "columns", "channels", "levels"),
-    [(1, 1, 1, 1, 1), (3, 8, 8, 3, 1), (2, 16, 4, 3, 5), (5, 13, 7, 4, 3), (4, 9, 9, 1, 2), (1, 5, 3, 4, 3)],
+    [
+        (1, 1, 1, 1, 1),
+        (3, 8, 8, 3, 1),
+        (2, 16, 4, 3, 5),
+        (5, 13, 7, 4, 3),
+        (4, 9, 9, 1, 2),
+        (1, 5, 3, 4, 3),
+    ],
 )
 def test_by_the_specification(frames, rows, columns, channels, levels):
     chains, parts, data = loop(frames, rows, columns, channels, levels)
@@ -99,7 +129,9 @@ def test_by_the_specification(frames, rows, columns, channels, levels):
     for i, chain in enumerate(chains):
         for level, image in zip(chain, images, strict=True):
             halves = level.astype(np.float16)
-            assert np.array_equal(image[i, ..., :channels] if channels > 1 else image[i, ..., :1], halves)
+            assert np.array_equal(
+                image[i, ..., :channels] if channels > 1 else image[i, ..., :1], halves
+            )
             if channels < 4:
                 assert np.all(image[i, ..., 3] == 1.0)
             if channels == 1:
@@ -116,8 +148,16 @@ def test_it_says_how_long_a_frame_lasts(seconds, frames):
 
 
 def test_it_says_which_way_is_up():
-    assert by_the_specification(loop(1, 2, 2, 1, 1, profile=PROFILES["three"])[2])[1]["KTXorientation"] == b"rd\0"
-    assert by_the_specification(loop(1, 2, 2, 1, 1, profile=PROFILES["babylon"])[2])[1]["KTXorientation"] == b"ru\0"
+    assert (
+        by_the_specification(loop(1, 2, 2, 1, 1, profile=PROFILES["three"])[2])[1]["KTXorientation"]
+        == b"rd\0"
+    )
+    assert (
+        by_the_specification(loop(1, 2, 2, 1, 1, profile=PROFILES["babylon"])[2])[1][
+            "KTXorientation"
+        ]
+        == b"ru\0"
+    )
 
 
 @pytest.mark.parametrize("at", [0, 12, 20, 24, 32, 40, 44, 48, 80, 88, 96, 104 + 12, 104 + 28])

@@ -1,4 +1,6 @@
-"""Sixteen-bit PNG against a reader written from the standard, and against Pillow, as far as that goes."""
+"""
+Sixteen-bit PNG against a reader written from the standard, and against Pillow, as far as that goes.
+"""
 
 import io
 import struct
@@ -15,13 +17,18 @@ SHAPES = [(1, 1, 1), (1, 7, 3), (7, 1, 1), (31, 17, 3), (64, 48, 1)]
 
 
 def by_the_standard(data):
-    """Any PNG that is not interlaced and has no palette, every filter, byte by byte: ISO/IEC 15948, 5.3, 9.2 and 9.4."""
+    """
+    Any PNG that is not interlaced and has no palette, every filter, byte by byte: ISO/IEC 15948,
+    5.3, 9.2 and 9.4.
+    """
     assert data[:8] == bytes([137, 80, 78, 71, 13, 10, 26, 10])
     at, packed, header = 8, b"", None
     while at < len(data):
         (size,) = struct.unpack(">I", data[at : at + 4])
         name, content = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
-        assert struct.unpack(">I", data[at + 8 + size : at + 12 + size])[0] == zlib.crc32(name + content)
+        assert struct.unpack(">I", data[at + 8 + size : at + 12 + size])[0] == zlib.crc32(
+            name + content
+        )
         header = struct.unpack(">IIBBBBB", content) if name == b"IHDR" else header
         packed += content if name == b"IDAT" else b""
         at += 12 + size
@@ -40,7 +47,12 @@ def by_the_standard(data):
             values[i] = (value + [0, a, b, (a + b) // 2, nearest][kind]) % 256
         above = values
         rows.append(values)
-    return np.array(rows, dtype=np.uint8).reshape(height, -1).view(">u2").reshape(height, width, samples)
+    return (
+        np.array(rows, dtype=np.uint8)
+        .reshape(height, -1)
+        .view(">u2")
+        .reshape(height, width, samples)
+    )
 
 
 def words(shape, seed=0):
@@ -69,7 +81,9 @@ def test_pillow_opens_them():
 
 def test_smooth_water_packs():
     y, x = np.mgrid[:64, :64] / 64.0
-    pixels = np.rint(32768 + 20000 * np.sin(6.28 * x) * np.cos(6.28 * y)).astype(np.uint16)[..., None]
+    pixels = np.rint(32768 + 20000 * np.sin(6.28 * x) * np.cos(6.28 * y)).astype(np.uint16)[
+        ..., None
+    ]
     assert len(png.encode(pixels)) < 0.9 * pixels.nbytes
     assert len(png.encode(0 * pixels)) < 0.05 * pixels.nbytes
 
@@ -78,13 +92,18 @@ def test_not_ours():
     """Other depths, other chunks, more pixels than the header says."""
     stream = io.BytesIO()
     Image.fromarray(np.zeros((4, 4, 3), dtype=np.uint8)).save(stream, format="PNG")
-    with pytest.raises(IntegrityError, match="must be 16 bit gray or RGB, not interlaced, got 8 bit, colour type 2"):
+    with pytest.raises(
+        IntegrityError, match="must be 16 bit gray or RGB, not interlaced, got 8 bit, colour type 2"
+    ):
         png.read(stream.getvalue())
     data = png.encode(words((4, 4, 1)))
     with pytest.raises(IntegrityError, match="chunks IHDR, IDAT, IEND"):
         png.read(data[:-12] + png._chunk(b"tEXt", b"a\0b") + data[-12:])
     with pytest.raises(IntegrityError, match=r"must have shape \(5, 4, 1\), got \(4, 4, 1\)"):
         png.read(data, (5, 4, 1))
-    head, body = png._chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 16, 0, 0, 0, 0)), png._chunk(b"IDAT", zlib.compress(bytes(10_000_000)))
+    head, body = (
+        png._chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 4, 16, 0, 0, 0, 0)),
+        png._chunk(b"IDAT", zlib.compress(bytes(10_000_000))),
+    )
     with pytest.raises(IntegrityError):  # and only as much is unpacked as can be right
         png.read(png.SIGNATURE + head + body + png._chunk(b"IEND", b""))

@@ -1,4 +1,7 @@
-"""The readers in other languages: what they read is the water that was written, in every engine's frame."""
+"""
+The readers in other languages: what they read is the water that was written, in every engine's
+frame.
+"""
 
 import json
 import re
@@ -14,15 +17,27 @@ from fftocean.export.profiles import PROFILES, arrange
 
 READERS = Path(__file__).resolve().parents[2] / "examples" / "readers"
 FRAMES, NY, NX, LX, LY, LOOP, START = 3, 5, 8, 40.0, 20.0, 6.0, 0.5
-# how each engine's two horizontal axes lie: (X, Z) of the point x east, y north of the tile's corner, and its units in a metre
-SECOND = {name: -1.0 if name in ("unreal", "godot", "bevy", "gltf", "three", "three-exr", "houdini") else 1.0 for name in PROFILES}
+# how each engine's two horizontal axes lie: (X, Z) of the point x east, y north of the tile's
+# corner, and its units in a metre
+SECOND = {
+    name: -1.0
+    if name in ("unreal", "godot", "bevy", "gltf", "three", "three-exr", "houdini")
+    else 1.0
+    for name in PROFILES
+}
 UNITS = {name: 100.0 if name == "unreal" else 1.0 for name in PROFILES}
 
 
 def bake(folder, name):
-    """A small sequence of heights as a bake for one engine writes it; returns our own arrays, as they were stored."""
+    """
+    A small sequence of heights as a bake for one engine writes it; returns our own arrays, as they
+    were stored.
+    """
     heights = np.random.default_rng(3).uniform(-4, 4, (FRAMES, NY, NX)).astype(np.float16)
-    parts = [encode("bin", arrange(PROFILES[name], "height", h[..., None].astype(np.float32))) for h in heights]
+    parts = [
+        encode("bin", arrange(PROFILES[name], "height", h[..., None].astype(np.float32)))
+        for h in heights
+    ]
     for path, data in assemble(
         "bin",
         parts,
@@ -60,12 +75,22 @@ REFUSED = [
 ]
 """Sidecars that a reader of heights at places does not understand, and its words."""
 
-POINTS = [(0.0, 0.0, 0.0), (5.0, 4.0, 2.0), (12.3, 7.7, 1.1), (39.9, 19.9, 5.9), (-3.0, -1.0, -0.5), (1234.5, 987.6, 100.3)]
+POINTS = [
+    (0.0, 0.0, 0.0),
+    (5.0, 4.0, 2.0),
+    (12.3, 7.7, 1.1),
+    (39.9, 19.9, 5.9),
+    (-3.0, -1.0, -0.5),
+    (1234.5, 987.6, 100.3),
+]
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
-    """One run of node over all profiles: at samples, between them, and far outside the tile; and a cut file is refused."""
+    """
+    One run of node over all profiles: at samples, between them, and far outside the tile; and a cut
+    file is refused.
+    """
     expected, questions = [], []
     for name in PROFILES:
         (tmp_path / name).mkdir()
@@ -92,21 +117,30 @@ def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
         f"for (const change of {json.dumps([change for change, _ in REFUSED])}) attempt(change, 0);\n"
         "console.log(JSON.stringify({ answers, refused }));\n"
     )
-    run = subprocess.run(["node", "ask.mjs"], cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True)
+    run = subprocess.run(
+        ["node", "ask.mjs"], cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True
+    )
     said = json.loads(run.stdout)
     assert len(said["answers"]) == len(expected)
     scale = np.array([UNITS[name] for name, *_ in questions])
     apart = np.abs(np.array(said["answers"]) - expected) / scale
-    # centimetres are rounded to half anew: half a step at 400 is 0.125; metres are the very halves that were written
+    # centimetres are rounded to half anew: half a step at 400 is 0.125; metres are the very halves
+    # that were written
     assert np.all(apart <= np.where(scale > 1, 0.00126, 1e-12))
     first, *others = said["refused"]
     assert others == [why for _, why in REFUSED]
-    assert first == f"height.bin must have {8 * FRAMES * NY * NX} bytes, got {8 * (FRAMES * NY * NX - 1)}"
+    assert (
+        first
+        == f"height.bin must have {8 * FRAMES * NY * NX} bytes, got {8 * (FRAMES * NY * NX - 1)}"
+    )
 
 
 @pytest.mark.parametrize("file", ["SeaHeights.cs", "sea_heights.gd", "sea_heights.js"])
 def test_what_a_reader_asks_of_the_sidecar_is_there(file, tmp_path):
-    """Two of the three cannot be run here: at least every key they use is one that is written, and they use all that matter."""
+    """
+    Two of the three cannot be run here: at least every key they use is one that is written, and
+    they use all that matter.
+    """
     bake(tmp_path, "unity")
     sidecar = json.loads((tmp_path / "height.json").read_text())
     source = (READERS / file).read_text()

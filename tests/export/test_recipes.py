@@ -1,4 +1,7 @@
-"""Text beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas and the map it is about."""
+"""
+Text beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas and
+the map it is about.
+"""
 
 import configparser
 import json
@@ -7,7 +10,7 @@ import re
 import numpy as np
 import pytest
 
-from fftocean.bake.maps import MAPS
+from fftocean.baking.scene.maps import MAPS
 from fftocean.export.engines import CELLS, profile_for
 from fftocean.export.formats import assemble, encode
 from fftocean.export.profiles import arrange, meaning, unit_in
@@ -18,7 +21,12 @@ FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 cells across and 3 down
 def files(engine, name="foam", **more):
     """An atlas of one map of still water."""
     m, profile = MAPS[name], profile_for(engine, "exr-atlas")
-    parts = [encode("exr-atlas", arrange(profile, m.kind, np.zeros((ROWS, COLUMNS, len(m.names)), np.float32)))] * FRAMES
+    parts = [
+        encode(
+            "exr-atlas",
+            arrange(profile, m.kind, np.zeros((ROWS, COLUMNS, len(m.names)), np.float32)),
+        )
+    ] * FRAMES
     return assemble(
         "exr-atlas", parts, stem=name, shape=(FRAMES, ROWS, COLUMNS, len(m.names)), profile=profile, kind=m.kind,
         names=meaning(profile, m.kind, m.names), unit=unit_in(profile, m.kind, m.unit), size=(40.0, 20.0), loop=12.0, start=1.5,
@@ -34,15 +42,24 @@ def page(engine, name, **more):
 
 @pytest.mark.parametrize("engine", CELLS)
 def test_each_engine_gets_its_own_and_no_other(engine):
-    more = {"godot": "foam.exr.import", "unity": "foam.exr.unity.txt", "unreal": "foam.exr.unreal.txt"}
-    assert set(files(engine)) == {"foam.exr", "foam.json"} | ({more[engine]} if engine in more else set())
+    more = {
+        "godot": "foam.exr.import",
+        "unity": "foam.exr.unity.txt",
+        "unreal": "foam.exr.unreal.txt",
+    }
+    assert set(files(engine)) == {"foam.exr", "foam.json"} | (
+        {more[engine]} if engine in more else set()
+    )
 
 
 def test_godot_imports_an_array_of_halves_without_mipmaps():
     """As Godot's own ConfigFile reads it: sections and key=value."""
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(bytes(files("godot")["foam.exr.import"]).decode())
-    assert dict(parser["remap"]) == {"importer": '"2d_array_texture"', "type": '"CompressedTexture2DArray"'}
+    assert dict(parser["remap"]) == {
+        "importer": '"2d_array_texture"',
+        "type": '"CompressedTexture2DArray"',
+    }
     params = parser["params"]
     assert (params["slices/horizontal"], params["slices/vertical"]) == ("2", "3")
     assert params["compress/mode"] == "3"  # VRAM Uncompressed
@@ -52,7 +69,10 @@ def test_godot_imports_an_array_of_halves_without_mipmaps():
 @pytest.mark.parametrize("engine", ["unity", "unreal"])
 @pytest.mark.parametrize("name", MAPS)
 def test_a_page_says_of_its_map_what_the_sidecar_says(engine, name):
-    """Its formulas and numbers are those of the sidecar, which tests/export/test_matrix.py evaluates against the water."""
+    """
+    Its formulas and numbers are those of the sidecar, which tests/export/test_matrix.py evaluates
+    against the water.
+    """
     text, side = page(engine, name)
     assert "{" not in text
     rule, channels = text.split("Sample with")[1].split("The channels give")
@@ -65,10 +85,16 @@ def test_a_page_says_of_its_map_what_the_sidecar_says(engine, name):
     unit = {"height": "m", "displacement": "m", "velocity": "m/s"}.get(name, "")
     unit = unit.replace("m", "cm", 1) if engine == "unreal" else unit
     assert re.search(rf"^Unit +{unit or r'none .a pure number.'}; linear$", text, re.MULTILINE)
-    assert ("cm" in re.sub(r"place at rest and sizes in cm|by 75 cm|by 125 cm", "", text)) == (unit[:1] == "c")
+    assert ("cm" in re.sub(r"place at rest and sizes in cm|by 75 cm|by 125 cm", "", text)) == (
+        unit[:1] == "c"
+    )
     assert "Lookup      lagrangian" in text
     assert "starts at 1.5 s, plays for 12 s, 0.5 frames a second" in text
-    bounds = "75 cm along the horizontal axes, by 125 cm" if engine == "unreal" else "0.75 m along the horizontal axes, by 1.25 m"
+    bounds = (
+        "75 cm along the horizontal axes, by 125 cm"
+        if engine == "unreal"
+        else "0.75 m along the horizontal axes, by 1.25 m"
+    )
     assert f"by {bounds} up and down" in text
     assert ("packed: n = 2 c - 1" in text) == (name == "normal")
     assert re.search(r"sRGB +off", text)
@@ -88,5 +114,8 @@ def test_a_page_says_of_its_map_what_the_sidecar_says(engine, name):
 
 
 def test_a_part_of_the_loop_is_said_to_be_one():
-    assert "a part of the loop: the last frame does not lead on" in page("unreal", "foam", closes=False)[0]
+    assert (
+        "a part of the loop: the last frame does not lead on"
+        in page("unreal", "foam", closes=False)[0]
+    )
     assert "Lookup      eulerian" in page("unreal", "foam", lookup="eulerian")[0]

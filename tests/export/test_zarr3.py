@@ -1,4 +1,6 @@
-"""Zarr chunks: read by the zarr library, and an absent or bent one is no water for either reader."""
+"""
+Zarr chunks: read by the zarr library, and an absent or bent one is no water for either reader.
+"""
 
 import numpy as np
 import pytest
@@ -14,7 +16,9 @@ SHAPE = (3, 6, 5, 3)
 def stored(tmp_path):
     """A map of three frames in its folder."""
     maps = np.random.default_rng(5).standard_normal(SHAPE).astype(np.float32)
-    for name, data in assemble("zarr", (), stem="normal", shape=SHAPE, names=("x", "y", "z"), size=(40.0, 30.0), loop=6.0).items():
+    for name, data in assemble(
+        "zarr", (), stem="normal", shape=SHAPE, names=("x", "y", "z"), size=(40.0, 30.0), loop=6.0
+    ).items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(data)
     for j, frame in enumerate(maps):
@@ -38,11 +42,18 @@ def test_the_library_reads_it(stored):
 def test_it_is_what_the_library_writes(stored, tmp_path):
     folder, maps = stored
     theirs = zarr.create_array(
-        tmp_path / "theirs", shape=SHAPE, chunks=(1, *SHAPE[1:]), dtype="float32", compressors=zarr.codecs.Crc32cCodec(), fill_value=np.nan
+        tmp_path / "theirs",
+        shape=SHAPE,
+        chunks=(1, *SHAPE[1:]),
+        dtype="float32",
+        compressors=zarr.codecs.Crc32cCodec(),
+        fill_value=np.nan,
     )
     theirs[:] = maps
     for j in range(SHAPE[0]):
-        assert (folder / f"c/{j}/0/0/0").read_bytes() == (tmp_path / f"theirs/c/{j}/0/0/0").read_bytes()
+        assert (folder / f"c/{j}/0/0/0").read_bytes() == (
+            tmp_path / f"theirs/c/{j}/0/0/0"
+        ).read_bytes()
 
 
 def test_a_bent_chunk_is_refused_by_both(stored):

@@ -1,4 +1,7 @@
-"""The slow truth itself: held to the single wave's closed form and to its own derivatives, in a voice of its own."""
+"""
+The slow truth itself: held to the single wave's closed form and to its own derivatives, in a voice
+of its own.
+"""
 
 import math
 
@@ -13,9 +16,14 @@ G = 9.80665
 
 @pytest.mark.parametrize("depth", [math.inf, 5.0, 0.3])
 def test_one_wave(depth):
-    """Lamb 1932, art. 229: orbits are ellipses with axes a and a coth(k h), run through clockwise as the wave goes by."""
+    """
+    Lamb 1932, art. 229: orbits are ellipses with axes a and a coth(k h), run through clockwise as
+    the wave goes by.
+    """
     a, phase, m, size, t = 0.25, 0.8, (3, -2), (40.0, 30.0), 11.3
-    ocean = fo.Ocean.from_modes([(*m, a, phase)], n=(16, 12), size=size, depth=depth, choppiness=0.7)
+    ocean = fo.Ocean.from_modes(
+        [(*m, a, phase)], n=(16, 12), size=size, depth=depth, choppiness=0.7
+    )
     kx, ky = 2 * math.pi * m[0] / size[0], 2 * math.pi * m[1] / size[1]
     k = math.sqrt(kx * kx + ky * ky)
     omega = math.sqrt(G * k * math.tanh(k * depth))
@@ -45,12 +53,19 @@ def test_one_wave(depth):
 
 
 def test_fields_are_each_other_s_derivatives():
-    """Central differences over 1e-4 of the positions of many waves: relative error (k h)^2/6 < 1e-7 at k = 8 rad/m."""
-    ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3, depth=3.0, direction=200.0), n=20, size=30.0, seed=9)
+    """
+    Central differences over 1e-4 of the positions of many waves: relative error (k h)^2/6 < 1e-7 at
+    k = 8 rad/m.
+    """
+    ocean = fo.Ocean(
+        fo.Sea.from_wind(speed=8.0, fetch=50e3, depth=3.0, direction=200.0), n=20, size=30.0, seed=9
+    )
     x, y, t, h = np.linspace(-5.0, 40.0, 7), np.linspace(3.0, 9.0, 7), 4.2, 1e-4
 
     def difference(name, dx=0.0, dy=0.0, dt=0.0):
-        ahead, behind = (fo.gerstner.surface(ocean, x + s * dx, y + s * dy, t + s * dt) for s in (1, -1))
+        ahead, behind = (
+            fo.gerstner.surface(ocean, x + s * dx, y + s * dy, t + s * dt) for s in (1, -1)
+        )
         return (getattr(ahead, name) - getattr(behind, name)) / (2 * h)
 
     s = fo.gerstner.surface(ocean, x, y, t)
@@ -64,14 +79,18 @@ def test_fields_are_each_other_s_derivatives():
         "velocity_y": difference("displace_y", dt=h),
         "velocity_z": difference("height", dt=h),
     }.items():
-        assert np.max(np.abs(getattr(s, name) - derivative)) < 1e-6 * np.max(np.abs(derivative)), name
+        assert np.max(np.abs(getattr(s, name) - derivative)) < 1e-6 * np.max(np.abs(derivative)), (
+            name
+        )
     assert np.max(np.abs(difference("displace_y", dx=h) - s.stretch_xy)) < 1e-6
 
 
 def test_compiled_sum_equals_the_plain_one():
     """Same waves, other order of summing: 1e-13 of the field's largest value."""
     for depth in (math.inf, 4.0):
-        ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3, depth=depth), n=(12, 16), size=60.0, seed=2)
+        ocean = fo.Ocean(
+            fo.Sea.from_wind(speed=8.0, fetch=50e3, depth=depth), n=(12, 16), size=60.0, seed=2
+        )
         x, y = np.meshgrid(np.linspace(0, 60, 9), np.linspace(-60, 0, 5))
         plain, compiled = fo.gerstner.surface(ocean, x, y, 8.0), eight_fields(ocean, x, y, 8.0)
         assert set(compiled) == set(NAMES)

@@ -25,7 +25,13 @@ def run(folder: Path, **environment: str) -> int:
     env = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache"), **environment}
     env.pop("NUMBA_DISABLE_JIT", None)
     script = folder / "script.py"
-    done = subprocess.run([sys.executable, "-W", "error", str(script)], env=env, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        [sys.executable, "-W", "error", str(script)],
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
     assert done.returncode == 0, done.stderr
     return int(done.stdout)
 

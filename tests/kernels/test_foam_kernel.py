@@ -12,7 +12,11 @@ RNG = np.random.default_rng(5)
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_advance(dtype):
     window = (0.7 + 0.3 * RNG.standard_normal((4, 6, 5))).astype(dtype)
-    cubic, weights, start = RNG.standard_normal((3, 4)), RNG.uniform(size=3), RNG.uniform(size=(6, 5))
+    cubic, weights, start = (
+        RNG.standard_normal((3, 4)),
+        RNG.uniform(size=3),
+        RNG.uniform(size=(6, 5)),
+    )
     state = start.copy()
     foam.advance(*window, cubic, weights, 0.6, 0.9, state)
     squeeze = np.einsum("um,mji->uji", cubic, window.astype(float))

@@ -1,4 +1,7 @@
-"""Periodic interpolation: against scipy's splines, polynomials that must come out exactly, and the seam."""
+"""
+Periodic interpolation: against scipy's splines, polynomials that must come out exactly, and the
+seam.
+"""
 
 import numpy as np
 import pytest
@@ -20,7 +23,9 @@ def points(count=40, far=3.0):
 
 
 def by_scipy(field, u, v, order, **options):
-    return ndimage.map_coordinates(field.astype(float), [v, u], order=order, mode="grid-wrap", **options)
+    return ndimage.map_coordinates(
+        field.astype(float), [v, u], order=order, mode="grid-wrap", **options
+    )
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -34,12 +39,17 @@ def test_against_scipy(order, dtype):
     else:
         interpolate.bicubic(field, u, v, True, out)
     for c in range(CHANNELS):
-        expected = by_scipy(field[:, :, c], u, v, order, prefilter=False)  # coefficients, as ours are
+        expected = by_scipy(
+            field[:, :, c], u, v, order, prefilter=False
+        )  # coefficients, as ours are
         assert np.max(np.abs(out[:, c] - 1.0 - expected)) < 1e-13
 
 
 def test_spline_goes_through_what_its_response_was_divided_out_of():
-    """Waves over `spline_response` are the coefficients that scipy's recursive prefilter finds; the prefilter's own error is 1e-15."""
+    """
+    Waves over `spline_response` are the coefficients that scipy's recursive prefilter finds; the
+    prefilter's own error is 1e-15.
+    """
     x = np.arange(NX)
     wave = np.cos(2 * np.pi * 2 * x / NX + 0.3)
     ours = wave / interpolate.spline_response(2 / NX)
@@ -52,7 +62,9 @@ def test_catmull_rom_goes_through_its_texels_and_reproduces_a_parabola():
     out = np.zeros((i.size, CHANNELS))
     interpolate.bicubic(field, i, j, False, out)
     assert np.array_equal(out, field.reshape(-1, CHANNELS))
-    parabola = np.arange(NX)[None, :] ** 2.0 - 3.0 * np.arange(NY)[:, None]  # away from the seam, where it is no parabola
+    parabola = (
+        np.arange(NX)[None, :] ** 2.0 - 3.0 * np.arange(NY)[:, None]
+    )  # away from the seam, where it is no parabola
     u, v = RNG.uniform(1, NX - 2, 30), RNG.uniform(1, NY - 2, 30)
     out = np.zeros((30, 1))
     interpolate.bicubic(parabola[:, :, None], u, v, False, out)
@@ -92,7 +104,10 @@ def test_what_is_not_finite_stays_alone():
 
 @pytest.mark.parametrize("spline", [False, True])
 def test_gradients_are_those_of_the_interpolant(spline):
-    """Value from the general routine, slopes from its central differences: h^2 of a third derivative, h = 1e-5, and rounding / h."""
+    """
+    Value from the general routine, slopes from its central differences: h^2 of a third derivative,
+    h = 1e-5, and rounding / h.
+    """
     field = np.ascontiguousarray(RNG.standard_normal((NY, NX, 4)))
     flat = np.concatenate([np.full(7 * 4, np.nan), field.ravel()])  # another tile before it
     gradient = interpolate.spline_gradient if spline else interpolate.bilinear_gradient
@@ -109,14 +124,19 @@ def test_gradients_are_those_of_the_interpolant(spline):
     for u, v in zip(*points(10, far=0.9), strict=True):
         a, b, c, a_u, a_v, b_u, b_v = gradient(flat, 7, NX, NY, u, v)
         assert np.max(np.abs(at(u, v)[:3] - [a, b, c])) < 1e-13
-        along, across = (at(u + h, v) - at(u - h, v)) / (2 * h), (at(u, v + h) - at(u, v - h)) / (2 * h)
+        along, across = (
+            (at(u + h, v) - at(u - h, v)) / (2 * h),
+            (at(u, v + h) - at(u, v - h)) / (2 * h),
+        )
         assert np.max(np.abs(along[:2] - [a_u, b_u])) < 1e-8
         assert np.max(np.abs(across[:2] - [a_v, b_v])) < 1e-8
 
 
 @pytest.mark.parametrize("spline", [False, True])
 def test_many_gradients_at_once_are_those_of_one(spline):
-    """The same numbers as point by point, added to what is there; round-off of another order of sums."""
+    """
+    The same numbers as point by point, added to what is there; round-off of another order of sums.
+    """
     flat, count, block = RNG.standard_normal(4 * NY * NX), 50, interpolate.BLOCK
     one, many = (
         (interpolate.spline_gradient, interpolate.spline_gradients)
@@ -127,6 +147,9 @@ def test_many_gradients_at_once_are_those_of_one(spline):
     rows = desk.reshape(-1, block)
     rows[:2, :count] = points(count, far=0.9)
     many(flat, 0, NX, NY, 2.0, 3.0, count, desk)
-    expected = np.array([one(flat, 0, NX, NY, u, v) for u, v in rows[:2, :count].T]).T * np.array([[1, 1, 1, 2, 3, 2, 3]]).T
+    expected = (
+        np.array([one(flat, 0, NX, NY, u, v) for u, v in rows[:2, :count].T]).T
+        * np.array([[1, 1, 1, 2, 3, 2, 3]]).T
+    )
     assert np.max(np.abs(rows[2:9, :count] - 7.0 - expected)) < 1e-13
     assert np.all(rows[2:9, count:] == 7.0)

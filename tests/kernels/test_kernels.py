@@ -24,7 +24,10 @@ def parts(array):
 
 
 def test_phasors():
-    """Against extended precision at 100,001 turns from -1/2 to 1/2: 6 eps, as 1 - 2 sin^2 of half the angle allows."""
+    """
+    Against extended precision at 100,001 turns from -1/2 to 1/2: 6 eps, as 1 - 2 sin^2 of half the
+    angle allows.
+    """
     turns = np.linspace(-0.5, 0.5, 100_001)[None, :]
     cosine, sine = np.empty((2, *turns.shape))
     passes.phasors(turns, cosine, sine)
@@ -35,7 +38,10 @@ def test_phasors():
 
 
 def test_phasors_in_single_precision():
-    """1 - 2 sin^2 has four times the sine's rounding, eps, and two of its own: 6 eps, where the processor does not fuse them."""
+    """
+    1 - 2 sin^2 has four times the sine's rounding, eps, and two of its own: 6 eps, where the
+    processor does not fuse them.
+    """
     turns = np.linspace(-0.5, 0.5, 100_001)[None, :]
     cosine, sine = np.empty((2, *turns.shape), dtype=np.float32)
     passes.phasors_single(turns, cosine, sine)
@@ -45,25 +51,52 @@ def test_phasors_in_single_precision():
 
 def waves_of(forward, backward, dtype):
     """What `passes.turn_waves` wants."""
-    sums = forward.real + backward.real, forward.imag - backward.imag, forward.imag + backward.imag, forward.real - backward.real
+    sums = (
+        forward.real + backward.real,
+        forward.imag - backward.imag,
+        forward.imag + backward.imag,
+        forward.real - backward.real,
+    )
     return np.concatenate(sums, axis=1).astype(dtype)
 
 
 @pytest.mark.parametrize(("dtype", "eps"), [(np.float64, 2.2e-16), (np.float32, 1.2e-7)])
 def test_waves_and_rates(dtype, eps):
-    forward, backward, angle, omega = complex_rows(), complex_rows(), RNG.uniform(-3, 3, (ROWS, N)), RNG.uniform(0.1, 9.0, (ROWS, N))
+    forward, backward, angle, omega = (
+        complex_rows(),
+        complex_rows(),
+        RNG.uniform(-3, 3, (ROWS, N)),
+        RNG.uniform(0.1, 9.0, (ROWS, N)),
+    )
     phase = np.exp(-1j * angle)
     real, imag = np.empty((2, ROWS, N), dtype=dtype)
-    arguments = waves_of(forward, backward, dtype), np.cos(angle).astype(dtype), np.sin(angle).astype(dtype)
+    arguments = (
+        waves_of(forward, backward, dtype),
+        np.cos(angle).astype(dtype),
+        np.sin(angle).astype(dtype),
+    )
     passes.turn_waves(*arguments, real, imag)
-    assert np.max(np.abs(real + 1j * imag - (forward * phase + backward * np.conj(phase)))) < 10 * 6 * eps  # ten roundings of values to 6
+    assert (
+        np.max(np.abs(real + 1j * imag - (forward * phase + backward * np.conj(phase))))
+        < 10 * 6 * eps
+    )  # ten roundings of values to 6
     passes.turn_rates(*arguments, omega.astype(dtype), real, imag)
-    assert np.max(np.abs(real + 1j * imag - (-1j * omega * (forward * phase - backward * np.conj(phase))))) < 10 * 54 * eps
+    assert (
+        np.max(
+            np.abs(real + 1j * imag - (-1j * omega * (forward * phase - backward * np.conj(phase))))
+        )
+        < 10 * 54 * eps
+    )
 
 
 @pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (-1, -1), (1, -1)])
 def test_scale_derive_and_mix(signs):
-    one, two, factor, power, other = complex_rows(), complex_rows(), RNG.standard_normal((ROWS, N)), *RNG.standard_normal((2, N))
+    one, two, factor, power, other = (
+        complex_rows(),
+        complex_rows(),
+        RNG.standard_normal((ROWS, N)),
+        *RNG.standard_normal((2, N)),
+    )
     first, second = signs
     out = np.empty((ROWS, N))
     passes.scale(one.real.copy(), factor, out)
@@ -72,9 +105,21 @@ def test_scale_derive_and_mix(signs):
     halves = [part.copy() for part in (one.real, one.imag)]
     passes.derive(*halves, power, float(first), float(second), ROWS, parts(mixed))
     assert np.array_equal(mixed, first * power * one.real + 1j * second * power * one.imag)
-    passes.mix(*halves, power, two.real.copy(), two.imag.copy(), other, float(first), float(second), ROWS, parts(mixed))
+    passes.mix(
+        *halves,
+        power,
+        two.real.copy(),
+        two.imag.copy(),
+        other,
+        float(first),
+        float(second),
+        ROWS,
+        parts(mixed),
+    )
     real, imag = power * one.real + other * two.real, power * one.imag + other * two.imag
-    assert np.allclose(mixed, first * real + 1j * second * imag, rtol=0, atol=1e-14)  # the compiler may fuse a multiply and an add
+    assert np.allclose(
+        mixed, first * real + 1j * second * imag, rtol=0, atol=1e-14
+    )  # the compiler may fuse a multiply and an add
 
 
 @pytest.mark.parametrize("columns", [1, 4, 8, 19])
@@ -82,7 +127,11 @@ def test_transpose(columns):
     block = RNG.standard_normal((20, 11)) + 1j
     for dtype in (np.complex64, np.complex128):
         source, out = block.astype(dtype), np.zeros((11, 3, 30), dtype=dtype)
-        moved = (source, out) if dtype == np.complex128 else (source.view(np.float64), out.view(np.float64))
+        moved = (
+            (source, out)
+            if dtype == np.complex128
+            else (source.view(np.float64), out.view(np.float64))
+        )
         passes.transpose(moved[0], 1, 5, columns, moved[1])
         assert np.array_equal(out[:, 1, 5 : 5 + columns], source[:columns].T)
         out[:, 1, 5 : 5 + columns] = 0
@@ -91,11 +140,16 @@ def test_transpose(columns):
 
 @pytest.mark.parametrize("nx", [1, 2, 7, 8])
 def test_pack_and_split(nx):
-    """Two half spectra go in as A + iB and A - iB; numpy's transform of the packed row has the two real fields as its parts."""
+    """
+    Two half spectra go in as A + iB and A - iB; numpy's transform of the packed row has the two
+    real fields as its parts.
+    """
     columns = (nx + 1) // 2
     a, b = np.zeros((2, 3, columns), dtype=complex)
     for field in (a, b):
-        field[:, 1:] = RNG.standard_normal((3, columns - 1)) + 1j * RNG.standard_normal((3, columns - 1))
+        field[:, 1:] = RNG.standard_normal((3, columns - 1)) + 1j * RNG.standard_normal(
+            (3, columns - 1)
+        )
     k = 0.7 * np.arange(columns)
     between = np.stack([a + 1j * b, a - 1j * b, a], axis=1)
     padded = np.zeros((3, nx // 2 + 1), dtype=complex)
@@ -126,7 +180,10 @@ def test_pack_and_split(nx):
 
 @pytest.mark.parametrize("t", [0.0, 3.7, -1e6, 1e7, 123456789.123, 1e9, 1e12])
 def test_turns_are_exact_at_any_time(t):
-    """frac(f t) against 60 digits: to the rounding of the fraction, and of the last 26 bits' product with time."""
+    """
+    frac(f t) against 60 digits: to the rounding of the fraction, and of the last 26 bits' product
+    with time.
+    """
     amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((8, 6), (30.0, 50.0)), depth=4.0)
     frequency = _frequencies(amplitudes, 4)
     out = np.empty(frequency.shape)
@@ -144,7 +201,9 @@ def test_frequencies_are_the_nearest_doubles():
     frequency = _frequencies(amplitudes, 5)
     with mpmath.workdps(40):
         for omega, f in zip(amplitudes.omega.T.ravel(), frequency.ravel(), strict=True):
-            assert float(mpmath.mpf(float(omega)) / (2 * mpmath.pi)) == pytest.approx(f, rel=2.3e-16, abs=0.0)
+            assert float(mpmath.mpf(float(omega)) / (2 * mpmath.pi)) == pytest.approx(
+                f, rel=2.3e-16, abs=0.0
+            )
 
 
 @pytest.mark.parametrize(("step", "count"), [(0, 1), (5, 48), (47, 48), (30, 31), (999_999, 10**6)])
@@ -170,7 +229,9 @@ def test_geometry_against_numpy(dtype, eps):
     normal = np.empty((ROWS, N, 3), dtype=dtype)
     surface.normals(sx, sy, xx, xy, yy, c, normal)
     length = np.linalg.norm(cross, axis=-1, keepdims=True)
-    assert np.max(np.abs(normal - cross / length) * length) < 20 * eps  # ten operations on values up to 2, before the division
+    assert (
+        np.max(np.abs(normal - cross / length) * length) < 20 * eps
+    )  # ten operations on values up to 2, before the division
     out = np.empty((ROWS, N), dtype=dtype)
     surface.jacobian(xx, xy, yy, c, out)
     assert np.max(np.abs(out - cross[..., 2])) < 10 * eps

@@ -18,7 +18,10 @@ def test_even_sides():
 
 @pytest.mark.parametrize("shape", [(7, 5), (3, 3), (9, 4), (1, 7), (5, 1), (101, 2), (2, 1)])
 def test_odd_sides(shape):
-    """The mean over a box is the difference of the running integral at its ends, which is linear between samples; axis by axis."""
+    """
+    The mean over a box is the difference of the running integral at its ends, which is linear
+    between samples; axis by axis.
+    """
     texels = RNG.standard_normal((*shape, 2))
 
     def boxes(values):

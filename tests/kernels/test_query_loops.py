@@ -1,4 +1,7 @@
-"""The kernels of queries: reduction far away, the inversion of displacements that are known in closed form, sums against NumPy."""
+"""
+The kernels of queries: reduction far away, the inversion of displacements that are known in closed
+form, sums against NumPy.
+"""
 
 import math
 
@@ -13,14 +16,27 @@ RNG = np.random.default_rng(3)
 NOTHING = np.zeros((0, 3), np.int64), np.zeros(0)
 
 
-def invert(waves, x, y, choppiness, aim=1e-14, limit=1e-9, reach=5.0, sizes=((np.inf, np.inf),), first=None):
+def invert(
+    waves, x, y, choppiness, aim=1e-14, limit=1e-9, reach=5.0, sizes=((np.inf, np.inf),), first=None
+):
     n = len(x)
     sizes = np.array(sizes, dtype=float)
     first = np.array([0, waves.shape[1]]) if first is None else first
     offsets, (heights, residuals, jacobians) = np.empty((n, 2)), np.empty((3, n))
     room = np.empty(sizes.shape), offsets, heights, residuals, jacobians
     query.invert(
-        query.WAVES, sizes, *NOTHING, first, waves, np.asarray(x, float), np.asarray(y, float), choppiness, aim, limit, reach, *room
+        query.WAVES,
+        sizes,
+        *NOTHING,
+        first,
+        waves,
+        np.asarray(x, float),
+        np.asarray(y, float),
+        choppiness,
+        aim,
+        limit,
+        reach,
+        *room,
     )
     return offsets, heights, residuals, jacobians
 
@@ -28,7 +44,10 @@ def invert(waves, x, y, choppiness, aim=1e-14, limit=1e-9, reach=5.0, sizes=((np
 @pytest.mark.parametrize("x", [0.0, 3.5, -3.5, 1e6 + 0.25, -1e9, 2.0**60, 1e300])
 @pytest.mark.parametrize("size", [10.0, 0.7, 3e5])
 def test_reduction(x, size):
-    """In the first period, and a whole number of periods away: by Python's own remainder, to the rounding of x; beyond 2^52 exactly."""
+    """
+    In the first period, and a whole number of periods away: by Python's own remainder, to the
+    rounding of x; beyond 2^52 exactly.
+    """
     reduced = query._reduced(x, size)
     rounding = 2 * np.spacing(abs(x) if abs(x) < query.FAR * size else size)
     if rounding < size:
@@ -40,14 +59,21 @@ def test_reduction(x, size):
 
 @pytest.mark.parametrize("steepness", [0.1, 0.6, 0.99])
 def test_one_wave_against_a_bracketed_root(steepness):
-    """x0 - a sin(k x0) = x has one root while a k < 1: scipy's Brent finds it without a derivative."""
+    """
+    x0 - a sin(k x0) = x has one root while a k < 1: scipy's Brent finds it without a derivative.
+    """
     k = 0.7
     a = steepness / k
     waves = np.array([[k], [0.0], [a], [a / k], [0.0]])
     x = np.linspace(-9.0, 9.0, 41)
     offsets, heights, residuals, jacobians = invert(waves, x, 0.0 * x, 1.0)
     for p, point in enumerate(x):
-        x0 = optimize.brentq(lambda q, point=point: q - a * np.sin(k * q) - point, point - 2 * a, point + 2 * a, xtol=1e-15)
+        x0 = optimize.brentq(
+            lambda q, point=point: q - a * np.sin(k * q) - point,
+            point - 2 * a,
+            point + 2 * a,
+            xtol=1e-15,
+        )
         slack = 1e-13 / (1 - steepness)  # the root's own condition
         assert point + offsets[p, 0] == pytest.approx(x0, abs=slack)
         assert heights[p] == pytest.approx(a * np.cos(k * x0), abs=slack)
@@ -58,16 +84,23 @@ def test_one_wave_against_a_bracketed_root(steepness):
 
 @pytest.mark.parametrize("steepness", [1.0, 1.3, 2.0, 4.0])
 def test_folded_waves_still_have_water_everywhere(steepness):
-    """A periodic displacement cannot leave a hole: an answer is found at every point, crests included, and its residual is true."""
+    """
+    A periodic displacement cannot leave a hole: an answer is found at every point, crests included,
+    and its residual is true.
+    """
     k = 1.0
-    waves = np.array([[k, 0.3], [0.0, 0.8], [steepness, 0.4], [steepness / k, 0.4 / 0.73], [0.0, 1.0]])
+    waves = np.array(
+        [[k, 0.3], [0.0, 0.8], [steepness, 0.4], [steepness / k, 0.4 / 0.73], [0.0, 1.0]]
+    )
     x, y = RNG.uniform(-20, 20, (2, 500))
     x[:50], y[:50] = np.linspace(-0.5, 0.5, 50), 0.0
     offsets, _, residuals, _ = invert(waves, x, y, 1.0, aim=1e-11)
     x0, y0 = x + offsets[:, 0], y + offsets[:, 1]
     f = waves[0][:, None] * x0 + waves[1][:, None] * y0 - waves[4][:, None]
     push = waves[3][:, None] * np.sin(f)
-    apart = np.hypot(x0 - np.sum(waves[0][:, None] * push, 0) - x, y0 - np.sum(waves[1][:, None] * push, 0) - y)
+    apart = np.hypot(
+        x0 - np.sum(waves[0][:, None] * push, 0) - x, y0 - np.sum(waves[1][:, None] * push, 0) - y
+    )
     assert np.max(np.abs(apart - residuals)) < 1e-13
     assert np.max(residuals) < 1e-9
 
@@ -75,8 +108,9 @@ def test_folded_waves_still_have_water_everywhere(steepness):
 @pytest.mark.parametrize("steepness", [1.1, 1.5, 2.0])
 def test_every_folded_point_is_flagged(steepness):
     """
-    x0 - a sin(k x0) turns back at cos(k x0) = 1/(a k): within that turning point's x there are three answers, and the least Jacobian
-    on the way is negative, up to twice the steepness that folds. Beyond, but for a strip beside the fold, it is not.
+    x0 - a sin(k x0) turns back at cos(k x0) = 1/(a k): within that turning point's x there are
+    three answers, and the least Jacobian on the way is negative, up to twice the steepness that
+    folds. Beyond, but for a strip beside the fold, it is not.
     """
     waves = np.array([[1.0], [0.0], [steepness], [steepness], [0.0]])
     turn = np.arccos(1.0 / steepness)
@@ -88,7 +122,10 @@ def test_every_folded_point_is_flagged(steepness):
 
 
 def test_texels_and_waves_of_several_tiles_add_up():
-    """A wave on each of two tiles: the kernel that interpolates finds what the one that sums does, to the spline's error on 64 samples."""
+    """
+    A wave on each of two tiles: the kernel that interpolates finds what the one that sums does, to
+    the spline's error on 64 samples.
+    """
     n, sizes = 64, np.array([[20.0, 20.0], [7.0, 7.0]])
     k = 2 * np.pi / sizes[:, 0]
     waves = np.array([k, 0 * k, [0.5, 0.1], 0.5 * np.array([0.5, 0.1]) / k, [0.3, 0.7]])
@@ -96,7 +133,12 @@ def test_texels_and_waves_of_several_tiles_add_up():
     for i in range(2):
         f = k[i] * np.arange(n) * sizes[i, 0] / n - waves[4, i]
         response = (2 + np.cos(2 * np.pi / n)) / 3
-        row = np.stack([-waves[3, i] * k[i] * np.sin(f), 0 * f, waves[2, i] * np.cos(f), 0 * f], axis=-1) / response
+        row = (
+            np.stack(
+                [-waves[3, i] * k[i] * np.sin(f), 0 * f, waves[2, i] * np.cos(f), 0 * f], axis=-1
+            )
+            / response
+        )
         flat.append(np.tile(row, (n, 1, 1)).ravel())
     layout = np.array([[0, n, n], [n * n, n, n]])
     x, y = RNG.uniform(-50, 50, (2, 30))
@@ -104,8 +146,24 @@ def test_texels_and_waves_of_several_tiles_add_up():
     offsets, (heights, residuals, jacobians) = np.empty((30, 2)), np.empty((3, 30))
     room = np.empty((2, 2)), offsets, heights, residuals, jacobians
     first = np.zeros(3, np.int64)
-    query.invert(query.SPLINE, sizes, layout, np.concatenate(flat), first, np.zeros((5, 0)), x, y, 1.0, 1e-13, 1e-9, 1.0, *room)
-    assert np.max(np.abs(offsets - expected[0])) < 1e-5  # (2 pi/64)^4/384 of the amplitude, and a little more off the texels
+    query.invert(
+        query.SPLINE,
+        sizes,
+        layout,
+        np.concatenate(flat),
+        first,
+        np.zeros((5, 0)),
+        x,
+        y,
+        1.0,
+        1e-13,
+        1e-9,
+        1.0,
+        *room,
+    )
+    assert (
+        np.max(np.abs(offsets - expected[0])) < 1e-5
+    )  # (2 pi/64)^4/384 of the amplitude, and a little more off the texels
     assert np.max(np.abs(heights - expected[1])) < 1e-5
     assert np.max(residuals) < 1e-12
 
@@ -124,11 +182,20 @@ def test_sums_against_numpy():
     query.sum_waves(sizes, first, waves, omega, x, y, offsets, origin, out)
     f = np.outer(x + offsets[:, 0], kx) + np.outer(y + offsets[:, 1], ky) - start
     c, s = np.cos(f), np.sin(f)
-    columns = [-kx * a * s, -ky * a * s, -kx * kx * push * c, -kx * ky * push * c, -ky * ky * push * c]
+    columns = [
+        -kx * a * s,
+        -ky * a * s,
+        -kx * kx * push * c,
+        -kx * ky * push * c,
+        -ky * ky * push * c,
+    ]
     columns += [-kx * push * s, -ky * push * s, a * c]
     columns += [omega * kx * push * c, omega * ky * push * c, omega * a * s]
     columns += [omega**2 * kx * push * s, omega**2 * ky * push * s, -(omega**2) * a * c]
-    assert np.max(np.abs(out - np.stack([np.sum(column, axis=1) for column in columns], axis=-1))) < 1e-13
+    assert (
+        np.max(np.abs(out - np.stack([np.sum(column, axis=1) for column in columns], axis=-1)))
+        < 1e-13
+    )
     heights = np.empty(7)
     query.sum_heights(sizes, first, waves, x, y, origin, heights)
     f = np.outer(x, kx) + np.outer(y, ky) - start
@@ -138,28 +205,52 @@ def test_sums_against_numpy():
     along = a * omega * np.cosh(np.outer(z + depth, k)) / np.sinh(k * depth)
     up = a * omega * np.sinh(np.outer(z + depth, k)) / np.sinh(k * depth)
     c, s = np.cos(f), np.sin(f)
-    columns = [along * kx / k * c, along * ky / k * c, up * s, along * omega * kx / k * s, along * omega * ky / k * s, -up * omega * c]
+    columns = [
+        along * kx / k * c,
+        along * ky / k * c,
+        up * s,
+        along * omega * kx / k * s,
+        along * omega * ky / k * s,
+        -up * omega * c,
+    ]
     columns += [along * omega / k * c]
-    assert np.max(np.abs(below - np.stack([np.sum(column, axis=1) for column in columns], axis=-1))) < 1e-13
+    assert (
+        np.max(np.abs(below - np.stack([np.sum(column, axis=1) for column in columns], axis=-1)))
+        < 1e-13
+    )
 
 
 def test_what_is_not_finite_is_nan():
     waves = np.array([[1.0], [0.0], [0.1], [0.1], [0.0]])
     x = np.array([0.0, np.nan, np.inf, 0.0])
-    offsets, heights, residuals, jacobians = invert(waves, x, np.array([0.0, 0.0, 0.0, -np.inf]), 1.0)
+    offsets, heights, residuals, jacobians = invert(
+        waves, x, np.array([0.0, 0.0, 0.0, -np.inf]), 1.0
+    )
     for found in (offsets[:, 0], heights, residuals, jacobians):
         assert np.array_equal(np.isnan(found), [False, True, True, True])
 
 
 def test_newton_s_step_solves_the_linear_problem():
-    """With D linear the step lands on the root: against NumPy's solver; and who is near enough leaves with what it has."""
+    """
+    With D linear the step lands on the root: against NumPy's solver; and who is near enough leaves
+    with what it has.
+    """
     n, c, block = 5, 1.3, interpolate.BLOCK
-    moved, at, gradient = RNG.uniform(-1, 1, (2, block)), RNG.uniform(-1, 1, (n, 2)), RNG.uniform(-0.2, 0.2, (n, 2, 2))
+    moved, at, gradient = (
+        RNG.uniform(-1, 1, (2, block)),
+        RNG.uniform(-1, 1, (n, 2)),
+        RNG.uniform(-0.2, 0.2, (n, 2, 2)),
+    )
     desk = np.zeros(interpolate.ROWS * block)
     rows = desk.reshape(-1, block)
     s = moved[:, :n].T.copy()
     rows[2:4, :n], rows[4, :n], rows[5:9, :n] = at.T, np.arange(n), gradient.reshape(n, 4).T
-    points, offsets, (heights, residuals), jacobians = np.arange(block), np.zeros((n, 2)), np.zeros((2, n)), np.full(n, np.inf)
+    points, offsets, (heights, residuals), jacobians = (
+        np.arange(block),
+        np.zeros((n, 2)),
+        np.zeros((2, n)),
+        np.full(n, np.inf),
+    )
     rows[2:4, 2] = -s[2] / c  # this one is there
     at[2] = -s[2] / c
     kept = query._step(c, 1e-9, 0, n, moved, desk, points, offsets, heights, residuals, jacobians)
@@ -170,4 +261,6 @@ def test_newton_s_step_solves_the_linear_problem():
     full = np.eye(2) + c * gradient
     assert np.allclose(jacobians, np.linalg.det(full), rtol=1e-13)
     for q, p in enumerate(points[:4]):
-        assert np.allclose(moved[:, q], s[p] - np.linalg.solve(full[p], s[p] + c * at[p]), rtol=1e-12)
+        assert np.allclose(
+            moved[:, q], s[p] - np.linalg.solve(full[p], s[p] + c * at[p]), rtol=1e-12
+        )

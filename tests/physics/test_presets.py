@@ -1,4 +1,7 @@
-"""Seas by number: each has the height that its scale promises, and the period that its wind can give it."""
+"""
+Seas by number: each has the height that its scale promises, and the period that its wind can give
+it.
+"""
 
 import math
 
@@ -15,7 +18,21 @@ from fftocean.physics.spreading import Blend, CosineSquared
 from fftocean.physics.units import FOOT, KNOT, NAUTICAL_MILE, feet, knots, nautical_miles
 
 # WMO-No. 306, code table 1100 (knots) and the probable wave heights beside the scale [m].
-KNOTS = [(0, 0), (1, 3), (4, 6), (7, 10), (11, 16), (17, 21), (22, 27), (28, 33), (34, 40), (41, 47), (48, 55), (56, 63), (64, 64)]
+KNOTS = [
+    (0, 0),
+    (1, 3),
+    (4, 6),
+    (7, 10),
+    (11, 16),
+    (17, 21),
+    (22, 27),
+    (28, 33),
+    (34, 40),
+    (41, 47),
+    (48, 55),
+    (56, 63),
+    (64, 64),
+]
 HEIGHTS = [0.0, 0.1, 0.2, 0.6, 1.0, 2.0, 3.0, 4.0, 5.5, 7.0, 9.0, 11.5, 14.0]
 # WMO-No. 306, code table 3700: limits of height [m].
 LIMITS = [0.0, 0.0, 0.1, 0.5, 1.25, 2.5, 4.0, 6.0, 9.0, 14.0]
@@ -33,7 +50,10 @@ def states() -> tuple[Preset, ...]:
 
 @pytest.mark.parametrize("number", range(13))
 def test_beaufort_keeps_its_promise(number, scale):
-    """Hs by quadrature is the probable wave height of the scale, to the quadrature's own 1e-10; the table says the same."""
+    """
+    Hs by quadrature is the probable wave height of the scale, to the quadrature's own 1e-10; the
+    table says the same.
+    """
     sea, row = Sea.beaufort(number, direction=30.0), scale[number]
     assert sea.hs == pytest.approx(HEIGHTS[number], rel=1e-10)
     assert row.measured_hs == pytest.approx(row.hs, rel=1e-10)
@@ -44,7 +64,10 @@ def test_beaufort_keeps_its_promise(number, scale):
 
 @pytest.mark.parametrize("number", range(1, 10))
 def test_sea_states_lie_within_their_limits(number, states):
-    """The height is the middle of the code table's range; the last has no upper limit and takes its lower."""
+    """
+    The height is the middle of the code table's range; the last has no upper limit and takes its
+    lower.
+    """
     sea, row = Sea.sea_state(number, direction=-20.0), states[number]
     expected = 0.5 * (LIMITS[number] + LIMITS[number + 1]) if number < 9 else 14.0
     assert sea.hs == pytest.approx(expected, rel=1e-10)
@@ -63,7 +86,10 @@ def test_number_0_is_a_flat_sea(scale, states):
 
 
 def test_the_winds_in_metres_per_second_and_in_knots_are_one_scale(scale):
-    """The WMO gives both: middles in m/s fall within the ranges in knots and agree to a knot (5's own ranges are 0.8 apart)."""
+    """
+    The WMO gives both: middles in m/s fall within the ranges in knots and agree to a knot (5's own
+    ranges are 0.8 apart).
+    """
     for row, (low, high) in zip(scale, KNOTS, strict=True):
         assert low - 0.5 <= row.wind_knots <= high + 0.5
         assert row.wind_knots == pytest.approx(0.5 * (low + high), abs=1.0)
@@ -81,7 +107,10 @@ def test_the_tables_rise_from_row_to_row(scale, states):
 
 @pytest.mark.parametrize("number", range(1, 13))
 def test_the_period_is_one_that_the_wind_can_give(number, scale):
-    """Steepness Hs/(g Tp^2/2 pi) lies between a fully developed sea's 0.0256 and 0.04, where the youngest of open seas are."""
+    """
+    Steepness Hs/(g Tp^2/2 pi) lies between a fully developed sea's 0.0256 and 0.04, where the
+    youngest of open seas are.
+    """
     sea = Sea.beaufort(number)
     steepness = sea.hs * 2.0 * math.pi / (GRAVITY * sea.tp**2)
     assert 0.0255 < steepness < 0.04

@@ -39,7 +39,10 @@ MODELS = [
 
 @pytest.mark.parametrize("model", MODELS, ids=repr)
 def test_every_model_integrates_to_one(model):
-    """Adaptive quadrature, cut at the kinks (0, pi/2) and round the narrowest lobe, whose width is sqrt(2/s) = 1.4e-3."""
+    """
+    Adaptive quadrature, cut at the kinks (0, pi/2) and round the narrowest lobe, whose width is
+    sqrt(2/s) = 1.4e-3.
+    """
     cuts = [0.0, 0.002, 0.01, 0.1, 0.5 * math.pi, math.pi]
     for x in np.geomspace(0.3, 30.0, 20):
         total = 0.0
@@ -48,15 +51,18 @@ def test_every_model_integrates_to_one(model):
             def d(theta, x=x, side=side):
                 return float(model(x * PEAK, side * theta, PEAK))
 
-            total += sum(integrate.quad(d, a, b, epsabs=1e-12, epsrel=1e-12)[0] for a, b in pairwise(cuts))
+            total += sum(
+                integrate.quad(d, a, b, epsabs=1e-12, epsrel=1e-12)[0] for a, b in pairwise(cuts)
+            )
         assert total == pytest.approx(1.0, abs=1e-10)
 
 
 @pytest.mark.parametrize("model", MODELS, ids=repr)
 def test_every_model_is_a_density_on_the_circle(model):
     """
-    Never negative, the same to both sides, the same after a turn: to the rounding of the turn itself, times the slope, which is that
-    of a lobe 1/sqrt(s) wide (save at the far side, where cos^0.6 is vertical).
+    Never negative, the same to both sides, the same after a turn: to the rounding of the turn
+    itself, times the slope, which is that of a lobe 1/sqrt(s) wide (save at the far side, where
+    cos^0.6 is vertical).
     """
     omega = PEAK * np.array([[0.0], [1e-3], [0.5], [1.0], [5.0], [1e3]])
     theta = np.linspace(-math.pi, math.pi, 241)
@@ -67,7 +73,10 @@ def test_every_model_is_a_density_on_the_circle(model):
     slope = np.max(d) * max(1.0, math.sqrt(getattr(model, "s", 1.0)))
     for turns in (-3, 1, 1000):
         turned = model(omega, theta + 2.0 * math.pi * turns, PEAK)
-        assert np.max(np.abs(turned - d)[:, 1:-1]) < np.spacing(2.0 * math.pi * (abs(turns) + 1)) * 4.0 * slope
+        assert (
+            np.max(np.abs(turned - d)[:, 1:-1])
+            < np.spacing(2.0 * math.pi * (abs(turns) + 1)) * 4.0 * slope
+        )
     assert np.all(np.argmax(d, axis=1) == 120) or model == CosinePower(s=0.0)  # toward theta = 0
     assert np.shape(model(1.0, 0.0, PEAK)) == ()
     assert model([], [], PEAK).shape == (0,)
@@ -91,18 +100,27 @@ def test_cosine_power_with_whole_exponents():
     """s = 0 is all round; s = 1 is (1 + cos)/2pi; s = 2 is (1 + cos)^2/3pi."""
     theta = np.linspace(-3.0, 3.0, 61)
     assert CosinePower(s=0.0)(1.0, theta, PEAK) == pytest.approx(0.5 / math.pi, rel=1e-15)
-    assert CosinePower(s=1.0)(1.0, theta, PEAK) == pytest.approx((1.0 + np.cos(theta)) / (2.0 * math.pi), abs=1e-16 * 4)
-    assert CosinePower(s=2.0)(1.0, theta, PEAK) == pytest.approx((1.0 + np.cos(theta)) ** 2 / (3.0 * math.pi), abs=1e-16 * 4)
+    assert CosinePower(s=1.0)(1.0, theta, PEAK) == pytest.approx(
+        (1.0 + np.cos(theta)) / (2.0 * math.pi), abs=1e-16 * 4
+    )
+    assert CosinePower(s=2.0)(1.0, theta, PEAK) == pytest.approx(
+        (1.0 + np.cos(theta)) ** 2 / (3.0 * math.pi), abs=1e-16 * 4
+    )
 
 
 @pytest.mark.parametrize("s", [1e-308, 0.5, 7.0, 123.4, 1e4, 1e6])
 def test_cosine_power_against_40_digits(s):
-    """1e-11: below s = 1e4 the ratio of Gamma functions comes from their logarithms, 3e-12 off at worst; above, from its own series."""
+    """
+    1e-11: below s = 1e4 the ratio of Gamma functions comes from their logarithms, 3e-12 off at
+    worst; above, from its own series.
+    """
     model = CosinePower(s=s)
     for theta in (0.0, 1e-6, 1e-3 / math.sqrt(1.0 + s), 1.0 / math.sqrt(1.0 + s), 1.0, 3.0):
         with mpmath.workdps(40):
             m = mpmath.mpf(s)
-            norm = mpmath.exp(mpmath.loggamma(m + 1) - mpmath.loggamma(m + 0.5)) / (2 * mpmath.sqrt(mpmath.pi))
+            norm = mpmath.exp(mpmath.loggamma(m + 1) - mpmath.loggamma(m + 0.5)) / (
+                2 * mpmath.sqrt(mpmath.pi)
+            )
             exact = float(norm * mpmath.cos(mpmath.mpf(theta) / 2) ** (2 * m))
         assert model(1.0, theta, PEAK) == pytest.approx(exact, rel=1e-11, abs=1e-300)
 
@@ -112,7 +130,9 @@ def test_cosine_power_at_the_far_side():
     for s in (1e-3, 1.0, 1e4, 1e6):
         assert 0.0 <= CosinePower(s=s)(1.0, math.pi, PEAK) <= (0.16 if s < 1.0 else 1e-30)
     several = cosine_2s(np.array([0.0, 1.0, 1e6]), 0.3)
-    assert several == pytest.approx([float(CosinePower(s=s)(1.0, 0.3, PEAK)) for s in (0.0, 1.0, 1e6)], rel=1e-15)
+    assert several == pytest.approx(
+        [float(CosinePower(s=s)(1.0, 0.3, PEAK)) for s in (0.0, 1.0, 1e6)], rel=1e-15
+    )
 
 
 def test_donelan_banner_is_sech_squared():
@@ -129,17 +149,24 @@ def test_donelan_banner_coefficients():
     low, middle, high = x[:3], x[3:6], x[6:]
     assert beta[:3] == pytest.approx(2.61 * low**1.3, rel=1e-14)
     assert beta[3:6] == pytest.approx(2.28 * middle**-1.3, rel=1e-14)
-    assert beta[6:] == pytest.approx(10.0 ** (-0.4 + 0.8393 * np.exp(-0.567 * np.log(high**2))), rel=1e-14)
+    assert beta[6:] == pytest.approx(
+        10.0 ** (-0.4 + 0.8393 * np.exp(-0.567 * np.log(high**2))), rel=1e-14
+    )
     assert beta[-1] == pytest.approx(10.0**-0.4, rel=1e-6)
 
 
 @pytest.mark.parametrize(("x", "step"), [(0.95, 2e-3), (1.6, 1e-4)])
 def test_donelan_banner_joins_up(x, step):
-    """What the published coefficients leave: 0.18 % at 0.95 and 0.008 % at 1.6; the formulas' slopes add 1e-9."""
+    """
+    What the published coefficients leave: 0.18 % at 0.95 and 0.008 % at 1.6; the formulas' slopes
+    add 1e-9.
+    """
     below, above = donelan_banner_beta(np.array([x * (1.0 - 1e-9), x * (1.0 + 1e-9)]))
     assert abs(above / below - 1.0) < step
     grid = donelan_banner_beta(np.geomspace(1e-3, 1e3, 100_001))
-    assert np.max(np.abs(np.diff(np.log(grid)))) < 2e-3  # and nowhere else: a step of 1.4e-4 in ln x, a slope of 1.3
+    assert (
+        np.max(np.abs(np.diff(np.log(grid)))) < 2e-3
+    )  # and nowhere else: a step of 1.4e-4 in ln x, a slope of 1.3
 
 
 def test_donelan_banner_is_held_below():
@@ -147,7 +174,9 @@ def test_donelan_banner_is_held_below():
     x = np.array([-1.0, 0.0, 1e-3, 0.3, 0.55, 0.56])
     assert np.array_equal(donelan_banner_beta(x), np.full(6, 2.61 * 0.56**1.3))
     theta = np.linspace(-math.pi, math.pi, 25)
-    assert np.array_equal(DonelanBanner()(0.1 * PEAK, theta, PEAK), DonelanBanner()(0.56 * PEAK, theta, PEAK))
+    assert np.array_equal(
+        DonelanBanner()(0.1 * PEAK, theta, PEAK), DonelanBanner()(0.56 * PEAK, theta, PEAK)
+    )
 
 
 def test_donelan_banner_narrows_toward_the_peak():
@@ -159,19 +188,31 @@ def test_donelan_banner_narrows_toward_the_peak():
 def test_blend_ends_are_its_models():
     omega, theta = PEAK * np.array([[0.5], [1.0], [3.0]]), np.linspace(-4.0, 4.0, 33)
     first, second = DonelanBanner(), CosinePower(s=8.0)
-    assert np.array_equal(Blend(first, second, weight=0.0)(omega, theta, PEAK), first(omega, theta, PEAK))
-    assert np.array_equal(Blend(first, second, weight=1.0)(omega, theta, PEAK), second(omega, theta, PEAK))
+    assert np.array_equal(
+        Blend(first, second, weight=0.0)(omega, theta, PEAK), first(omega, theta, PEAK)
+    )
+    assert np.array_equal(
+        Blend(first, second, weight=1.0)(omega, theta, PEAK), second(omega, theta, PEAK)
+    )
     half = Blend(first, second)(omega, theta, PEAK)
-    assert half == pytest.approx(0.5 * (first(omega, theta, PEAK) + second(omega, theta, PEAK)), rel=1e-15)
+    assert half == pytest.approx(
+        0.5 * (first(omega, theta, PEAK) + second(omega, theta, PEAK)), rel=1e-15
+    )
     quarter = Blend(first, second, weight=0.25)(omega, theta, PEAK)
-    assert quarter == pytest.approx(0.75 * first(omega, theta, PEAK) + 0.25 * second(omega, theta, PEAK), rel=1e-15)
+    assert quarter == pytest.approx(
+        0.75 * first(omega, theta, PEAK) + 0.25 * second(omega, theta, PEAK), rel=1e-15
+    )
 
 
 @pytest.mark.parametrize("bad", [5, None, "cos2", DonelanBanner])
 def test_only_models_can_be_blended(bad):
-    with pytest.raises(ParameterError, match=r"first must be callable as D\(omega, theta, peak\), got "):
+    with pytest.raises(
+        ParameterError, match=r"first must be callable as D\(omega, theta, peak\), got "
+    ):
         Blend(bad)
-    with pytest.raises(ParameterError, match=r"second must be callable as D\(omega, theta, peak\), got "):
+    with pytest.raises(
+        ParameterError, match=r"second must be callable as D\(omega, theta, peak\), got "
+    ):
         Blend(DonelanBanner(), bad)
 
 
@@ -187,11 +228,16 @@ def test_models_are_frozen_values(model):
 
 
 def test_a_plain_function_is_no_model():
-    """Nobody has seen to its integral: 1 everywhere would deliver 2 pi times the energy. CustomSpreading does see to it."""
+    """
+    Nobody has seen to its integral: 1 everywhere would deliver 2 pi times the energy.
+    CustomSpreading does see to it.
+    """
 
     def everywhere(omega, theta, _peak):
         return 1.0 + 0.0 * omega + 0.0 * theta
 
     for f in (everywhere, partial(everywhere), np.add.reduce):
-        with pytest.raises(ParameterError, match=r"first must integrate to 1 .* CustomSpreading\(f\)"):
+        with pytest.raises(
+            ParameterError, match=r"first must integrate to 1 .* CustomSpreading\(f\)"
+        ):
             Blend(f, CosineSquared())

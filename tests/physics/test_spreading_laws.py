@@ -1,4 +1,7 @@
-"""Spreading laws: each shares out exactly what there is, however narrow, and each is the curve of its paper."""
+"""
+Spreading laws: each shares out exactly what there is, however narrow, and each is the curve of its
+paper.
+"""
 
 import math
 import pickle
@@ -52,7 +55,16 @@ LAWS = [
     CustomSpreading(_ripple),
     CustomSpreading(_hat, breaks=(-0.3, 0.3)),
     *(SwellElongation(xi=xi) for xi in (0.0, 0.01, 0.1, 0.5, 1.0)),
-    *(SwellElongation(base, xi=0.7) for base in (CosineSquared(), CosineN(n=0.0), Blend(), WrappedNormal(30.0), CosinePower(s=0.0))),
+    *(
+        SwellElongation(base, xi=0.7)
+        for base in (
+            CosineSquared(),
+            CosineN(n=0.0),
+            Blend(),
+            WrappedNormal(30.0),
+            CosinePower(s=0.0),
+        )
+    ),
     SwellElongation(CustomSpreading(_hat, breaks=(-0.3, 0.3)), xi=1.0),
     SwellElongation(Mitsuyasu(speed=10.0), xi=1.0),
     SwellElongation(SwellElongation(xi=0.3), xi=0.3),
@@ -60,10 +72,15 @@ LAWS = [
 
 
 def _whole(law, x):
-    """The integral over the circle by adaptive quadrature (tanh-sinh), cut at the kinks and round the narrowest lobe (0.002)."""
+    """
+    The integral over the circle by adaptive quadrature (tanh-sinh), cut at the kinks and round the
+    narrowest lobe (0.002).
+    """
     cuts = np.array([0.0, 0.002, 0.01, 0.1, 0.3, 0.5 * math.pi, math.pi])
     cuts = np.unique(np.concatenate([-cuts, cuts]))
-    result = integrate.tanhsinh(lambda t: law(x * PEAK, t, PEAK), cuts[:-1], cuts[1:], atol=1e-13, rtol=1e-13)
+    result = integrate.tanhsinh(
+        lambda t: law(x * PEAK, t, PEAK), cuts[:-1], cuts[1:], atol=1e-13, rtol=1e-13
+    )
     assert np.all(result.error < 1e-11)
     return float(np.sum(result.integral))
 
@@ -76,7 +93,10 @@ def test_every_law_integrates_to_one(law):
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
 def test_every_law_is_a_density_on_the_circle(law):
-    """Finite from a thousandth to a thousand times the peak, at 0 and at infinity; not negative; broadcast; the same after a turn."""
+    """
+    Finite from a thousandth to a thousand times the peak, at 0 and at infinity; not negative;
+    broadcast; the same after a turn.
+    """
     assert isinstance(law, Spreading)
     omega = PEAK * np.array([0.0, 1e-3, 0.3, 0.95, 1.0, 1.05, 1.6, 30.0, 1e3, np.inf])[:, None]
     theta = np.linspace(-math.pi, math.pi, 97)
@@ -87,24 +107,35 @@ def test_every_law_is_a_density_on_the_circle(law):
     slope = 1.0 + np.max(np.abs(np.diff(d, axis=1))) / (theta[1] - theta[0])
     inner = slice(1, -1)  # at +-pi itself a turn may land on either side
     away = np.abs(np.abs(theta) - 0.5 * math.pi) > 1e-9  # as at a jump
-    assert np.max(np.abs(law(omega, theta + 2.0 * math.pi, PEAK) - d)[:, inner][:, away[inner]]) < 1e-14 * slope * 10.0  # eps of 2 pi
+    assert (
+        np.max(np.abs(law(omega, theta + 2.0 * math.pi, PEAK) - d)[:, inner][:, away[inner]])
+        < 1e-14 * slope * 10.0
+    )  # eps of 2 pi
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
 def test_every_law_survives_a_pickle_and_serves_a_system(law):
     assert pickle.loads(pickle.dumps(law)) == law
     system = WaveSystem(spectrum=PiersonMoskowitz(peak=PEAK), spreading=law, direction=30.0)
-    assert system.density(PEAK, math.radians(30.0)) == pytest.approx(float(system.spectrum(PEAK)) * float(law(PEAK, 0.0, PEAK)), rel=1e-12)
+    assert system.density(PEAK, math.radians(30.0)) == pytest.approx(
+        float(system.spectrum(PEAK)) * float(law(PEAK, 0.0, PEAK)), rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("inverse_age", AGED)
 def test_mitsuyasu_peaks_at_the_spectral_peak(inverse_age):
-    """s_p = 11.5 (U/c_p)^-2.5 there; x^5 below, x^-2.5 above, as Horvath 2015 gives the law of 1975."""
+    """
+    s_p = 11.5 (U/c_p)^-2.5 there; x^5 below, x^-2.5 above, as Horvath 2015 gives the law of 1975.
+    """
     law = Mitsuyasu(inverse_age * GRAVITY / PEAK)
     s_p = 11.5 * inverse_age**-2.5
     x = np.array([0.5, 1.0, 2.0, 4.0])
-    assert law.exponent(x * PEAK, PEAK) == pytest.approx(s_p * np.array([1 / 32, 1.0, 2.0**-2.5, 1 / 32]), rel=1e-13)
-    assert law(2.0 * PEAK, 0.7, PEAK) == pytest.approx(float(CosinePower(s_p * 2.0**-2.5)(1.0, 0.7, PEAK)), rel=1e-13)
+    assert law.exponent(x * PEAK, PEAK) == pytest.approx(
+        s_p * np.array([1 / 32, 1.0, 2.0**-2.5, 1 / 32]), rel=1e-13
+    )
+    assert law(2.0 * PEAK, 0.7, PEAK) == pytest.approx(
+        float(CosinePower(s_p * 2.0**-2.5)(1.0, 0.7, PEAK)), rel=1e-13
+    )
 
 
 def test_goda_names_the_peak_of_mitsuyasu():
@@ -112,7 +143,9 @@ def test_goda_names_the_peak_of_mitsuyasu():
     theta = np.linspace(-3.0, 3.0, 31)
     same = GodaSuzuki(s_max=11.5 * inverse_age**-2.5)
     omega = PEAK * np.array([[0.4], [1.0], [3.0]])
-    assert same(omega, theta, PEAK) == pytest.approx(Mitsuyasu(inverse_age * GRAVITY / PEAK)(omega, theta, PEAK), rel=1e-12)
+    assert same(omega, theta, PEAK) == pytest.approx(
+        Mitsuyasu(inverse_age * GRAVITY / PEAK)(omega, theta, PEAK), rel=1e-12
+    )
 
 
 def test_the_laws_of_the_wind_are_held_at_the_sharpest():
@@ -122,7 +155,10 @@ def test_the_laws_of_the_wind_are_held_at_the_sharpest():
 
 @pytest.mark.parametrize("inverse_age", AGED)
 def test_hasselmann_splits_at_1_05(inverse_age):
-    """6.97 x^4.06 and 9.77 x^mu of Hasselmann, Dunckel & Ewing 1980; the step between the branches is the paper's own, 3 %."""
+    """
+    6.97 x^4.06 and 9.77 x^mu of Hasselmann, Dunckel & Ewing 1980; the step between the branches is
+    the paper's own, 3 %.
+    """
     law = Hasselmann(inverse_age * GRAVITY / PEAK)
     mu = -2.33 - 1.45 * (inverse_age - 1.17)
     x = np.array([0.5, 1.0, 1.05 * (1 - 1e-12), 1.05 * (1 + 1e-12), 2.0])
@@ -133,7 +169,9 @@ def test_hasselmann_splits_at_1_05(inverse_age):
 
 
 def test_an_older_sea_is_narrower():
-    """At twice the peak, Mitsuyasu's and Hasselmann's s both grow as the wind falls behind its waves."""
+    """
+    At twice the peak, Mitsuyasu's and Hasselmann's s both grow as the wind falls behind its waves.
+    """
     for law in (Mitsuyasu, Hasselmann):
         s = [float(law(u * GRAVITY / PEAK).exponent(2.0 * PEAK, PEAK)) for u in AGED]
         assert s == sorted(s, reverse=True)
@@ -143,26 +181,39 @@ def test_cosine_n_is_not_cosine_2s():
     theta = np.linspace(-math.pi, math.pi, 101)
     n2 = CosineN(n=2.0)(1.0, theta, PEAK)
     assert n2 == pytest.approx(CosineSquared()(1.0, theta, PEAK), abs=1e-15)  # rounding of cos
-    assert np.max(np.abs(n2 - CosinePower(s=1.0)(1.0, theta, PEAK))) > 0.3  # the mix-up that the name is there to prevent
+    assert (
+        np.max(np.abs(n2 - CosinePower(s=1.0)(1.0, theta, PEAK))) > 0.3
+    )  # the mix-up that the name is there to prevent
     front = np.abs(theta) < 0.5 * math.pi
     for n in (0.0, 1.0, 4.5):
-        beta = math.exp(math.lgamma(0.5 * n + 1.0) - math.lgamma(0.5 * n + 0.5)) / math.sqrt(math.pi)
+        beta = math.exp(math.lgamma(0.5 * n + 1.0) - math.lgamma(0.5 * n + 0.5)) / math.sqrt(
+            math.pi
+        )
         expected = np.where(front, beta * np.maximum(np.cos(theta), 0.0) ** n, 0.0)
         assert CosineN(n=n)(1.0, theta, PEAK) == pytest.approx(expected, rel=1e-12, abs=1e-15)
 
 
 @pytest.mark.parametrize("spread", [0.1, 5.0, 30.0, 100.0, 180.0])
 def test_wrapped_normal_equals_its_fourier_series(spread):
-    """(1 + 2 sum e^{-n^2 sigma^2/2} cos n theta) / 2 pi, an independent sum (Mardia 1972), and from it the circular spread."""
+    """
+    (1 + 2 sum e^{-n^2 sigma^2/2} cos n theta) / 2 pi, an independent sum (Mardia 1972), and from it
+    the circular spread.
+    """
     sigma = math.radians(spread)
     n = np.arange(1, math.ceil(9.0 / sigma) + 1)
     theta = np.linspace(-math.pi, math.pi, 8001)[:-1]
-    series = (1.0 + 2.0 * np.cos(theta[::250, None] * n) @ np.exp(-0.5 * (n * sigma) ** 2)) / (2.0 * math.pi)
+    series = (1.0 + 2.0 * np.cos(theta[::250, None] * n) @ np.exp(-0.5 * (n * sigma) ** 2)) / (
+        2.0 * math.pi
+    )
     d = WrappedNormal(spread)(1.0, theta, PEAK)
-    assert d[::250] == pytest.approx(series, abs=1e-13 * float(d.max()) * 10.0)  # the series cancels to within its largest value
+    assert d[::250] == pytest.approx(
+        series, abs=1e-13 * float(d.max()) * 10.0
+    )  # the series cancels to within its largest value
     mean, measured = mean_direction_and_spread(d, theta)
     assert mean == pytest.approx(0.0, abs=1e-9)
-    assert measured == pytest.approx(math.degrees(math.sqrt(2.0 * (1.0 - math.exp(-0.5 * sigma**2)))), rel=1e-9, abs=1e-6)
+    assert measured == pytest.approx(
+        math.degrees(math.sqrt(2.0 * (1.0 - math.exp(-0.5 * sigma**2)))), rel=1e-9, abs=1e-6
+    )
 
 
 class _Disguised:
@@ -176,10 +227,18 @@ class _Disguised:
 
 
 def test_swell_elongation_adds_its_exponent_in_closed_form():
-    """For a power of cos(theta/2) the exponents add; the numerical norm, reached through a disguise, agrees."""
+    """
+    For a power of cos(theta/2) the exponents add; the numerical norm, reached through a disguise,
+    agrees.
+    """
     theta = np.linspace(-3.1, 3.1, 41)
     omega = PEAK * np.array([[0.4], [0.99], [1.3], [6.0]])
-    for base in (CosinePower(s=3.0), CosinePower(s=0.0), Mitsuyasu(speed=12.0), Hasselmann(speed=12.0)):
+    for base in (
+        CosinePower(s=3.0),
+        CosinePower(s=0.0),
+        Mitsuyasu(speed=12.0),
+        Hasselmann(speed=12.0),
+    ):
         closed = SwellElongation(base, xi=0.6)(omega, theta, PEAK)
         numerical = SwellElongation(_Disguised(base), xi=0.6)(omega, theta, PEAK)
         assert numerical == pytest.approx(closed, rel=1e-12)
@@ -193,7 +252,8 @@ def test_swell_elongation_narrows_the_long_waves():
     """
     Circular spread falls with xi, most below the peak; xi = 0 is the base, to the bit.
 
-    On an all-round sea xi = 1 leaves cos^32(theta/2) at the lowest frequencies, whose spread is sqrt(2/(s + 1)), s = 16.
+    On an all-round sea xi = 1 leaves cos^32(theta/2) at the lowest frequencies, whose spread is
+    sqrt(2/(s + 1)), s = 16.
     """
     theta = np.linspace(-math.pi, math.pi, 2001)[:-1]
 
@@ -206,16 +266,25 @@ def test_swell_elongation_narrows_the_long_waves():
     left = [spread(1.0, x) / spread(0.0, x) for x in (0.5, 2.0, 8.0, 30.0)]
     assert left == sorted(left)
     everywhere = SwellElongation(_Disguised(CosinePower(s=0.0)), xi=1.0)
-    assert mean_direction_and_spread(everywhere(0.01 * PEAK, theta, PEAK), theta)[1] == pytest.approx(
-        math.degrees(math.sqrt(2.0 / 17.0)), rel=1e-9
+    assert mean_direction_and_spread(everywhere(0.01 * PEAK, theta, PEAK), theta)[
+        1
+    ] == pytest.approx(math.degrees(math.sqrt(2.0 / 17.0)), rel=1e-9)
+    assert np.array_equal(
+        SwellElongation(xi=0.0)(PEAK, theta, PEAK), DonelanBanner()(PEAK, theta, PEAK)
     )
-    assert np.array_equal(SwellElongation(xi=0.0)(PEAK, theta, PEAK), DonelanBanner()(PEAK, theta, PEAK))
 
 
-@pytest.mark.parametrize("base", [DonelanBanner(), Blend(), CosineSquared(), WrappedNormal(0.1), Hasselmann(speed=12.0)], ids=repr)
+@pytest.mark.parametrize(
+    "base",
+    [DonelanBanner(), Blend(), CosineSquared(), WrappedNormal(0.1), Hasselmann(speed=12.0)],
+    ids=repr,
+)
 @pytest.mark.parametrize("xi", [0.05, 1.0])
 def test_the_table_of_norms_is_the_norm(base, xi):
-    """Among 20 000 frequencies, also within 1e-9 of every step of the base, interpolation and quadrature differ by less than 1e-12."""
+    """
+    Among 20 000 frequencies, also within 1e-9 of every step of the base, interpolation and
+    quadrature differ by less than 1e-12.
+    """
     law = SwellElongation(base, xi=xi)
     steps = np.array([0.56, 0.95, 1.05, 1.6])
     omega = np.unique(
@@ -229,13 +298,21 @@ def test_the_table_of_norms_is_the_norm(base, xi):
         )
     )
     check = np.union1d(
-        np.arange(0, omega.size, 301), np.searchsorted(omega, PEAK * np.concatenate([steps * (1 - 1e-9), steps, steps * (1 + 1e-9)]))
+        np.arange(0, omega.size, 301),
+        np.searchsorted(
+            omega, PEAK * np.concatenate([steps * (1 - 1e-9), steps, steps * (1 + 1e-9)])
+        ),
     )
-    assert _tabulated(law._product, omega, PEAK, ())[check] == pytest.approx(_integrals(law._product, omega[check], PEAK, ()), rel=1e-12)
+    assert _tabulated(law._product, omega, PEAK, ())[check] == pytest.approx(
+        _integrals(law._product, omega[check], PEAK, ()), rel=1e-12
+    )
 
 
 def test_many_frequencies_and_few_agree():
-    """A million points go through the table, ten through the quadrature; order and shape do not matter."""
+    """
+    A million points go through the table, ten through the quadrature; order and shape do not
+    matter.
+    """
     law = SwellElongation(xi=0.8)
     omega = PEAK * np.random.default_rng(2).uniform(0.2, 20.0, (500, 2000))
     many = law(omega, 0.4, PEAK)
@@ -251,8 +328,12 @@ def test_custom_spreading_is_any_function_divided_by_its_integral():
         np.full(61, 0.5 / math.pi), rel=1e-13
     )  # a scalar will do
     bessel = np.i0(PEAK / 2.0)  # von Mises: the integral of e^{kappa cos} is 2 pi I0(kappa)
-    assert CustomSpreading(_ripple)(2.0, 0.4, PEAK) == pytest.approx(math.exp(PEAK / 2.0) / (2.0 * math.pi * bessel), rel=1e-12)
-    assert CustomSpreading(_hat, breaks=(0.3, -0.3))(1.0, 0.1, PEAK) == pytest.approx(1.0 / 0.6, rel=1e-13)
+    assert CustomSpreading(_ripple)(2.0, 0.4, PEAK) == pytest.approx(
+        math.exp(PEAK / 2.0) / (2.0 * math.pi * bessel), rel=1e-12
+    )
+    assert CustomSpreading(_hat, breaks=(0.3, -0.3))(1.0, 0.1, PEAK) == pytest.approx(
+        1.0 / 0.6, rel=1e-13
+    )
 
 
 @pytest.mark.parametrize(
@@ -271,7 +352,9 @@ def test_a_custom_function_that_will_not_do_is_refused_in_words(function, messag
         CustomSpreading(function)(PEAK, np.linspace(-1.0, 1.0, 5), PEAK)
 
 
-@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, -1.0, "5", True, None, 1e308, [1.0]])
+@pytest.mark.parametrize(
+    "bad", [math.nan, math.inf, -math.inf, -1.0, "5", True, None, 1e308, [1.0]]
+)
 @pytest.mark.parametrize(
     "build",
     [
@@ -292,7 +375,12 @@ def test_impossible_values_are_refused(build, bad):
 
 
 @pytest.mark.parametrize(
-    "build", [lambda: CustomSpreading(float), lambda: SwellElongation(DonelanBanner), lambda: CustomSpreading(_hat, breaks="ab")]
+    "build",
+    [
+        lambda: CustomSpreading(float),
+        lambda: SwellElongation(DonelanBanner),
+        lambda: CustomSpreading(_hat, breaks="ab"),
+    ],
 )
 def test_classes_and_strings_are_not_functions(build):
     with pytest.raises(ParameterError):
@@ -302,10 +390,18 @@ def test_classes_and_strings_are_not_functions(build):
 @pytest.mark.parametrize("width", [2e-3, 1e-2, 0.3])
 @pytest.mark.parametrize("centre", [-2.5, 0.0, 1.1, math.pi])
 def test_a_custom_bell_anywhere_has_its_norm(centre, width):
-    """A wound normal bell round a named direction, of any width down to 0.1 degrees: its closed top, to the 1e-10 of the quadrature."""
+    """
+    A wound normal bell round a named direction, of any width down to 0.1 degrees: its closed top,
+    to the 1e-10 of the quadrature.
+    """
 
     def bell(_omega, theta, _peak):
-        return sum(np.exp(-0.5 * ((theta - centre + turn) / width) ** 2) for turn in (-2.0 * np.pi, 0.0, 2.0 * np.pi))
+        return sum(
+            np.exp(-0.5 * ((theta - centre + turn) / width) ** 2)
+            for turn in (-2.0 * np.pi, 0.0, 2.0 * np.pi)
+        )
 
     model = CustomSpreading(bell, breaks=[centre])
-    assert float(model(1.0, centre, 1.0)) == pytest.approx(1.0 / (width * math.sqrt(2.0 * math.pi)), rel=1e-10)
+    assert float(model(1.0, centre, 1.0)) == pytest.approx(
+        1.0 / (width * math.sqrt(2.0 * math.pi)), rel=1e-10
+    )

@@ -16,17 +16,24 @@ TABLE = np.random.default_rng(1).uniform(0.0, 3.0, (5, 7))
 
 
 def spreading(**changes):
-    return TabulatedSpreading(**({"frequency": F, "direction": ANGLES, "density": TABLE.tolist()} | changes))
+    return TabulatedSpreading(
+        **({"frequency": F, "direction": ANGLES, "density": TABLE.tolist()} | changes)
+    )
 
 
 def test_it_integrates_to_one_at_every_frequency():
-    """Straight lines between its angles: the trapezoid rule on them is exact, and so is that on any finer set that contains them."""
+    """
+    Straight lines between its angles: the trapezoid rule on them is exact, and so is that on any
+    finer set that contains them.
+    """
     d = spreading()
     theta = np.radians(np.union1d(np.linspace(-180.0, 180.0, 361), [*ANGLES, -180.0, 180.0]))
     omega = 2.0 * np.pi * np.geomspace(0.01, 2.0, 41)
     values = d(omega[:, None], theta, 1.0)
     assert np.all(values >= 0.0)
-    assert np.sum(0.5 * (values[:, 1:] + values[:, :-1]) * np.diff(theta), axis=1) == pytest.approx(np.ones(41), rel=1e-12)
+    assert np.sum(0.5 * (values[:, 1:] + values[:, :-1]) * np.diff(theta), axis=1) == pytest.approx(
+        np.ones(41), rel=1e-12
+    )
 
 
 def test_between_the_points_it_is_bilinear():
@@ -35,7 +42,9 @@ def test_between_the_points_it_is_bilinear():
     angle = np.radians(np.concatenate([np.array(ANGLES) - 360.0, ANGLES, np.array(ANGLES) + 360.0]))
     gaps = np.diff(ANGLES, append=ANGLES[0] + 360.0)
     rows = TABLE / (TABLE @ np.radians(0.5 * (gaps + np.roll(gaps, 1))))[:, None]
-    want = interpolate.RegularGridInterpolator((2.0 * np.pi * np.array(F), angle), np.concatenate([rows, rows, rows], axis=1))
+    want = interpolate.RegularGridInterpolator(
+        (2.0 * np.pi * np.array(F), angle), np.concatenate([rows, rows, rows], axis=1)
+    )
     rng = np.random.default_rng(2)
     omega, theta = 2.0 * np.pi * rng.uniform(0.05, 0.5, 500), rng.uniform(-math.pi, math.pi, 500)
     assert d(omega, theta, 1.0) == pytest.approx(want((omega, theta)), rel=1e-12)
@@ -53,7 +62,9 @@ def test_outside_the_table_its_ends_go_on():
 
 def test_the_order_and_the_turn_of_the_angles_do_not_matter():
     shuffle = [3, 0, 6, 2, 1, 5, 4]
-    other = spreading(direction=(np.array(ANGLES)[shuffle] + 360.0).tolist(), density=TABLE[:, shuffle].tolist())
+    other = spreading(
+        direction=(np.array(ANGLES)[shuffle] + 360.0).tolist(), density=TABLE[:, shuffle].tolist()
+    )
     omega, theta = 2.0 * np.pi * np.array([[0.06], [0.3]]), np.linspace(-3.0, 3.0, 29)
     assert other(omega, theta, 1.0) == pytest.approx(spreading()(omega, theta, 1.0), rel=1e-12)
 
@@ -64,14 +75,20 @@ def test_an_empty_row_takes_its_nearest_neighbours():
     table[[1, 4]] = 0.0
     d = spreading(density=table.tolist())
     theta = np.linspace(-3.0, 3.0, 13)
-    assert d(2.0 * np.pi * 0.08, theta, 1.0) == pytest.approx(d(2.0 * np.pi * 0.1, theta, 1.0), rel=1e-12)
-    assert d(2.0 * np.pi * 0.5, theta, 1.0) == pytest.approx(d(2.0 * np.pi * 0.2, theta, 1.0), rel=1e-12)
+    assert d(2.0 * np.pi * 0.08, theta, 1.0) == pytest.approx(
+        d(2.0 * np.pi * 0.1, theta, 1.0), rel=1e-12
+    )
+    assert d(2.0 * np.pi * 0.5, theta, 1.0) == pytest.approx(
+        d(2.0 * np.pi * 0.2, theta, 1.0), rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1e300])
 def test_the_unit_of_the_table_does_not_matter(scale):
     omega, theta = 2.0 * np.pi * 0.15, np.linspace(-3.0, 3.0, 13)
-    assert spreading(density=(scale * TABLE).tolist())(omega, theta, 1.0) == pytest.approx(spreading()(omega, theta, 1.0), rel=1e-12)
+    assert spreading(density=(scale * TABLE).tolist())(omega, theta, 1.0) == pytest.approx(
+        spreading()(omega, theta, 1.0), rel=1e-12
+    )
 
 
 def test_it_is_a_frozen_value():

@@ -1,4 +1,6 @@
-"""One water under a sea and its parts: taken from the part that states it, refused where two differ."""
+"""
+One water under a sea and its parts: taken from the part that states it, refused where two differ.
+"""
 
 import math
 import pickle
@@ -25,9 +27,11 @@ def slope_variance(density, k):
 
 def test_the_slopes_of_a_sea_of_ripples_are_those_of_its_spectrum():
     """
-    The slope variance is the integral of k^2 F(k), and F(k) = S(omega) d omega/dk with the dispersion of the sea.
+    The slope variance is the integral of k^2 F(k), and F(k) = S(omega) d omega/dk with the
+    dispersion of the sea.
 
-    That is written out here, omega^2 = g k + (sigma/rho) k^3, so that only the sea's own tension is asked of it.
+    That is written out here, omega^2 = g k + (sigma/rho) k^3, so that only the sea's own tension is
+    asked of it.
     """
     k = np.geomspace(1e-2, 3e3, 20_001)
     sea = fo.Sea(RIPPLES)
@@ -35,7 +39,9 @@ def test_the_slopes_of_a_sea_of_ripples_are_those_of_its_spectrum():
     slope = (GRAVITY + 3.0 * sea.surface_tension / WATER_DENSITY * k**2) / (2.0 * omega)
     expected = slope_variance(RIPPLES.spectrum.wavenumber_density(k), k)
     assert slope_variance(sea(omega) * slope, k) == pytest.approx(expected, rel=1e-9)
-    assert expected == pytest.approx(3e-3 + 5.12e-3 * 10.0, rel=0.2)  # Cox & Munk 1954, to 20 % as documented
+    assert expected == pytest.approx(
+        3e-3 + 5.12e-3 * 10.0, rel=0.2
+    )  # Cox & Munk 1954, to 20 % as documented
 
 
 def test_a_sea_takes_the_water_that_its_parts_state():
@@ -82,7 +88,12 @@ NARROW = ElfouhailySpreading(friction_velocity=0.3, depth=25.0, surface_tension=
 @pytest.mark.parametrize(
     ("system", "name", "value", "part"),
     [
-        (fo.WaveSystem(spectrum=Sum(JONSWAP, fo.TMA(JONSWAP, 25.0))), "depth", 25.0, "spectrum.parts[1] (TMA)"),
+        (
+            fo.WaveSystem(spectrum=Sum(JONSWAP, fo.TMA(JONSWAP, 25.0))),
+            "depth",
+            25.0,
+            "spectrum.parts[1] (TMA)",
+        ),
         (
             fo.WaveSystem(spectrum=fo.CustomSpectrum(fo.TMA(JONSWAP, 25.0), peak=1.0)),
             "depth",
@@ -95,7 +106,12 @@ NARROW = ElfouhailySpreading(friction_velocity=0.3, depth=25.0, surface_tension=
             SURFACE_TENSION,
             "spectrum.spectrum (Elfouhaily)",
         ),
-        (fo.WaveSystem(spectrum=fo.Phillips(speed=8.0, amplitude=1e-3, depth=25.0)), "depth", 25.0, "spectrum (Phillips)"),
+        (
+            fo.WaveSystem(spectrum=fo.Phillips(speed=8.0, amplitude=1e-3, depth=25.0)),
+            "depth",
+            25.0,
+            "spectrum (Phillips)",
+        ),
         (
             fo.WaveSystem(spectrum=fo.TabulatedSpectrum((0.1, 0.2), (1.0, 1.0), depth=25)),
             "depth",
@@ -122,7 +138,9 @@ def test_parts_within_parts_are_heard_and_may_not_differ(system, name, value, pa
     assert getattr(sea, name) == value
     assert getattr(sea, f"{name}_from") == f"systems[0].{part}"
     assert fo.Sea(system, **{name: value}) == sea
-    assert fo.Sea(system, **{name: value * (1.0 + 1e-12)}).systems == sea.systems  # what a change of units leaves
+    assert (
+        fo.Sea(system, **{name: value * (1.0 + 1e-12)}).systems == sea.systems
+    )  # what a change of units leaves
     with pytest.raises(ParameterError) as refused:
         fo.Sea(system, **{name: 0.5 * value})
     for text in (name, f"{0.5 * value:g}", f"{value:g}", part):
@@ -130,13 +148,24 @@ def test_parts_within_parts_are_heard_and_may_not_differ(system, name, value, pa
 
 
 def test_two_parts_of_two_waters_are_refused():
-    with pytest.raises(ParameterError, match=r"got 40 m for systems\[0\]\.spectrum \(TMA\) and inf m for systems\[1\]"):
+    with pytest.raises(
+        ParameterError,
+        match=r"got 40 m for systems\[0\]\.spectrum \(TMA\) and inf m for systems\[1\]",
+    ):
         fo.Sea(TMA, RIPPLES)
-    with pytest.raises(ParameterError, match=r"surface_tension .* 0\.05 N/m for systems\[0\]\.spreading"):
+    with pytest.raises(
+        ParameterError, match=r"surface_tension .* 0\.05 N/m for systems\[0\]\.spreading"
+    ):
         fo.Sea(fo.WaveSystem(spectrum=JONSWAP, spreading=replace(NARROW, depth=math.inf)), RIPPLES)
-    with pytest.raises(ParameterError, match=r"got 0 N/m for the sea and 0\.074 N/m for systems\[0\]\.spectrum \(Elfo"):
+    with pytest.raises(
+        ParameterError,
+        match=r"got 0 N/m for the sea and 0\.074 N/m for systems\[0\]\.spectrum \(Elfo",
+    ):
         fo.Sea(RIPPLES, surface_tension=0.0)
-    with pytest.raises(ParameterError, match=r"must be one of deep water, which TMA carries into 20 m, got spectrum"):
+    with pytest.raises(
+        ParameterError,
+        match=r"must be one of deep water, which TMA carries into 20 m, got spectrum",
+    ):
         fo.TMA(fo.TMA(JONSWAP, 40.0), 20.0)
     with pytest.raises(ParameterError, match="got 50 m for the sea and 10 m"):
         fo.Sea(fo.WaveSystem(spectrum=fo.TMA(JONSWAP, 10.0)), depth=50.0)
@@ -145,13 +174,20 @@ def test_two_parts_of_two_waters_are_refused():
 
 
 def test_a_wind_that_differs_within_a_system_is_said():
-    with pytest.warns(SeaWarning, match=r"wind speed .* 10 m/s for its spectrum \(Elfouhaily\) and 20 m/s for its spr"):
+    with pytest.warns(
+        SeaWarning,
+        match=r"wind speed .* 10 m/s for its spectrum \(Elfouhaily\) and 20 m/s for its spr",
+    ):
         fo.WaveSystem(spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Hasselmann(20.0))
     with pytest.warns(SeaWarning, match="friction velocity"):
-        fo.WaveSystem(spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Elfouhaily(speed=12.0).spreading)
+        fo.WaveSystem(
+            spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Elfouhaily(speed=12.0).spreading
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        fo.WaveSystem(spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Elfouhaily(speed=10.0).spreading)
+        fo.WaveSystem(
+            spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Elfouhaily(speed=10.0).spreading
+        )
         fo.WaveSystem(spectrum=fo.Elfouhaily(speed=10.0), spreading=fo.Mitsuyasu(10.0))
         fo.WaveSystem(spectrum=JONSWAP, spreading=fo.Mitsuyasu(10.0))
 

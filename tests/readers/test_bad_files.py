@@ -18,7 +18,7 @@ from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.readers import files
 
-# --- what is no file of spectra at all -------------------------------------------------------------------------------------------
+# --- what is no file of spectra at all
 
 
 def test_no_file_there(tmp_path):
@@ -92,7 +92,9 @@ def require_cheap_refusal(path, message):
     tracemalloc.stop()
 
 
-@pytest.mark.parametrize("head", [b"", b"SWAN   1 ", b"#YY  MM DD hh mm Sep_Freq  < spec_1", b"YYYY MM DD hh "])
+@pytest.mark.parametrize(
+    "head", [b"", b"SWAN   1 ", b"#YY  MM DD hh mm Sep_Freq  < spec_1", b"YYYY MM DD hh "]
+)
 def test_a_line_of_300_megabytes(head, tmp_path):
     with (tmp_path / "long").open("wb") as file:
         file.write(head)
@@ -109,7 +111,9 @@ def test_a_packed_line_of_300_megabytes(head, tmp_path):
 
 def test_a_bomb_of_short_lines(tmp_path):
     """Line breaks only: refused at the second, not counted to the end."""
-    (tmp_path / "bomb.gz").write_bytes(gzip.compress(b"SWAN   1\n") + gzip.compress(b"\n" * 2**20) * 300)
+    (tmp_path / "bomb.gz").write_bytes(
+        gzip.compress(b"SWAN   1\n") + gzip.compress(b"\n" * 2**20) * 300
+    )
     require_cheap_refusal(tmp_path / "bomb.gz", "line 2 is empty")
 
 
@@ -124,7 +128,10 @@ def test_no_more_is_unpacked_than_the_limit(name, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("size", [10**8, 10**12])
 def test_hdf5_that_declares_more_than_there_is(size, tmp_path):
-    """A file of some kB with an axis of 10^8 entries, none of them written: xarray would read them all for its index."""
+    """
+    A file of some kB with an axis of 10^8 entries, none of them written: xarray would read them all
+    for its index.
+    """
     with h5netcdf.File(tmp_path / "huge.nc", "w") as file:
         file.dimensions = {"freq": size, "dir": 24}
         file.create_variable("freq", ("freq",), "f8", chunks=(1000,))
@@ -134,7 +141,10 @@ def test_hdf5_that_declares_more_than_there_is(size, tmp_path):
 
 
 def test_a_heap_on_which_the_hdf5_library_would_walk_for_ever(tmp_path):
-    """One bit in the size of an object, found by bending files at random: HDF5 2.0 does not come back from it."""
+    """
+    One bit in the size of an object, found by bending files at random: HDF5 2.0 does not come back
+    from it.
+    """
     data = bytearray((DATA / "wavespectra.nc").read_bytes())
     heap = data.find(b"GCOL")
     assert heap > 0
@@ -169,11 +179,9 @@ def test_what_is_asked_for_must_be_there(name, given, message):
         readers.open(DATA / name, **given)
 
 
-# --- NDBC ------------------------------------------------------------------------------------------------------------------------
+# --- NDBC
 
-HISTORICAL = (
-    "YYYY MM DD hh   .050   .100   .150   .200\n2000 01 01 00   0.10   2.50   1.00   0.20\n2000 01 01 01   0.20   3.50   1.50   0.30\n"
-)
+HISTORICAL = "YYYY MM DD hh   .050   .100   .150   .200\n2000 01 01 00   0.10   2.50   1.00   0.20\n2000 01 01 01   0.20   3.50   1.50   0.30\n"
 
 
 def historical(tmp_path, *changes, name="44004w2000.txt"):
@@ -201,7 +209,10 @@ def test_ninety_nine_degrees_is_a_direction(tmp_path):
 @pytest.mark.parametrize("fill", ["99.00", "999.00", "MM"])
 @pytest.mark.parametrize("suffix", ["swr1", "swr2"])
 def test_a_coherence_of_99_is_missing(fill, suffix, tmp_path):
-    """Without r1 the energy goes all round, is not lost, and is counted; without r2 it keeps its direction."""
+    """
+    Without r1 the energy goes all round, is not lost, and is counted; without r2 it keeps its
+    direction.
+    """
     path = write_ndbc(tmp_path, source=90.0)
     whole = readers.open(path).efth[0]
     broken = path.with_suffix("." + suffix)
@@ -216,33 +227,41 @@ def test_a_coherence_of_99_is_missing(fill, suffix, tmp_path):
     assert density.sum("dir").values == pytest.approx(whole.sum("dir").values, rel=1e-12)
     assert np.array_equal(density[~changed], whole[~changed])
     if suffix == "swr1":
-        assert np.ptp(density.values[changed], axis=1) == pytest.approx(np.zeros(np.sum(changed)), abs=1e-12)
+        assert np.ptp(density.values[changed], axis=1) == pytest.approx(
+            np.zeros(np.sum(changed)), abs=1e-12
+        )
     else:
         assert set(density.dir.values[density[changed].argmax("dir").values]) == {90.0}
 
 
 def test_descending_frequencies_are_sorted(tmp_path):
     up = readers.open(historical(tmp_path))
-    down = (
-        "YYYY MM DD hh   .200   .150   .100   .050\n2000 01 01 00   0.20   1.00   2.50   0.10\n2000 01 01 01   0.30   1.50   3.50   0.20\n"
-    )
+    down = "YYYY MM DD hh   .200   .150   .100   .050\n2000 01 01 00   0.20   1.00   2.50   0.10\n2000 01 01 01   0.30   1.50   3.50   0.20\n"
     (tmp_path / "44004w2000.txt").write_text(down)
     assert readers.open(tmp_path / "44004w2000.txt").identical(up)
 
 
 def test_the_newest_record_may_come_first_and_twice(tmp_path):
     lines = HISTORICAL.splitlines(keepends=True)
-    (tmp_path / "a").write_text("".join([lines[0], lines[2], lines[1], lines[2].replace("3.50", "9.00")]))
+    (tmp_path / "a").write_text(
+        "".join([lines[0], lines[2], lines[1], lines[2].replace("3.50", "9.00")])
+    )
     data = readers.open(tmp_path / "a")
     assert data.attrs["repeated_times"] == 1
     assert data.ef.values[:, 1].tolist() == [2.5, 3.5]
 
 
-@pytest.mark.parametrize(("header", "year"), [("YY MM DD hh", "98"), ("#YY MM DD hh mm", "1998 "), ("#yr MM DD hh", "1998")])
+@pytest.mark.parametrize(
+    ("header", "year"),
+    [("YY MM DD hh", "98"), ("#YY MM DD hh mm", "1998 "), ("#yr MM DD hh", "1998")],
+)
 def test_older_and_newer_headers(header, year, tmp_path):
     minutes = " 30" if "mm" in header else ""
     (tmp_path / "a").write_text(f"{header}  .05  .10\n{year} 02 03 04{minutes} 1.0 2.0\n")
-    assert str(readers.open(tmp_path / "a").time.values[0]) == f"1998-02-03T04:{'30' if minutes else '00'}:00.000000000"
+    assert (
+        str(readers.open(tmp_path / "a").time.values[0])
+        == f"1998-02-03T04:{'30' if minutes else '00'}:00.000000000"
+    )
 
 
 def test_negative_zero_point_nothing_is_rounding(tmp_path):
@@ -329,7 +348,9 @@ def test_frequencies_that_change_in_the_middle(tmp_path):
 def test_half_a_set_is_refused_and_none_is_a_buoy_without_directions(tmp_path):
     path = write_ndbc(tmp_path)
     path.with_suffix(".swr2").unlink()
-    with pytest.raises(ReaderError, match=r"all four files of directions beside it, or none; missing: 12345\.swr2"):
+    with pytest.raises(
+        ReaderError, match=r"all four files of directions beside it, or none; missing: 12345\.swr2"
+    ):
         readers.open(path)
     for suffix in (".swr1", ".swdir", ".swdir2"):
         path.with_suffix(suffix).unlink()
@@ -355,7 +376,7 @@ def test_records_without_their_directions_are_left_out_and_counted(tmp_path):
     assert (data.sizes["time"], data.attrs["unpaired_times"]) == (1, 1)
 
 
-# --- SWAN ------------------------------------------------------------------------------------------------------------------------
+# --- SWAN
 
 
 def swan(tmp_path, *changes):
@@ -420,7 +441,9 @@ def test_a_swan_file_cut_between_any_two_lines(tmp_path):
         except ReaderError as error:
             whole.append(0)
             assert re.search(r"cut short|at least one spectrum", str(error))  # noqa: PT017
-    assert [(i + 1, n) for i, n in enumerate(whole) if n] == [(len(text) - 33, 1)]  # time, FACTOR, factor and 30 rows before the end
+    assert [(i + 1, n) for i, n in enumerate(whole) if n] == [
+        (len(text) - 33, 1)
+    ]  # time, FACTOR, factor and 30 rows before the end
 
 
 def test_swans_exceptions_zero_and_nodata(tmp_path):
@@ -429,7 +452,9 @@ def test_swans_exceptions_zero_and_nodata(tmp_path):
     assert data.attrs["masked_values"] == 2
     assert int(np.isnan(data.efth[0, 0]).sum()) == 2
     block = r"^20200101.000000\n(.*\n){32}"
-    assert float(readers.open(swan(tmp_path, (block, "20200101.000000\nZERO\n"))).efth[0].sum()) == 0.0
+    assert (
+        float(readers.open(swan(tmp_path, (block, "20200101.000000\nZERO\n"))).efth[0].sum()) == 0.0
+    )
     data = readers.open(swan(tmp_path, (block, "20200101.000000\nNODATA\n")))
     assert bool(np.all(np.isnan(data.efth[0])))
     assert data.attrs["masked_values"] == FREQUENCY.size * TO.size
@@ -438,13 +463,18 @@ def test_swans_exceptions_zero_and_nodata(tmp_path):
 def test_swans_energy_and_relative_frequencies_and_places_in_metres(tmp_path):
     """J/m2 are rho g m2, with SWAN's own 1025 kg/m3 and 9.81 m/s2."""
     want = readers.open(swan(tmp_path))
-    data = readers.open(swan(tmp_path, ("^VaDens\n", "EnDens\nJ/"), ("^AFREQ", "RFREQ"), ("^LONLAT", "LOCATIONS")))
+    data = readers.open(
+        swan(tmp_path, ("^VaDens\n", "EnDens\nJ/"), ("^AFREQ", "RFREQ"), ("^LONLAT", "LOCATIONS"))
+    )
     assert data.efth.values * 1025.0 * 9.81 == pytest.approx(want.efth.values, rel=1e-12)
     assert (float(data.x), float(data.y)) == (-30.0, 45.0)
 
 
 def test_the_second_of_two_places_and_no_times(tmp_path):
-    """Rows may be broken over lines, places may have names, and a file without TIME has one spectrum each."""
+    """
+    Rows may be broken over lines, places may have names, and a file without TIME has one spectrum
+    each.
+    """
     rows = "\n".join("1 2\n3 4" if i == 1 else "0 0 0 0" for i in range(3))
     axes = "AFREQ\n3\n.1\n.2\n.3\nNDIR\n4\n0\n90\n180\n270\nQUANT\n1\nVaDens\nm2/Hz/degr\n-99\n"
     text = f"SWAN 1\nLOCATIONS\n2\n0 0 first\n10 20 second\n{axes}ZERO\nFACTOR\n0.5\n{rows}\n"
@@ -458,7 +488,7 @@ def test_the_second_of_two_places_and_no_times(tmp_path):
         readers.open(tmp_path / "two")
 
 
-# --- netCDF ----------------------------------------------------------------------------------------------------------------------
+# --- netCDF
 
 
 def with_attrs(data, name, **attrs):
@@ -538,7 +568,9 @@ def test_netcdf_fill_values_are_masked_and_counted(fill, declared, tmp_path):
     """Declared by _FillValue or not declared by anyone."""
     data = with_values(ww3(sea()), "efth", put(np.nan if declared else fill, 1, 0, slice(2, 4), 3))
     data.to_netcdf(
-        tmp_path / "a.nc", engine="scipy", encoding={"efth": {"_FillValue": fill}} if declared else {"efth": {"_FillValue": None}}
+        tmp_path / "a.nc",
+        engine="scipy",
+        encoding={"efth": {"_FillValue": fill}} if declared else {"efth": {"_FillValue": None}},
     )
     got = readers.open(tmp_path / "a.nc")
     assert got.attrs["masked_values"] == 2
@@ -570,7 +602,11 @@ def test_rounding_below_zero_is_forgiven_and_counted():
 def test_broken_era5(make, message, tmp_path):
     make(era5(sea())).to_netcdf(tmp_path / "bad.nc", engine="h5netcdf")
     if message is None:  # what it says itself goes before what is documented
-        turned = readers.sea_from_spectrum(readers.open(tmp_path / "bad.nc", site=1)).systems[0].direction
+        turned = (
+            readers.sea_from_spectrum(readers.open(tmp_path / "bad.nc", site=1))
+            .systems[0]
+            .direction
+        )
         assert abs(turned) == pytest.approx(180.0, abs=1e-6)
         return
     with pytest.raises(ReaderError, match=message):
@@ -581,7 +617,9 @@ def test_era5_counts_what_was_below_its_threshold():
     """Nothing is 0 inside a spectrum, missing where all of it is."""
     data = era5(sea())
     got = readers.netcdf.tidy(data, site=1)
-    assert got.attrs["below_threshold_values"] == int(np.isnan(data.d2fd.isel(latitude=1)).sum()) > 0
+    assert (
+        got.attrs["below_threshold_values"] == int(np.isnan(data.d2fd.isel(latitude=1)).sum()) > 0
+    )
     assert (got.attrs["masked_values"], float(got.efth.min())) == (0, 0.0)
     land = readers.netcdf.tidy(data, site=0)
     assert land.attrs["masked_values"] == land.efth.size == int(np.isnan(land.efth).sum())
@@ -594,7 +632,12 @@ def test_part_of_era5s_bins_keep_their_numbers():
 
 
 def test_a_packed_dataset_must_be_decoded_first(tmp_path):
-    packing = {"dtype": "int16", "scale_factor": 2e-4, "add_offset": -4.0, "_FillValue": np.int16(-32767)}
+    packing = {
+        "dtype": "int16",
+        "scale_factor": 2e-4,
+        "add_offset": -4.0,
+        "_FillValue": np.int16(-32767),
+    }
     era5(sea()).to_netcdf(tmp_path / "packed.nc", engine="scipy", encoding={"d2fd": packing})
     with (
         xr.open_dataset(tmp_path / "packed.nc", engine="scipy", mask_and_scale=False) as raw,
@@ -617,7 +660,7 @@ def test_errors_name_the_file_and_nothing_is_left_open(tmp_path):
     assert not any(os.path.realpath(fd) == str(path) for fd in descriptors.iterdir())
 
 
-# --- units that contradict the numbers -------------------------------------------------------------------------------------------
+# --- units that contradict the numbers
 
 
 @pytest.mark.parametrize("keyword", ["NDIR", "CDIR"])
@@ -625,15 +668,25 @@ def test_errors_name_the_file_and_nothing_is_left_open(tmp_path):
 def test_radians_under_swans_degrees(keyword, count, tmp_path):
     """All round, in radians: within 6.3 degrees, if they were degrees."""
     step = 24 // count
-    text = write_swan(tmp_path / "a.spec", sea(), cartesian=keyword == "CDIR").read_text().splitlines()
+    text = (
+        write_swan(tmp_path / "a.spec", sea(), cartesian=keyword == "CDIR").read_text().splitlines()
+    )
     at = text.index(keyword)
     angles = [f"{np.radians(float(a)):.4f}" for a in text[at + 2 : at + 26 : step]]
     first = next(i for i, line in enumerate(text) if line == "FACTOR") + 2
-    rows = [" ".join(line.split()[::step]) if i >= first and len(line.split()) == 24 else line for i, line in enumerate(text)]
+    rows = [
+        " ".join(line.split()[::step]) if i >= first and len(line.split()) == 24 else line
+        for i, line in enumerate(text)
+    ]
     for values, refused in ((angles, True), (text[at + 2 : at + 26 : step], False)):
-        (tmp_path / "a.spec").write_text("\n".join([*rows[: at + 1], f"{count:6d}", *values, *rows[at + 26 :]]) + "\n")
+        (tmp_path / "a.spec").write_text(
+            "\n".join([*rows[: at + 1], f"{count:6d}", *values, *rows[at + 26 :]]) + "\n"
+        )
         if refused:
-            with pytest.raises(ReaderError, match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* is it in radians\?"):
+            with pytest.raises(
+                ReaderError,
+                match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* is it in radians\?",
+            ):
                 readers.open(tmp_path / "a.spec")
         else:
             assert readers.open(tmp_path / "a.spec").sizes["dir"] == count
@@ -642,9 +695,14 @@ def test_radians_under_swans_degrees(keyword, count, tmp_path):
 @pytest.mark.parametrize("count", [24, 6, 4])
 def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
     data = ww3(sea()).isel(direction=slice(0, 24, 24 // count))
-    with pytest.raises(ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"):
+    with pytest.raises(
+        ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"
+    ):
         readers.netcdf.tidy(with_values(data, "direction", np.radians))
-    with pytest.raises(ReaderError, match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees"):
+    with pytest.raises(
+        ReaderError,
+        match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees",
+    ):
         readers.netcdf.tidy(with_attrs(data, "direction", units="radian"))
 
 

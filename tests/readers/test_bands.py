@@ -21,7 +21,10 @@ LONG_CRESTED = {"direction": 0.0, "spreading": CosinePower(s=20.0)}
 
 
 def moments_of(spectrum):
-    """Integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact for a cubic."""
+    """
+    Integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact for a
+    cubic.
+    """
     total = np.zeros(3)
     for a, b in pairwise(sorted(spectrum.breaks)):
         width = b - a
@@ -31,7 +34,10 @@ def moments_of(spectrum):
 
 
 def require_own_sums(made, density, frequency, width):
-    """Hs, Tm01 and Tm02, in the order in which a buoy's data sheet has them, against sums written out here."""
+    """
+    Hs, Tm01 and Tm02, in the order in which a buoy's data sheet has them, against sums written out
+    here.
+    """
     m0, m1, m2 = (float(np.sum(density * width * frequency**n)) for n in range(3))
     got = moments_of(made.sea.systems[0].spectrum)
     close = 1e-7  # the corners are approached to 1e-9 of a step
@@ -65,10 +71,27 @@ def test_buoys():
     f = np.array([float(x) for x in rows[0][4:]])
     data = readers.open(DATA / "44004w2000.txt")
     for time, row in enumerate(rows[1:]):
-        require_own_sums(Realised.from_spectrum(data, time=time, **LONG_CRESTED), np.array(row[4:], dtype=float), f, half_way(f))
-    newest = (DATA / "41010.data_spec").read_text().splitlines()[1].replace("(", " ").replace(")", " ").split()[6:]
+        require_own_sums(
+            Realised.from_spectrum(data, time=time, **LONG_CRESTED),
+            np.array(row[4:], dtype=float),
+            f,
+            half_way(f),
+        )
+    newest = (
+        (DATA / "41010.data_spec")
+        .read_text()
+        .splitlines()[1]
+        .replace("(", " ")
+        .replace(")", " ")
+        .split()[6:]
+    )
     f, density = np.array(newest[1::2], dtype=float), np.array(newest[0::2], dtype=float)
-    require_own_sums(Realised.from_spectrum(readers.open(DATA / "41010.data_spec"), time=-1), density, f, half_way(f))
+    require_own_sums(
+        Realised.from_spectrum(readers.open(DATA / "41010.data_spec"), time=-1),
+        density,
+        f,
+        half_way(f),
+    )
 
 
 @pytest.mark.parametrize("name", ["swanfile.spec", "wavespectra.nc"])
@@ -83,7 +106,7 @@ def test_files_against_the_wavespectra_package(name):
         assert math.sqrt(got[0] / got[2]) == pytest.approx(float(one.spec.tm02()), rel=1e-6)
 
 
-# --- bands that the file states ------------------------------------------------------------------------------------------------
+# --- bands that the file states
 
 HALVED = np.concatenate([FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), FREQUENCY[-1:]])
 
@@ -100,10 +123,16 @@ def stated(how, low, high):
     _, density = young()
     data = ww3(sea())
     back = np.argsort(-((TO - 90.0) % 360.0))
-    data["efth"] = (data.efth.dims, np.stack([density[None, :, back]] * 2) * 180.0 / np.pi, data.efth.attrs)
+    data["efth"] = (
+        data.efth.dims,
+        np.stack([density[None, :, back]] * 2) * 180.0 / np.pi,
+        data.efth.attrs,
+    )
     hertz = {"units": "s-1"}
     if how == "frequency1 and frequency2":
-        return data.assign(frequency1=("frequency", low, hertz), frequency2=("frequency", high, hertz))
+        return data.assign(
+            frequency1=("frequency", low, hertz), frequency2=("frequency", high, hertz)
+        )
     if how == "bounds":
         data["edges"] = (("frequency", "two"), np.stack([low, high], axis=1))
         data["frequency"].attrs["bounds"] = "edges"
@@ -116,14 +145,19 @@ def stated(how, low, high):
 @pytest.mark.parametrize("descending", [False, True])
 @pytest.mark.parametrize("engine", [None, "scipy", "h5netcdf"])
 def test_half_bands_at_both_ends(how, descending, engine, tmp_path):
-    """As WAVEWATCH III writes them: without, the first and last would count twice, and Hs come out 12 % too high."""
+    """
+    As WAVEWATCH III writes them: without, the first and last would count twice, and Hs come out 12
+    % too high.
+    """
     data = stated(how, HALVED[:-1], HALVED[1:])
     if descending:
         data = data.isel(frequency=slice(None, None, -1))
     if engine:
         data.to_netcdf(tmp_path / "a.nc", engine=engine)
         data = readers.open(tmp_path / "a.nc")
-        assert data.freq_bnds.values == pytest.approx(np.stack([HALVED[:-1], HALVED[1:]], axis=1), rel=1e-12)
+        assert data.freq_bnds.values == pytest.approx(
+            np.stack([HALVED[:-1], HALVED[1:]], axis=1), rel=1e-12
+        )
     require_own_sums(Realised.from_spectrum(data), young()[0], FREQUENCY, np.diff(HALVED))
 
 
@@ -158,7 +192,11 @@ def test_the_factor_says_how_much_straight_lines_lack():
     middle = 0.5 * half_way(FREQUENCY)
     low = FREQUENCY - 0.5 * middle
     made = Realised.from_spectrum(stated("bounds", low, low + middle))
-    lines = np.trapezoid(young()[0], FREQUENCY) + young()[0][0] * 0.5 * middle[0] + young()[0][-1] * 0.5 * middle[-1]
+    lines = (
+        np.trapezoid(young()[0], FREQUENCY)
+        + young()[0][0] * 0.5 * middle[0]
+        + young()[0][-1] * 0.5 * middle[-1]
+    )
     assert made.factor == pytest.approx(np.sum(young()[0] * middle) / lines, rel=1e-9)
 
 
@@ -185,7 +223,7 @@ def test_units_of_bands_are_read():
         readers.netcdf.tidy(data)
 
 
-# --- straight lines ------------------------------------------------------------------------------------------------------------
+# --- straight lines
 
 
 @given(
@@ -203,7 +241,14 @@ def test_the_energy_is_exact_whatever_the_densities(density, ratio):
     a, b = lines.frequency[:-1], lines.frequency[1:]
     u, v = lines.density[:-1], lines.density[1:]
     own = [float(np.sum(density * half_way(f) * f**n)) for n in range(3)]
-    got = [float(np.sum((b - a) / 6.0 * (u * a**n + 4.0 * 0.5 * (u + v) * (0.5 * (a + b)) ** n + v * b**n))) for n in range(3)]
+    got = [
+        float(
+            np.sum(
+                (b - a) / 6.0 * (u * a**n + 4.0 * 0.5 * (u + v) * (0.5 * (a + b)) ** n + v * b**n)
+            )
+        )
+        for n in range(3)
+    ]
     for n in range(lines.matched + 1):
         assert got[n] == pytest.approx(own[n], rel=1e-9, abs=1e-12)
 
@@ -214,5 +259,7 @@ def test_a_single_band_is_a_triangle():
     density[10] = 0.1
     lines = bands.straight_lines(FREQUENCY, density, bands.between_neighbours(FREQUENCY))
     assert np.array_equal(lines.density[1:-1] > 0.0, density > 0.0)
-    assert np.trapezoid(lines.density, lines.frequency) == pytest.approx(0.1 * half_way(FREQUENCY)[10], rel=1e-12)
+    assert np.trapezoid(lines.density, lines.frequency) == pytest.approx(
+        0.1 * half_way(FREQUENCY)[10], rel=1e-12
+    )
     assert lines.matched == 0

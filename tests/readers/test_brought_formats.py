@@ -47,11 +47,14 @@ def require_moments(data, *, c2=True, rounding=1e-8, within=2e-6):
         assert np.max(apart[some]) < within
 
 
-# --- one sea, closed: tables by direction -----------------------------------------------------------
+# --- one sea, closed: tables by direction
 
 
 def test_wavewatch_text(tmp_path):
-    """Radians TO and per radian become degrees FROM and per degree; the second point holds twice as much."""
+    """
+    Radians TO and per radian become degrees FROM and per degree; the second point holds twice as
+    much.
+    """
     path = write_ww3_text(tmp_path / "station.spec", ORDER, points=2)
     for site in (0, 1):
         data = readers.open(path, site=site)
@@ -66,7 +69,10 @@ def test_wavewatch_text(tmp_path):
 
 
 def test_wavewatch_text_with_three_figures_has_equal_directions(tmp_path):
-    """As the model writes it: 0.148E+01 rad is good to 0.3 degrees, and the directions were equally spaced."""
+    """
+    As the model writes it: 0.148E+01 rad is good to 0.3 degrees, and the directions were equally
+    spaced.
+    """
     data = readers.open(write_ww3_text(tmp_path / "station.spec", ORDER, figures=2))
     assert np.diff(data.dir.values) == pytest.approx(15.0, abs=1e-4)
     assert data.dir.values == pytest.approx(np.sort(FROM), abs=0.3)
@@ -84,7 +90,9 @@ def test_octopus(tmp_path):
     data = readers.open(write_octopus(tmp_path / "a.oct", ORDER))
     came = np.argsort(FROM)
     assert data.efth.values == pytest.approx(ORDER.density[:, :, came], rel=1e-4, abs=1e-9)
-    assert data.freq_bnds.values == pytest.approx(np.stack([EDGES[:-1], EDGES[1:]], axis=1), rel=1e-8)
+    assert data.freq_bnds.values == pytest.approx(
+        np.stack([EDGES[:-1], EDGES[1:]], axis=1), rel=1e-8
+    )
     assert data.dir.values == pytest.approx(FROM[came])
     assert (float(data.dpt[0]), float(data.lat), float(data.lon)) == (30.0, 45.0, -30.0)
     assert "height_note" not in data.attrs
@@ -103,7 +111,7 @@ def test_triaxys(tmp_path):
     assert abs(peak - 280.0) <= 15.0  # FROM, of a sea toward 100 degrees
 
 
-# --- one sea, by its moments ------------------------------------------------------------------------
+# --- one sea, by its moments
 
 
 def test_spotter(tmp_path):
@@ -180,7 +188,9 @@ def test_ndbc_archive_given_by_its_folder_or_packed(tmp_path):
     assert readers.open(tmp_path).efth.equals(want.efth)
     for other in list(tmp_path.glob("12345*")):
         shutil.copyfile(other, tmp_path / other.name.replace("12345", "54321"))
-    with pytest.raises(ReaderError, match=r"one NDBC buoy .* got those of 12345w2020.txt, 54321w2020.txt"):
+    with pytest.raises(
+        ReaderError, match=r"one NDBC buoy .* got those of 12345w2020.txt, 54321w2020.txt"
+    ):
         readers.open(tmp_path)
 
 
@@ -189,9 +199,14 @@ def test_an_archive_that_is_not_in_hundredths_is_refused(tmp_path):
     path = write_archive(tmp_path, ORDER)
     other = tmp_path / "12345j2020.txt"
     head, *rows = other.read_text().splitlines()
-    rows = [" ".join(row.split()[:5] + [f"{float(v) / 100.0:.4f}" for v in row.split()[5:]]) for row in rows]
+    rows = [
+        " ".join(row.split()[:5] + [f"{float(v) / 100.0:.4f}" for v in row.split()[5:]])
+        for row in rows
+    ]
     other.write_text("\n".join([head, *rows]) + "\n")
-    with pytest.raises(ReaderError, match=r"12345j2020.txt must hold r in hundredths, got none above 0.9"):
+    with pytest.raises(
+        ReaderError, match=r"12345j2020.txt must hold r in hundredths, got none above 0.9"
+    ):
         readers.open(path)
 
 
@@ -204,7 +219,9 @@ def test_missing_files_of_an_archive_set_are_named(tmp_path):
             readers.open(tmp_path / f"12345{kind}2020.txt")
     for kind in "dk":
         (tmp_path / f"12345{kind}2020.txt").unlink()
-    assert readers.open(tmp_path / "12345w2020.txt").ef.values == pytest.approx(undirected(ORDER), abs=1e-6)
+    assert readers.open(tmp_path / "12345w2020.txt").ef.values == pytest.approx(
+        undirected(ORDER), abs=1e-6
+    )
 
 
 @pytest.mark.parametrize("make", [ndbc_netcdf, cdip])
@@ -216,8 +233,12 @@ def test_netcdf_of_buoys(make, tmp_path):
     assert data.attrs["source_format"] in ("NDBC netCDF", "CDIP netCDF")
     assert readers.open(tmp_path / "buoy.nc", bins=36).sizes["dir"] == 36
     made = readers.Realised.from_spectrum(raw, time=1)
-    assert made.hs_source == pytest.approx(readers.Realised.from_spectrum(data, time=1).hs_source, rel=1e-9)
-    assert made.sea.systems[0].direction == pytest.approx(-10.0, abs=1e-3)  # toward 100 of the compass
+    assert made.hs_source == pytest.approx(
+        readers.Realised.from_spectrum(data, time=1).hs_source, rel=1e-9
+    )
+    assert made.sea.systems[0].direction == pytest.approx(
+        -10.0, abs=1e-3
+    )  # toward 100 of the compass
 
 
 @pytest.mark.parametrize(
@@ -258,7 +279,9 @@ def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
     floor = raw.efth.where(raw.efth > 0.0, 1e-12) if not offset else raw.efth + offset
     log = (np.log(floor) / np.log(base)).assign_attrs({**raw.efth.attrs, "units": unit, **name})
     packing = {"dtype": "int16", "scale_factor": 4e-4, "_FillValue": np.int16(-32767)}
-    raw.assign(efth=log).to_netcdf(tmp_path / "log.nc", engine="scipy", encoding={"efth": packing} if base == 10.0 else {})
+    raw.assign(efth=log).to_netcdf(
+        tmp_path / "log.nc", engine="scipy", encoding={"efth": packing} if base == 10.0 else {}
+    )
     got = readers.open(tmp_path / "log.nc")
     step = 2e-4 * np.log(10.0) if base == 10.0 else 1e-9
     assert got.efth.values == pytest.approx(want.efth.values, rel=1.01 * step, abs=1e-12)
@@ -271,7 +294,7 @@ def test_a_logarithm_must_say_its_base():
         readers.netcdf.tidy(raw)
 
 
-# --- real files, against their own statements and an independent reader -----------------------------
+# --- real files, against their own statements and an independent reader
 
 
 @pytest.fixture(scope="module")
@@ -291,10 +314,14 @@ def unpacked(name, folder):
 def require_same_sea(ours, theirs, *, degrees, rel=2e-7, spread=None):
     """Hs, mean direction and spread by the oracle's own integrals, over its own bands."""
     spec, want = ours.efth.spec, theirs.efth.spec
-    assert spec.hs(tail=False).values.ravel() == pytest.approx(want.hs(tail=False).values.ravel(), rel=rel)
+    assert spec.hs(tail=False).values.ravel() == pytest.approx(
+        want.hs(tail=False).values.ravel(), rel=rel
+    )
     turn = (spec.dm().values.ravel() - want.dm().values.ravel() + 180.0) % 360.0 - 180.0
     assert np.max(np.abs(turn)) < degrees
-    assert spec.dspr().values.ravel() == pytest.approx(want.dspr().values.ravel(), abs=spread or degrees)
+    assert spec.dspr().values.ravel() == pytest.approx(
+        want.dspr().values.ravel(), abs=spread or degrees
+    )
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -305,7 +332,9 @@ def test_octopus_of_a_model(wavespectra):
     ETot and HSig also count a tail of f^-5 beyond the last frequency: den f / 4.
     """
     ours = readers.open(DATA / "octopusfile.oct")
-    require_same_sea(ours, wavespectra.read_octopus(str(DATA / "octopusfile.oct")), degrees=1.0, rel=2e-3)
+    require_same_sea(
+        ours, wavespectra.read_octopus(str(DATA / "octopusfile.oct")), degrees=1.0, rel=2e-3
+    )
     lines = [line.split(",") for line in (DATA / "octopusfile.oct").read_text().splitlines()]
     den = np.array([[float(v) for v in line[1:25]] for line in lines if line[0] == "den"])
     bulk = [line for line in lines if line[0].isdigit() and len(line[0]) == 6]
@@ -318,7 +347,9 @@ def test_octopus_of_a_model(wavespectra):
     # VMD, the direction FROM of the sums weighted with 1/f, to its decimal
     energy = ours.efth * xr.DataArray(width / ours.freq.values, dims="freq")
     mean = (energy.sum("freq") * np.exp(1j * np.radians(ours.dir))).sum("dir").values
-    assert np.degrees(np.angle(mean)) % 360.0 == pytest.approx([float(line[7]) for line in bulk], abs=0.1)
+    assert np.degrees(np.angle(mean)) % 360.0 == pytest.approx(
+        [float(line[7]) for line in bulk], abs=0.1
+    )
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -342,11 +373,17 @@ def test_datawell_of_a_buoy(wavespectra, tmp_path):
     ours = readers.open(path)
     theirs = wavespectra.read_datawell(str(path), dd=None)
     assert float(ours.efth.spec.hs(tail=False)[0]) == pytest.approx(0.85, abs=0.0015)
-    assert float(ours.efth.spec.hs(tail=False)[0]) == pytest.approx(float(theirs.efth.spec.hs(tail=False)[0]), rel=1e-9)
+    assert float(ours.efth.spec.hs(tail=False)[0]) == pytest.approx(
+        float(theirs.efth.spec.hs(tail=False)[0]), rel=1e-9
+    )
     assert ours.time.values.tolist() == theirs.time.values.astype("datetime64[ns]").tolist()
     c1 = (ours.efth[0] * np.exp(1j * np.radians(ours.dir))).sum("dir") / ours.efth[0].sum("dir")
-    assert np.degrees(np.angle(c1.values)) % 360.0 == pytest.approx(theirs.dmf[0].values % 360.0, abs=1e-4)
-    assert np.degrees(np.sqrt(2.0 - 2.0 * np.abs(c1.values))) == pytest.approx(theirs.dsprf[0].values, abs=1e-4)
+    assert np.degrees(np.angle(c1.values)) % 360.0 == pytest.approx(
+        theirs.dmf[0].values % 360.0, abs=1e-4
+    )
+    assert np.degrees(np.sqrt(2.0 - 2.0 * np.abs(c1.values))) == pytest.approx(
+        theirs.dsprf[0].values, abs=1e-4
+    )
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -357,9 +394,13 @@ def test_triaxys_of_a_buoy(wavespectra, tmp_path):
     require_same_sea(ours, theirs.isel(freq=slice(1, None), dir=slice(0, -1)), degrees=1e-3)
     flat = readers.open(DATA / "triaxys.NONDIRSPEC")
     want = wavespectra.read_triaxys(str(DATA / "triaxys.NONDIRSPEC"))
-    assert float(flat.ef.spec.hs(tail=False)[0]) == pytest.approx(float(want.efth.spec.hs(tail=False)[0]), rel=1e-9)
+    assert float(flat.ef.spec.hs(tail=False)[0]) == pytest.approx(
+        float(want.efth.spec.hs(tail=False)[0]), rel=1e-9
+    )
     # The same hour by the buoy's two analyses: 63 frequencies against 65.
-    assert float(ours.efth.spec.hs(tail=False)[0]) == pytest.approx(float(flat.ef.spec.hs(tail=False)[0]), rel=0.01)
+    assert float(ours.efth.spec.hs(tail=False)[0]) == pytest.approx(
+        float(flat.ef.spec.hs(tail=False)[0]), rel=0.01
+    )
     assert (float(ours.lat), float(ours.lon)) == pytest.approx((-48.961113, -166.528062), abs=1e-6)
 
 
@@ -369,7 +410,9 @@ def test_wavewatch_text_of_a_model(wavespectra, tmp_path):
     ours = readers.open(DATA / "ww3station.spec.gz")
     theirs = wavespectra.read_ww3_station(str(unpacked("ww3station.spec", tmp_path)))
     assert np.diff(ours.dir.values) == pytest.approx(10.0, abs=1e-4)
-    theirs = theirs.isel(lat=0, lon=0).drop_vars(["lat", "lon", "site"], errors="ignore").sortby("dir")
+    theirs = (
+        theirs.isel(lat=0, lon=0).drop_vars(["lat", "lon", "site"], errors="ignore").sortby("dir")
+    )
     assert ours.dir.values == pytest.approx(theirs.dir.values, abs=0.3)
     assert ours.efth.values == pytest.approx(theirs.efth.values.reshape(ours.efth.shape), rel=1e-12)
     assert ours.time.values.tolist() == theirs.time.values.astype("datetime64[ns]").tolist()
@@ -378,12 +421,17 @@ def test_wavewatch_text_of_a_model(wavespectra, tmp_path):
 
 @pytest.mark.filterwarnings("ignore")
 def test_ndbc_archive_of_a_buoy(wavespectra, tmp_path):
-    """Theirs takes r1 and r2 as they stand, in hundredths; given a hundredth of that, the same sea."""
+    """
+    Theirs takes r1 and r2 as they stand, in hundredths; given a hundredth of that, the same sea.
+    """
     names = [f"41010{kind}2019.txt" for kind in "wdijk"]
     for name in names:
         lines = (DATA / name).read_text().splitlines()
         if name[5] in "jk":
-            lines[1:] = [" ".join(line.split()[:5] + [f"{float(v) / 100.0:.2f}" for v in line.split()[5:]]) for line in lines[1:]]
+            lines[1:] = [
+                " ".join(line.split()[:5] + [f"{float(v) / 100.0:.2f}" for v in line.split()[5:]])
+                for line in lines[1:]
+            ]
         (tmp_path / name).write_text("\n".join(lines) + "\n")
     theirs = wavespectra.read_ndbc_ascii([str(tmp_path / name) for name in names])
     ours = readers.open(DATA / "41010d2019.txt", bins=36)
@@ -428,7 +476,7 @@ def test_a_stated_height_that_does_not_fit_is_a_warning(tmp_path):
         readers.open(tmp_path / "a.spt")
 
 
-# --- what is no spectrum, and names what is ---------------------------------------------------------
+# --- what is no spectrum, and names what is
 
 
 @pytest.mark.parametrize(
@@ -454,7 +502,9 @@ def test_near_misses(head, message, tmp_path):
 
 
 def test_every_sample_has_one_reader_that_knows_it():
-    """The first of `FORMATS` that accepts a file reads it; where several do, the special stands first."""
+    """
+    The first of `FORMATS` that accepts a file reads it; where several do, the special stands first.
+    """
     also = {"swan_1d": {"swan"}, "ndbc_archive": {"ndbc"}}
     names = {reader.name: module for module, reader in modules().items()}
     seen = set()
@@ -471,7 +521,9 @@ def test_every_sample_has_one_reader_that_knows_it():
 
 def modules():
     """Return the readers by the module that holds each."""
-    return {name: module.READER for name, module in vars(readers).items() if hasattr(module, "READER")}
+    return {
+        name: module.READER for name, module in vars(readers).items() if hasattr(module, "READER")
+    }
 
 
 def test_every_module_with_a_reader_is_registered():
@@ -501,7 +553,9 @@ def test_a_reader_without_a_part_is_an_error(part):
 def test_the_command_line_says_what_a_file_is_and_exits_with_3(tmp_path, capsys):
     from fftocean.cli import main
 
-    (tmp_path / "41010.txt").write_text("#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES\n")
+    (tmp_path / "41010.txt").write_text(
+        "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES\n"
+    )
     (tmp_path / "job.toml").write_text('[[sea.systems]]\nmeasured = { file = "41010.txt" }\n')
     assert main(["info", str(tmp_path / "job.toml")]) == 3
     assert "standard meteorological file" in capsys.readouterr().err
@@ -521,10 +575,12 @@ def test_units_of_depth_are_read():
 
 def test_xarray_is_what_comes_out():
     assert isinstance(readers.open(DATA / "datawell.spt"), xr.Dataset)
-    assert fo.Sea.from_spectrum(readers.open(DATA / "datawell.spt")).hs == pytest.approx(0.849, abs=1e-3)
+    assert fo.Sea.from_spectrum(readers.open(DATA / "datawell.spt")).hs == pytest.approx(
+        0.849, abs=1e-3
+    )
 
 
-# --- the page that lists them -----------------------------------------------------------------------
+# --- the page that lists them
 
 
 @pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")

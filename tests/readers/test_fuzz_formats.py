@@ -1,4 +1,7 @@
-"""Cut and bent files of instruments and models: a dataset in our layout or a refusal that names the file."""
+"""
+Cut and bent files of instruments and models: a dataset in our layout or a refusal that names the
+file.
+"""
 
 import gzip
 import random
@@ -162,10 +165,15 @@ def test_what_is_wrong_is_named(name, change, message, tmp_path):
     ],
 )
 def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
-    """A header can declare any size, and a packed file hold any number of lines: refused within a few MB."""
+    """
+    A header can declare any size, and a packed file hold any number of lines: refused within a few
+    MB.
+    """
     import tracemalloc
 
-    (tmp_path / "bomb.gz").write_bytes(gzip.compress(head) + gzip.compress(b"0 0 0 0\n" * 10**5) * 5)
+    (tmp_path / "bomb.gz").write_bytes(
+        gzip.compress(head) + gzip.compress(b"0 0 0 0\n" * 10**5) * 5
+    )
     tracemalloc.start()
     with pytest.raises(ReaderError, match="bomb"):
         readers.open(tmp_path / "bomb.gz")
@@ -174,7 +182,10 @@ def test_counts_are_bounded_before_anything_is_made(head, tmp_path):
 
 
 def test_names_out_of_a_broken_file_neither_fill_nor_steer_the_terminal(tmp_path):
-    """A variable's name may be anything: a bent length makes it half of the header, with all its zeros."""
+    """
+    A variable's name may be anything: a bent length makes it half of the header, with all its
+    zeros.
+    """
     raw = ndbc_netcdf(ORDER).rename(mean_wave_dir="\x1b[2J" + "x" * 900)
     raw.to_netcdf(tmp_path / "buoy.nc", engine="scipy")
     raw["spectral_wave_density"].attrs["units"] = "\x1b[2J" + "y" * 900
@@ -191,5 +202,7 @@ def test_names_out_of_a_broken_file_neither_fill_nor_steer_the_terminal(tmp_path
 def test_octopus_directions_must_go_round(tmp_path):
     path = write_octopus(tmp_path / "a.oct", ORDER)
     path.write_text(path.read_text().replace("\n22.5,", "\n23.5,"))
-    with pytest.raises(ReaderError, match=r"a\.oct: the directions must be equally spaced all round"):
+    with pytest.raises(
+        ReaderError, match=r"a\.oct: the directions must be equally spaced all round"
+    ):
         readers.open(path)

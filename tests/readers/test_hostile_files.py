@@ -1,4 +1,7 @@
-"""Files made to have something else read, or to fill the memory: refused within 2 s, before anything is read."""
+"""
+Files made to have something else read, or to fill the memory: refused within 2 s, before anything
+is read.
+"""
 
 import gzip
 import os
@@ -33,7 +36,10 @@ def refused(path, message):
 def write(path, put=None, extra=None, **how):
     """An HDF5 file as netCDF-4 has it: axes, `efth` as `put` makes it, and what `extra` adds."""
     with h5py.File(path, "w", **how) as file:
-        for name, values, unit in (("freq", np.linspace(0.05, 0.3, 6), "Hz"), ("dir", np.arange(0.0, 360.0, 30.0), "degree")):
+        for name, values, unit in (
+            ("freq", np.linspace(0.05, 0.3, 6), "Hz"),
+            ("dir", np.arange(0.0, 360.0, 30.0), "degree"),
+        ):
             file.create_dataset(name, data=values).make_scale(name)
             file[name].attrs["units"] = unit
         if extra:
@@ -44,7 +50,9 @@ def write(path, put=None, extra=None, **how):
             file.create_dataset("efth", data=np.ones((6, 12)))
         if isinstance(file.get("efth", getlink=True), h5py.HardLink):
             file["efth"].attrs["units"] = "m2 s degree-1"
-            names = ("freq", "dir") if file["efth"].id.rank == 2 else ("time", "freq", "dir", "site")
+            names = (
+                ("freq", "dir") if file["efth"].id.rank == 2 else ("time", "freq", "dir", "site")
+            )
             for i, name in enumerate(names):
                 file["efth"].dims[i].attach_scale(file[name])
     return path
@@ -69,7 +77,10 @@ def test_external_storage(target, name, other):
     where = [(str(other / target), 0, 72)]
     add = lambda f: f.create_dataset(name, (6, 12), "u1", external=where)  # noqa: E731
     path = write(other / "a.nc", add) if name == "efth" else write(other / "a.nc", None, add)
-    refused(path, rf"variable {name} must lie in the file itself, got data in another file \(HDF5 external storage\)")
+    refused(
+        path,
+        rf"variable {name} must lie in the file itself, got data in another file \(HDF5 external storage\)",
+    )
     (other / "a.nc.gz").write_bytes(gzip.compress(path.read_bytes()))
     refused(other / "a.nc.gz", f"variable {name} must lie in the file itself")
 
@@ -81,7 +92,9 @@ def test_virtual_datasets(target, other):
         layout[:] = h5py.VirtualSource(str(other / target), "efth", (6, 12))
         file.create_virtual_dataset("efth", layout)
 
-    refused(write(other / "a.nc", put, libver="latest"), r"variable efth .* \(HDF5 virtual dataset\)")
+    refused(
+        write(other / "a.nc", put, libver="latest"), r"variable efth .* \(HDF5 virtual dataset\)"
+    )
 
 
 @pytest.mark.parametrize("target", ["source.nc", "pipe", "/dev/zero"])
@@ -98,7 +111,10 @@ def test_soft_links_that_lead_in_a_circle(tmp_path):
     def extra(file):
         file["x"], file["y"] = h5py.SoftLink("/y"), h5py.SoftLink("/x")
 
-    refused(write(tmp_path / "a.nc", None, extra), "variable x must lie in the file itself, got a soft link")
+    refused(
+        write(tmp_path / "a.nc", None, extra),
+        "variable x must lie in the file itself, got a soft link",
+    )
 
 
 def test_filters_of_others(tmp_path):
@@ -110,7 +126,10 @@ def test_filters_of_others(tmp_path):
         plan.set_filter(32015, h5py.h5z.FLAG_OPTIONAL, (1,))
         h5py.h5d.create(file.id, b"dpt", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((6, 12)), plan)
 
-    refused(write(tmp_path / "a.nc", None, extra), r"variable dpt must be compressed by a filter of HDF5's own .* got filter 32015")
+    refused(
+        write(tmp_path / "a.nc", None, extra),
+        r"variable dpt must be compressed by a filter of HDF5's own .* got filter 32015",
+    )
 
 
 def test_a_group_that_holds_itself_is_walked_once(tmp_path):
@@ -123,7 +142,11 @@ def nested(file):
         file = file.create_group("g")
 
 
-@pytest.mark.parametrize("extra", [nested, lambda f: [f.create_group(f"g{i}") for i in range(hdf5.MOST_OBJECTS)]], ids=["deep", "wide"])
+@pytest.mark.parametrize(
+    "extra",
+    [nested, lambda f: [f.create_group(f"g{i}") for i in range(hdf5.MOST_OBJECTS)]],
+    ids=["deep", "wide"],
+)
 def test_too_many_objects(extra, tmp_path):
     refused(write(tmp_path / "a.nc", None, extra), "must hold at most 500 variables and groups")
 
@@ -135,12 +158,24 @@ def space(name, shape, chunks):
 @pytest.mark.parametrize(
     ("extra", "message"),
     [
-        (space("x", (20000, 20000), (5000, 5000)), "variable x must have chunks of at most 128 MiB"),
+        (
+            space("x", (20000, 20000), (5000, 5000)),
+            "variable x must have chunks of at most 128 MiB",
+        ),
         (space("x", (10**7 + 1, 2), (10, 2)), "variable x must be at most 10000000 long"),
         (space("x", (10**7,), (1000,)), "variable x must not be larger than its file can hold"),
-        (lambda f: f["freq"].attrs.__setitem__("a", np.zeros(600_000)), "variable freq: attribute a must be at most 4096 KiB"),
-        (lambda f: f.attrs.__setitem__("a", np.zeros(600_000)), "the file: attribute a must be at most"),
-        (lambda f: [f["freq"].attrs.__setitem__(f"a{i}", 1) for i in range(201)], "variable freq must have at most 200 attributes"),
+        (
+            lambda f: f["freq"].attrs.__setitem__("a", np.zeros(600_000)),
+            "variable freq: attribute a must be at most 4096 KiB",
+        ),
+        (
+            lambda f: f.attrs.__setitem__("a", np.zeros(600_000)),
+            "the file: attribute a must be at most",
+        ),
+        (
+            lambda f: [f["freq"].attrs.__setitem__(f"a{i}", 1) for i in range(201)],
+            "variable freq must have at most 200 attributes",
+        ),
     ],
 )
 def test_absurd_sizes(extra, message, tmp_path):
@@ -150,7 +185,9 @@ def test_absurd_sizes(extra, message, tmp_path):
 def with_times(times, sites, chunks):
     def put(file):
         for name, count in (("time", times), ("site", sites)):
-            file.create_dataset(name, data=np.zeros(count), chunks=(count,), compression="gzip").make_scale(name)
+            file.create_dataset(
+                name, data=np.zeros(count), chunks=(count,), compression="gzip"
+            ).make_scale(name)
         file["time"].attrs["units"] = "hours since 2000-01-01"
         file.create_dataset("efth", (times, 6, 12, sites), "f8", chunks=chunks, compression="gzip")
 
@@ -159,21 +196,31 @@ def with_times(times, sites, chunks):
 
 def test_chunks_that_hold_all_places_are_counted_for_one(tmp_path):
     """Small in the file, and 5 GiB to unpack for a single place."""
-    refused(write(tmp_path / "a.nc", with_times(1000, 10_000, (1, 6, 12, 10_000))), "variable efth must be readable for one place")
+    refused(
+        write(tmp_path / "a.nc", with_times(1000, 10_000, (1, 6, 12, 10_000))),
+        "variable efth must be readable for one place",
+    )
 
 
 def test_values_that_were_never_written(tmp_path):
-    refused(write(tmp_path / "a.nc", with_times(300_000, 1, (100, 6, 12, 1))), r"variable efth must be readable .* got 164 MiB")
+    refused(
+        write(tmp_path / "a.nc", with_times(300_000, 1, (100, 6, 12, 1))),
+        r"variable efth must be readable .* got 164 MiB",
+    )
 
 
 def test_text_that_nobody_needs_is_not_read(tmp_path):
-    path = write(tmp_path / "a.nc", None, lambda f: f.create_dataset("names", data=["x" * 10_000] * 1000, dtype=h5py.string_dtype()))
+    path = write(
+        tmp_path / "a.nc",
+        None,
+        lambda f: f.create_dataset("names", data=["x" * 10_000] * 1000, dtype=h5py.string_dtype()),
+    )
     with path.open("rb") as stream:
         assert hdf5.require_sound("a.nc", stream) == ["names"]
     assert float(readers.open(path).efth.sum()) == 72.0
 
 
-# --- netCDF 3 ------------------------------------------------------------------------------------------------------------------
+# --- netCDF 3
 
 
 def test_the_header_of_a_real_file_is_sound():
@@ -188,10 +235,18 @@ def header(*variables, records=0, dims=((b"freq", 6),)):
     def text(word):
         return struct.pack(">I", len(word)) + word + bytes(-len(word) % 4)
 
-    out = b"CDF\x01" + struct.pack(">III", records, 10, len(dims)) + b"".join(text(n) + struct.pack(">I", size) for n, size in dims)
+    out = (
+        b"CDF\x01"
+        + struct.pack(">III", records, 10, len(dims))
+        + b"".join(text(n) + struct.pack(">I", size) for n, size in dims)
+    )
     out += struct.pack(">IIII", 0, 0, 11, len(variables))
     for name, axes, kind, begin in variables:
-        out += text(name) + struct.pack(f">I{len(axes)}I", len(axes), *axes) + struct.pack(">IIIII", 0, 0, kind, 48, begin)
+        out += (
+            text(name)
+            + struct.pack(f">I{len(axes)}I", len(axes), *axes)
+            + struct.pack(">IIIII", 0, 0, kind, 48, begin)
+        )
     return out
 
 
@@ -199,13 +254,28 @@ def header(*variables, records=0, dims=((b"freq", 6),)):
     ("data", "message"),
     [
         (header((b"efth", (0,), 6, 100)) + bytes(20), "variable efth must lie in the file"),
-        (header(*[(b"v%d" % i, (0,), 6, 60) for i in range(9)]), r"variable v\d must lie in the file"),
+        (
+            header(*[(b"v%d" % i, (0,), 6, 60) for i in range(9)]),
+            r"variable v\d must lie in the file",
+        ),
         (header((b"efth", (3,), 6, 60)), "variable efth must have dimensions that the file has"),
         (header((b"efth", (0,), 9, 60)), "variable efth must be of a type between 1 and 6, got 9"),
-        (header((b"efth", (0,), 6, 60), dims=((b"freq", 2**31),)), "variable efth must lie in the file"),
-        (header((b"efth", (0,), 6, 60), dims=((b"time", 0),), records=10**6), "variable efth must lie in the file"),
-        (b"CDF\x01" + struct.pack(">III", 0, 10, 2**31), "must have at most 500 dimensions, variables or attributes"),
-        (b"CDF\x01" + struct.pack(">IIII", 0, 10, 1, 2**31), "a name must be at most 4096 bytes long"),
+        (
+            header((b"efth", (0,), 6, 60), dims=((b"freq", 2**31),)),
+            "variable efth must lie in the file",
+        ),
+        (
+            header((b"efth", (0,), 6, 60), dims=((b"time", 0),), records=10**6),
+            "variable efth must lie in the file",
+        ),
+        (
+            b"CDF\x01" + struct.pack(">III", 0, 10, 2**31),
+            "must have at most 500 dimensions, variables or attributes",
+        ),
+        (
+            b"CDF\x01" + struct.pack(">IIII", 0, 10, 1, 2**31),
+            "a name must be at most 4096 bytes long",
+        ),
         (b"CDF\x01" + struct.pack(">III", 0, 7, 1), "has the tag 7, not 10"),
         (header((b"efth", (0,), 6, 60))[:-9], "its header is cut short"),
     ],
@@ -222,23 +292,36 @@ def test_many_variables_on_the_same_bytes(tmp_path):
     refused(tmp_path / "a.nc", "variable v1 must lie in the file")
 
 
-# --- text ----------------------------------------------------------------------------------------------------------------------
+# --- text
 
 
 def test_a_swan_file_of_more_bins_than_fit(tmp_path):
     """2000 frequencies by 2000 directions, and then ZERO: one word for 32 MB."""
     text = write_swan(tmp_path / "a.spec", sea()).read_text().splitlines()
     at = text.index("AFREQ")
-    many = ["AFREQ", "2000", *(f"{0.01 + 1e-4 * i:.4f}" for i in range(2000)), "NDIR", "2000", *(f"{0.18 * i:.2f}" for i in range(2000))]
+    many = [
+        "AFREQ",
+        "2000",
+        *(f"{0.01 + 1e-4 * i:.4f}" for i in range(2000)),
+        "NDIR",
+        "2000",
+        *(f"{0.18 * i:.2f}" for i in range(2000)),
+    ]
     rest = text[text.index("QUANT") : text.index("FACTOR")]
     (tmp_path / "a.spec").write_text("\n".join([*text[:at], *many, *rest, "ZERO"]) + "\n")
-    refused(tmp_path / "a.spec", "must have at most 1000000 frequencies times directions, got 2000 by 2000")
+    refused(
+        tmp_path / "a.spec",
+        "must have at most 1000000 frequencies times directions, got 2000 by 2000",
+    )
 
 
 def test_a_pipe_put_in_place_of_a_file(tmp_path):
     """After the file was looked at, before it is opened: no waiting, and no reading."""
     os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(ReaderError, match="must be a regular file"), files.opened(tmp_path / "pipe"):
+    with (
+        pytest.raises(ReaderError, match="must be a regular file"),
+        files.opened(tmp_path / "pipe"),
+    ):
         pass
 
 

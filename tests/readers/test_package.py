@@ -1,4 +1,6 @@
-"""Whatever the wavespectra package hands out becomes a sea of the height that the package gives it."""
+"""
+Whatever the wavespectra package hands out becomes a sea of the height that the package gives it.
+"""
 
 import numpy as np
 import pytest
@@ -56,7 +58,11 @@ def test_partitions_are_counted_as_places(spectra):
     """With those of one place and time the parts make up the whole, and `site` picks one."""
     one = spectra.isel(site=0, time=[2])
     parts = one.spec.partition.ptm3(parts=3)
-    heights = [readers.Realised.from_spectrum(parts, site=i).hs_source for i in range(3) if float(parts.isel(part=i).sum()) > 0.0]
+    heights = [
+        readers.Realised.from_spectrum(parts, site=i).hs_source
+        for i in range(3)
+        if float(parts.isel(part=i).sum()) > 0.0
+    ]
     whole = readers.Realised.from_spectrum(one).hs_source
     assert np.sqrt(np.sum(np.square(heights))) == pytest.approx(whole, rel=1e-5)
 
@@ -67,7 +73,10 @@ def test_energies_of_bins_are_no_densities(spectra):
 
 
 def test_left_over_attributes_give_way(ws):
-    """`oned` keeps the unit of directions, `read_ncswan` radians on degrees, `read_wwm` prose as units."""
+    """
+    `oned` keeps the unit of directions, `read_ncswan` radians on degrees, `read_wwm` prose as
+    units.
+    """
     bare = readers.netcdf.tidy(ww3(sea())).drop_vars("freq_bnds", errors="ignore")
     want = readers.Realised.from_spectrum(bare).hs_source
     for axis, unit in (
@@ -80,7 +89,9 @@ def test_left_over_attributes_give_way(ws):
         assert made.hs_source == pytest.approx(want, rel=1e-12)
     for unit in ("grad", "kHz"):  # a unit of another kind is no left-over
         with pytest.raises(ReaderError, match="must have units"):
-            fo.Sea.from_spectrum(bare.assign_coords(freq=("freq", bare.freq.values, {"units": unit})))
+            fo.Sea.from_spectrum(
+                bare.assign_coords(freq=("freq", bare.freq.values, {"units": unit}))
+            )
     assert ws is not None
 
 
@@ -96,12 +107,19 @@ def test_triaxys_by_the_package(ws, tmp_path):
     ours = readers.Realised.from_spectrum(readers.open(path))
     assert made.hs_source == pytest.approx(ours.hs_source, rel=1e-9)
     flat = ws.read_triaxys(str(DATA / "triaxys.NONDIRSPEC"))
-    assert readers.Realised.from_spectrum(flat, **STRAIGHT).hs_source == pytest.approx(3.43497, rel=1e-5)
+    assert readers.Realised.from_spectrum(flat, **STRAIGHT).hs_source == pytest.approx(
+        3.43497, rel=1e-5
+    )
 
 
 def test_negative_lobes_are_refused_or_clipped_as_the_user_says(ws):
-    """Clipped, each frequency keeps its energy: Hs is the package's own, and the sea says how much it took."""
-    theirs = ws.read_ndbc_ascii([str(DATA / f"41010.{s}") for s in ("data_spec", "swdir", "swdir2", "swr1", "swr2")])
+    """
+    Clipped, each frequency keeps its energy: Hs is the package's own, and the sea says how much it
+    took.
+    """
+    theirs = ws.read_ndbc_ascii(
+        [str(DATA / f"41010.{s}") for s in ("data_spec", "swdir", "swdir2", "swr1", "swr2")]
+    )
     assert float(theirs.efth.min()) < -0.001
     with pytest.raises(ReaderError, match=r'got -[0-9.e-]+ at .*negative="clip"'):
         fo.Sea.from_spectrum(theirs)
@@ -110,7 +128,9 @@ def test_negative_lobes_are_refused_or_clipped_as_the_user_says(ws):
         match=r"[0-9]+ negative densities .* were taken as 0, the energy of each frequency kept",
     ):
         made = readers.Realised.from_spectrum(theirs, negative="clip")
-    assert made.hs_source == pytest.approx(float(theirs.isel(time=0).efth.spec.hs(tail=False)), rel=1e-9)
+    assert made.hs_source == pytest.approx(
+        float(theirs.isel(time=0).efth.spec.hs(tail=False)), rel=1e-9
+    )
     assert any("negative densities" in note for note in made.notes)
     with pytest.warns(SeaWarning):
         assert fo.Sea.from_spectrum(theirs, negative="clip").hs == pytest.approx(made.sea.hs)
@@ -119,7 +139,10 @@ def test_negative_lobes_are_refused_or_clipped_as_the_user_says(ws):
 
 
 def test_clipping_in_closed_form():
-    """3 and -1 make 2 and 0, and all that is not above 0 makes nothing; without directions there is nothing to keep."""
+    """
+    3 and -1 make 2 and 0, and all that is not above 0 makes nothing; without directions there is
+    nothing to keep.
+    """
     values = np.array([[[3.0, -1.0], [-3.0, 1.0], [np.nan, 2.0]]])
     got, notes = layout.densities("x", values, "m2/Hz/degree", negative="clip")
     assert got[0, :2].tolist() == [[2.0, 0.0], [0.0, 0.0]]
@@ -128,14 +151,18 @@ def test_clipping_in_closed_form():
     got, notes = layout.densities("x", np.array([[1.0, -1.0]]), "m2/Hz", negative="clip")
     assert got.tolist() == [[1.0, 0.0]]
     assert "kept" not in notes["negative_note"]
-    assert "negative_note" not in layout.densities("x", np.ones((1, 2)), "m2/Hz", negative="clip")[1]
+    assert (
+        "negative_note" not in layout.densities("x", np.ones((1, 2)), "m2/Hz", negative="clip")[1]
+    )
 
 
 def test_zero_hertz_is_left_out_and_counted():
     data = readers.netcdf.tidy(ww3(sea()))
     f = np.concatenate([[0.0], data.freq.values])
     values = np.concatenate([data.efth.values[:, :1], data.efth.values], axis=1)
-    longer = xr.Dataset({"efth": (("time", "freq", "dir"), values)}, {"freq": f, "dir": data.dir.values})
+    longer = xr.Dataset(
+        {"efth": (("time", "freq", "dir"), values)}, {"freq": f, "dir": data.dir.values}
+    )
     got = readers.netcdf.tidy(longer)
     assert got.attrs["zero_frequencies_left_out"] == 1
     assert got.efth.values.tolist() == data.efth.values.tolist()

@@ -18,14 +18,19 @@ from fftocean.readers import Realised, sea_from_spectrum
 
 def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
     """The layout of the wavespectra package, without any attributes."""
-    return xr.Dataset({"efth": (("freq", "dir"), density)}, {"freq": frequency, "dir": (toward + 180.0) % 360.0, **coords})
+    return xr.Dataset(
+        {"efth": (("freq", "dir"), density)},
+        {"freq": frequency, "dir": (toward + 180.0) % 360.0, **coords},
+    )
 
 
 def test_at_the_points_it_is_the_source():
     """
-    S D [m^2 s/rad^2] = efth [m^2/Hz/degree] (180/pi)/(2 pi), but for a smooth factor of frequency alone.
+    S D [m^2 s/rad^2] = efth [m^2/Hz/degree] (180/pi)/(2 pi), but for a smooth factor of frequency
+    alone.
 
-    It makes up for straight lines being wider than bands: (df/f)^2/6, 0.2 % of m2, where bands are 10 % wide; most of it in the tail.
+    It makes up for straight lines being wider than bands: (df/f)^2/6, 0.2 % of m2, where bands are
+    10 % wide; most of it in the tail.
     """
     order = sea(toward=200.0)
     made = Realised.from_spectrum(ww3(order), time=0)
@@ -34,11 +39,15 @@ def test_at_the_points_it_is_the_source():
     some = want.sum(axis=1) > 1e-6 * want.max()
     factor = got.sum(axis=1)[some] / want.sum(axis=1)[some]
     assert factor == pytest.approx(np.ones(factor.size), abs=0.03)
-    assert got[some] == pytest.approx(want[some] * factor[:, None], rel=1e-9, abs=1e-12 * want.max())  # angles are turned there and back
+    assert got[some] == pytest.approx(
+        want[some] * factor[:, None], rel=1e-9, abs=1e-12 * want.max()
+    )  # angles are turned there and back
 
 
 def test_its_variance_is_the_sum_over_the_bands_of_the_source():
-    """Sum of E df dtheta, df half way to the neighbours and symmetric at the ends, dtheta 15 degrees."""
+    """
+    Sum of E df dtheta, df half way to the neighbours and symmetric at the ends, dtheta 15 degrees.
+    """
     order = sea()
     made = Realised.from_spectrum(ww3(order), time=1)
     f = FREQUENCY
@@ -46,8 +55,13 @@ def test_its_variance_is_the_sum_over_the_bands_of_the_source():
     want = 4.0 * math.sqrt(np.sum(order.density[1] * df[:, None]) * 15.0)
     assert made.hs_source == pytest.approx(want, rel=1e-12)
     assert made.sea.hs == pytest.approx(want, rel=1e-9)
-    # Over frequency and direction, by another rule: the trapezoid on eight panels to every straight line (1/64 of a bend of 1 %).
-    omega = 2.0 * np.pi * np.concatenate([np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(f)] + [f[-1:]])
+    # Over frequency and direction, by another rule: the trapezoid on eight panels to every straight
+    # line (1/64 of a bend of 1 %).
+    omega = (
+        2.0
+        * np.pi
+        * np.concatenate([np.linspace(a, b, 8, endpoint=False) for a, b in pairwise(f)] + [f[-1:]])
+    )
     theta = np.linspace(-np.pi, np.pi, 24 * 8 + 1)
     density = made.sea.density(omega[:, None], theta)
     over_theta = np.sum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1) * (theta[1] - theta[0])
@@ -56,7 +70,10 @@ def test_its_variance_is_the_sum_over_the_bands_of_the_source():
 
 
 def test_a_known_sea_comes_back():
-    """JONSWAP, Hs = 2 m, measured in fine bands: Hs but for what lies above 0.6 Hz, 0.2 %; Tp to a band."""
+    """
+    JONSWAP, Hs = 2 m, measured in fine bands: Hs but for what lies above 0.6 Hz, 0.2 %; Tp to a
+    band.
+    """
     spectrum = JONSWAP.from_sea_state(hs=2.0, tp=9.0)
     f = np.arange(0.03, 0.6, 0.002)
     dirs = np.arange(0.0, 360.0, 5.0)
@@ -75,7 +92,9 @@ def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
     made = Realised.from_spectrum(by_hand(order))
     f = np.delete(FREQUENCY, 12)
     rest = np.nan_to_num(np.delete(order, 12, axis=0)).sum(axis=1) * 15.0
-    assert made.hs_source == pytest.approx(4.0 * math.sqrt(np.sum(rest * np.gradient(f))), rel=1e-12)
+    assert made.hs_source == pytest.approx(
+        4.0 * math.sqrt(np.sum(rest * np.gradient(f))), rel=1e-12
+    )
     ends = [float(made.sea(2.0 * np.pi * FREQUENCY[i])) for i in (11, 13)]
     between = np.interp(FREQUENCY[12], FREQUENCY[[11, 13]], ends)
     assert made.sea(2.0 * np.pi * FREQUENCY[12]) == pytest.approx(between, rel=1e-9)
@@ -86,7 +105,10 @@ def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
 
 
 def test_a_sector_is_closed_with_nothing():
-    """SWAN may compute a quarter of the circle: nothing comes from the rest, least of all a straight line right round it."""
+    """
+    SWAN may compute a quarter of the circle: nothing comes from the rest, least of all a straight
+    line right round it.
+    """
     quarter = np.arange(50.0, 140.0, 10.0)
     f = np.array([0.05, 0.1, 0.15])
     density = np.tile([0.5, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.5], (3, 1))
@@ -94,7 +116,9 @@ def test_a_sector_is_closed_with_nothing():
     assert made.hs_source == pytest.approx(4.0 * math.sqrt(17.0 * 10.0 * 0.15), rel=1e-12)
     got = made.sea.density(2.0 * np.pi * 0.1, np.radians(np.arange(0.0, 360.0, 5.0)))
     toward = (90.0 - np.arange(0.0, 360.0, 5.0)) % 360.0
-    assert np.all(got[(toward < 39.9) | (toward > 140.1)] < 1e-12)  # the angles are turned and turned back, in round-off
+    assert np.all(
+        got[(toward < 39.9) | (toward > 140.1)] < 1e-12
+    )  # the angles are turned and turned back, in round-off
     assert np.all(got[(toward > 41.0) & (toward < 139.0)] > 0.0)
 
 
@@ -121,17 +145,23 @@ def test_a_spectrum_without_directions_asks_for_them():
     assert made.hs == pytest.approx(4.0 * math.sqrt(float(np.sum(data.ef[1] * 0.01))), rel=1e-9)
     assert made.systems[0].direction == 30.0
     assert made.systems[0].spreading == CosinePower(s=8.0)
-    with pytest.raises(ParameterError, match=r"takes no others, got direction=30\.0, spreading=None"):
+    with pytest.raises(
+        ParameterError, match=r"takes no others, got direction=30\.0, spreading=None"
+    ):
         sea_from_spectrum(by_hand(sea().density[0]), direction=30.0)
 
 
 def test_one_direction_only_is_none_as_the_wavespectra_package_has_it():
     """It reads a buoy without directions as efth with dir = [0], in m2/Hz."""
     total = sea().density[0].sum(axis=1) * 15.0
-    data = xr.Dataset({"efth": (("freq", "dir"), total[:, None])}, {"freq": FREQUENCY, "dir": [0.0]})
+    data = xr.Dataset(
+        {"efth": (("freq", "dir"), total[:, None])}, {"freq": FREQUENCY, "dir": [0.0]}
+    )
     with pytest.raises(ParameterError, match="needs direction"):
         sea_from_spectrum(data)
-    assert sea_from_spectrum(data, direction=0.0, spreading=CosinePower(s=8.0)).hs == pytest.approx(sea_from_spectrum(ww3(sea())).hs)
+    assert sea_from_spectrum(data, direction=0.0, spreading=CosinePower(s=8.0)).hs == pytest.approx(
+        sea_from_spectrum(ww3(sea())).hs
+    )
 
 
 def test_depth_is_that_of_the_dataset_unless_it_is_said():
@@ -147,16 +177,24 @@ def test_times_and_places_are_picked():
     one, two = (sea_from_spectrum(ww3(sea()), time=t).variance for t in (0, 1))
     assert two == pytest.approx(2.0 * one, rel=1e-9)
     assert sea_from_spectrum(ww3(sea()), time=-1).variance == two
-    assert sea_from_spectrum(ww3(sea()).sel(time=TIMES[1])).variance == two  # a caller's own choice, by name
+    assert (
+        sea_from_spectrum(ww3(sea()).sel(time=TIMES[1])).variance == two
+    )  # a caller's own choice, by name
     assert sea_from_spectrum(ww3(sea()).isel(time=1, station=0)).variance == two
-    for which, message in (({"time": 2}, "time must be a whole number between -2 and 1, got 2"), ({"site": 1}, "site must be .* got 1")):
+    for which, message in (
+        ({"time": 2}, "time must be a whole number between -2 and 1, got 2"),
+        ({"site": 1}, "site must be .* got 1"),
+    ):
         with pytest.raises(ParameterError, match=message):
             sea_from_spectrum(ww3(sea()), **which)
 
 
 @pytest.mark.parametrize("left", [{"globwave_name": "direction"}, {"axis": "Z"}])
 def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round(left):
-    """The wavespectra package turns directions and leaves WAVEWATCH's attributes on them: FROM all the same, with a warning."""
+    """
+    The wavespectra package turns directions and leaves WAVEWATCH's attributes on them: FROM all the
+    same, with a warning.
+    """
     data = by_hand(sea(toward=70.0).density[0])
     want = sea_from_spectrum(data).systems[0].direction
     assert want == pytest.approx(20.0, abs=0.5)
@@ -170,7 +208,10 @@ def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round(left):
 
 
 def test_an_explicit_direction_is_believed_and_said():
-    """In a layout whose documents say FROM, a file that says TO, and its unit, and that no package left it behind."""
+    """
+    In a layout whose documents say FROM, a file that says TO, and its unit, and that no package
+    left it behind.
+    """
     data = by_hand(sea(toward=70.0).density[0])
     want = sea_from_spectrum(data).systems[0].direction
     data.efth.attrs["units"] = "m2 s degree-1"
@@ -186,7 +227,12 @@ def test_an_explicit_direction_is_believed_and_said():
 def test_what_attributes_do_not_say_is_noted():
     """Nothing is said in a dataset made by hand; all is in what WAVEWATCH writes."""
     (note,) = (n for n in Realised.from_spectrum(by_hand(sea().density[0])).notes if "assumed" in n)
-    for word in ("densities per degree", "frequencies in Hz", "directions in degrees", "directions from which waves come"):
+    for word in (
+        "densities per degree",
+        "frequencies in Hz",
+        "directions in degrees",
+        "directions from which waves come",
+    ):
         assert word in note
     assert not any("assumed" in n for n in Realised.from_spectrum(ww3(sea())).notes)
     by_number = Realised.from_spectrum(era5(sea()), site=1).notes
@@ -199,7 +245,9 @@ def test_what_a_reader_masked_or_repaired_is_still_said_of_the_sea(tmp_path):
     made = Realised.from_spectrum(readers.open(path))
     limited = readers.open(path).attrs["limited_moments"]
     assert limited > 0
-    assert f"{limited} pairs of directional moments that no sea can have were drawn in" in made.notes
+    assert (
+        f"{limited} pairs of directional moments that no sea can have were drawn in" in made.notes
+    )
     assert "no depth is known: the water is taken as deep" in made.notes
     assert "the depth is the measurement's own, 30 m" in Realised.from_spectrum(ww3(sea())).notes
     assert not any("depth" in note for note in Realised.from_spectrum(ww3(sea()), depth=20.0).notes)
@@ -208,30 +256,48 @@ def test_what_a_reader_masked_or_repaired_is_still_said_of_the_sea(tmp_path):
 def test_half_a_circle_is_closed_with_nothing_and_said():
     half = np.arange(0.0, 190.0, 10.0)
     density = np.tile(np.sin(np.radians(half)) + 1e-3, (3, 1))
-    made = Realised.from_spectrum(by_hand(density, frequency=np.array([0.05, 0.1, 0.15]), toward=half))
+    made = Realised.from_spectrum(
+        by_hand(density, frequency=np.array([0.05, 0.1, 0.15]), toward=half)
+    )
     assert "directions leave out 160 degrees of the circle: nothing comes from there" in made.notes
 
 
 def test_frequencies_that_may_be_in_radians_are_doubted():
-    """0.22 to 3.5, as rad/s under the name of Hz; a buoy's do not reach so far, nor does a tank's begin so low as a buoy's."""
+    """
+    0.22 to 3.5, as rad/s under the name of Hz; a buoy's do not reach so far, nor does a tank's
+    begin so low as a buoy's.
+    """
     data = by_hand(1e-3 * sea().density[0], frequency=2.0 * np.pi * FREQUENCY)
-    with pytest.warns(SeaWarning, match=r"frequencies go from 0\.217 to 3\.44 Hz, which is rare at sea: are they in rad/s\?"):
+    with pytest.warns(
+        SeaWarning,
+        match=r"frequencies go from 0\.217 to 3\.44 Hz, which is rare at sea: are they in rad/s\?",
+    ):
         made = Realised.from_spectrum(data)
     assert any("rad/s" in note for note in made.notes)
 
 
 def test_a_buoys_sea_has_its_spread(tmp_path):
-    """r1 = 0.9 at every frequency: spread sqrt(2 (1 - r1)); straight lines between bins x apart make r1 less by (sin(x/2)/(x/2))^2."""
+    """
+    r1 = 0.9 at every frequency: spread sqrt(2 (1 - r1)); straight lines between bins x apart make
+    r1 less by (sin(x/2)/(x/2))^2.
+    """
     made = sea_from_spectrum(readers.open(write_ndbc(tmp_path, source=200.0, r1=0.9, r2=0.65)))
     theta = np.linspace(-np.pi, np.pi, 7200, endpoint=False)
-    direction, spread = moments.mean_direction_and_spread(made.density(2.0 * np.pi * 0.1, theta), theta)
+    direction, spread = moments.mean_direction_and_spread(
+        made.density(2.0 * np.pi * 0.1, theta), theta
+    )
     assert direction == pytest.approx(70.0, abs=1e-3)
     x = np.radians(5.0)
-    assert spread == pytest.approx(np.degrees(math.sqrt(2.0 * (1.0 - 0.9 * (2.0 * math.sin(x / 2.0) / x) ** 2))), rel=1e-4)
+    assert spread == pytest.approx(
+        np.degrees(math.sqrt(2.0 * (1.0 - 0.9 * (2.0 * math.sin(x / 2.0) / x) ** 2))), rel=1e-4
+    )
 
 
 def test_a_height_that_no_sea_has_is_refused():
-    with pytest.raises(ReaderError, match=r"significant wave height must be between 0 and 100 m, got .* \(in other units"):
+    with pytest.raises(
+        ReaderError,
+        match=r"significant wave height must be between 0 and 100 m, got .* \(in other units",
+    ):
         sea_from_spectrum(by_hand(1e4 * sea().density[0]))
 
 
@@ -242,7 +308,10 @@ def test_a_height_that_no_sea_has_is_refused():
         (xr.DataArray([1.0]), "must have a frequency dimension"),
         (xr.Dataset({"hs": ((), 1.0)}), "must hold one wave spectrum .* got hs"),
         (xr.Dataset({"efth": (("x", "dir"), np.ones((3, 4)))}), "must have a frequency dimension"),
-        (xr.Dataset({"efth": (("freq", "dir"), np.ones((3, 4)))}), "dimension freq must have a coordinate"),
+        (
+            xr.Dataset({"efth": (("freq", "dir"), np.ones((3, 4)))}),
+            "dimension freq must have a coordinate",
+        ),
     ],
 )
 def test_what_is_no_spectrum_is_refused(what, message):

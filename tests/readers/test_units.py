@@ -98,7 +98,9 @@ def test_no_text_takes_long_or_raises(text):
     assert unit is None or (math.isfinite(unit.scale) and unit.scale > 0.0)
 
 
-@pytest.mark.parametrize("unit", ["m2 s", "meter^2 second", "meter2/hertz", "metre2 second", "(meter * meter)/Hz"])
+@pytest.mark.parametrize(
+    "unit", ["m2 s", "meter^2 second", "meter2/hertz", "metre2 second", "(meter * meter)/Hz"]
+)
 def test_a_sea_of_any_spelling(unit):
     f = np.linspace(0.03, 0.5, 48)
     s = 0.3 * (f / 0.1) ** -5 * np.exp(-1.25 * (f / 0.1) ** -4)

@@ -1,4 +1,7 @@
-"""One sea, written in every format that is read: each writer follows the format's own documents, and shares no code with the readers."""
+"""
+One sea, written in every format that is read: each writer follows the format's own documents, and
+shares no code with the readers.
+"""
 
 import gzip
 from dataclasses import dataclass
@@ -9,7 +12,8 @@ import xarray as xr
 
 DATA = Path(__file__).parent.parent / "data" / "spectra"
 
-# ERA5's axes, which the other formats can hold too, so that one sea has the same numbers in all of them.
+# ERA5's axes, which the other formats can hold too, so that one sea has the same numbers in all of
+# them.
 FREQUENCY = 0.03453 * 1.1 ** np.arange(30)  # [Hz]
 TO = 7.5 + 15.0 * np.arange(24)  # [degrees] toward, clockwise from north
 TIMES = np.array(["2020-01-01T00", "2020-01-01T06"], dtype="datetime64[ns]")
@@ -17,13 +21,19 @@ TIMES = np.array(["2020-01-01T00", "2020-01-01T06"], dtype="datetime64[ns]")
 
 @dataclass(frozen=True)
 class Order:
-    """A sea as it was ordered: E(f, toward) in m2/Hz/degree, on `FREQUENCY` and `TO`, at two `TIMES` (the second has twice as much)."""
+    """
+    A sea as it was ordered: E(f, toward) in m2/Hz/degree, on `FREQUENCY` and `TO`, at two `TIMES`
+    (the second has twice as much).
+    """
 
     density: np.ndarray  # (time, f, d)
 
 
 def sea(toward: float = 90.0, width: float = 8.0) -> Order:
-    """A wind sea of 0.1 Hz, cos^2s about a compass direction TOWARD; narrower below the peak, so that f and theta do not separate."""
+    """
+    A wind sea of 0.1 Hz, cos^2s about a compass direction TOWARD; narrower below the peak, so that
+    f and theta do not separate.
+    """
     s = 5.0 * (FREQUENCY / 0.1) ** -5 * np.exp(-1.25 * (FREQUENCY / 0.1) ** -4)
     exponent = width * np.where(FREQUENCY < 0.1, 2.0, 0.1 / FREQUENCY)[:, None]
     d = np.abs(np.cos(np.radians(TO - toward) / 2.0)) ** (2.0 * exponent)
@@ -33,10 +43,19 @@ def sea(toward: float = 90.0, width: float = 8.0) -> Order:
 
 
 def write_wavespectra(path: Path, order: Order) -> Path:
-    """efth(time, site, freq, dir) per degree, dir FROM and without attributes, as the package leaves it."""
+    """
+    efth(time, site, freq, dir) per degree, dir FROM and without attributes, as the package leaves
+    it.
+    """
     came = np.argsort((TO + 180.0) % 360.0)
     data = xr.Dataset(
-        {"efth": (("time", "site", "freq", "dir"), order.density[:, None][..., came], {"units": "m^{2}.s.degree^{-1}"})},
+        {
+            "efth": (
+                ("time", "site", "freq", "dir"),
+                order.density[:, None][..., came],
+                {"units": "m^{2}.s.degree^{-1}"},
+            )
+        },
         {"time": TIMES, "site": [1], "freq": FREQUENCY, "dir": ((TO + 180.0) % 360.0)[came]},
     )
     data.to_netcdf(path, engine="h5netcdf")
@@ -44,22 +63,41 @@ def write_wavespectra(path: Path, order: Order) -> Path:
 
 
 def ww3(order: Order) -> xr.Dataset:
-    """efth(time, station, frequency, direction) per radian, direction TO and turning backwards from north, depth 30 m."""
+    """
+    efth(time, station, frequency, direction) per radian, direction TO and turning backwards from
+    north, depth 30 m.
+    """
     back = np.argsort(-((TO - 90.0) % 360.0))
     density = order.density[:, None][..., back] * 180.0 / np.pi
     name = "sea_surface_wave_directional_variance_spectral_density"
-    to = {"standard_name": "sea_surface_wave_to_direction", "long_name": "sea surface wave to direction", "units": "degree"}
+    to = {
+        "standard_name": "sea_surface_wave_to_direction",
+        "long_name": "sea surface wave to direction",
+        "units": "degree",
+    }
     return xr.Dataset(
         {
-            "efth": (("time", "station", "frequency", "direction"), density, {"standard_name": name, "units": "m2 s rad-1"}),
-            "dpt": (("time", "station"), np.full((2, 1), 30.0), {"standard_name": "depth", "units": "m"}),
+            "efth": (
+                ("time", "station", "frequency", "direction"),
+                density,
+                {"standard_name": name, "units": "m2 s rad-1"},
+            ),
+            "dpt": (
+                ("time", "station"),
+                np.full((2, 1), 30.0),
+                {"standard_name": "depth", "units": "m"},
+            ),
             "longitude": (("time", "station"), np.full((2, 1), -30.0)),
             "latitude": (("time", "station"), np.full((2, 1), 45.0)),
         },
         {
             "time": TIMES,
             "station": np.array([1], dtype=np.int32),
-            "frequency": ("frequency", FREQUENCY, {"standard_name": "sea_surface_wave_frequency", "units": "s-1"}),
+            "frequency": (
+                "frequency",
+                FREQUENCY,
+                {"standard_name": "sea_surface_wave_frequency", "units": "s-1"},
+            ),
             "direction": ("direction", TO[back], to),
         },
     )
@@ -72,18 +110,34 @@ def write_ww3(path: Path, order: Order) -> Path:
 
 
 def era5(order: Order, *, numbers: bool = True) -> xr.Dataset:
-    """d2fd, log10 of m2/Hz/radian, NaN for nothing, direction before frequency, on a grid of 2 by 1 (the sea is in the second)."""
+    """
+    d2fd, log10 of m2/Hz/radian, NaN for nothing, direction before frequency, on a grid of 2 by 1
+    (the sea is in the second).
+    """
     with np.errstate(divide="ignore"):
         log10 = np.log10(order.density * 180.0 / np.pi)
     log10[~np.isfinite(log10)] = np.nan
-    here = np.stack([np.full_like(log10, np.nan), log10], axis=-1)[..., None]  # time, f, d, lat, lon
+    here = np.stack([np.full_like(log10, np.nan), log10], axis=-1)[
+        ..., None
+    ]  # time, f, d, lat, lon
     coords = {"valid_time": TIMES, "latitude": [50.0, 45.0], "longitude": [-30.0]}
-    coords |= {"frequencyNumber": np.arange(1, 31) if numbers else FREQUENCY, "directionNumber": np.arange(1, 25) if numbers else TO}
+    coords |= {
+        "frequencyNumber": np.arange(1, 31) if numbers else FREQUENCY,
+        "directionNumber": np.arange(1, 25) if numbers else TO,
+    }
     data = xr.Dataset(
-        {"d2fd": (("valid_time", "frequencyNumber", "directionNumber", "latitude", "longitude"), here, {"units": "m**2 s radian**-1"})},
+        {
+            "d2fd": (
+                ("valid_time", "frequencyNumber", "directionNumber", "latitude", "longitude"),
+                here,
+                {"units": "m**2 s radian**-1"},
+            )
+        },
         coords,
     )
-    return data.transpose("valid_time", "directionNumber", "frequencyNumber", "latitude", "longitude")
+    return data.transpose(
+        "valid_time", "directionNumber", "frequencyNumber", "latitude", "longitude"
+    )
 
 
 def write_era5(path: Path, order: Order, *, numbers: bool = True) -> Path:
@@ -92,7 +146,10 @@ def write_era5(path: Path, order: Order, *, numbers: bool = True) -> Path:
 
 
 def write_swan(path: Path, order: Order, *, cartesian: bool = False) -> Path:
-    """SWAN's ASCII with nine figures where SWAN has four, so that it can be compared; nautical FROM or Cartesian TOWARD."""
+    """
+    SWAN's ASCII with nine figures where SWAN has four, so that it can be compared; nautical FROM or
+    Cartesian TOWARD.
+    """
     angles = (90.0 - TO) % 360.0 if cartesian else (TO + 180.0) % 360.0
     text = [
         "SWAN   1        Swan standard spectral file, version",
@@ -108,7 +165,11 @@ def write_swan(path: Path, order: Order, *, cartesian: bool = False) -> Path:
     text += ["QUANT", "     1", "VaDens", "m2/Hz/degr", "   -99"]
     for time, density in zip(TIMES, order.density, strict=True):
         factor = density.max() / 999999999
-        text += [time.astype("datetime64[s]").item().strftime("%Y%m%d.%H%M%S"), "FACTOR", f"{factor:.12E}"]
+        text += [
+            time.astype("datetime64[s]").item().strftime("%Y%m%d.%H%M%S"),
+            "FACTOR",
+            f"{factor:.12E}",
+        ]
         text += [" ".join(f"{v:.0f}" for v in row / factor) for row in density]
     path.write_text("\n".join(text) + "\n")
     return path

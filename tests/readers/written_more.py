@@ -32,7 +32,9 @@ def stamps() -> list[str]:
 
 
 def write_ww3_text(path: Path, order: Order, *, points: int = 1, figures: int = 9) -> Path:
-    """ww3_outp's transfer file: 8 frequencies and 7 other numbers a line, radians TO, per radian."""
+    """
+    ww3_outp's transfer file: 8 frequencies and 7 other numbers a line, radians TO, per radian.
+    """
 
     def rows(values, per, spec):
         text = [format(v, spec) for v in values]
@@ -50,7 +52,9 @@ def write_ww3_text(path: Path, order: Order, *, points: int = 1, figures: int = 
     return path
 
 
-def write_swan_1d(path: Path, order: Order, *, cartesian: bool = False, energy: bool = False) -> Path:
+def write_swan_1d(
+    path: Path, order: Order, *, cartesian: bool = False, energy: bool = False
+) -> Path:
     """VaDens or EnDens, mean direction and spread of each frequency, at two places."""
     c1 = fourier(order, 1)
     mean = np.degrees(np.angle(c1)) % 360.0
@@ -139,7 +143,9 @@ def write_datawell(path: Path, order: Order) -> Path:
 
 
 def write_triaxys(path: Path, order: Order, *, directed: bool = True) -> Path:
-    """A table on equal frequencies, from 0 Hz: `order` at 0.01 Hz steps, drawn in straight lines."""
+    """
+    A table on equal frequencies, from 0 Hz: `order` at 0.01 Hz steps, drawn in straight lines.
+    """
     f = 0.01 * np.arange(40)
     table = np.stack(
         [np.interp(f, FREQUENCY, column, left=0.0, right=0.0) for column in order.density[0].T],
@@ -165,7 +171,9 @@ def write_triaxys(path: Path, order: Order, *, directed: bool = True) -> Path:
         lines += [" ".join(f"{v:.8E}" for v in row) for row in table]
     else:
         lines += ["COLUMN 1 = FREQUENCY (Hz)", "COLUMN 2 = SPECTRAL DENSITY (M^2/Hz)"]
-        lines += [f"{a:.3f}  {v:.8E}" for a, v in zip(f, table[:, :-1].sum(axis=1) * STEP, strict=True)]
+        lines += [
+            f"{a:.3f}  {v:.8E}" for a, v in zip(f, table[:, :-1].sum(axis=1) * STEP, strict=True)
+        ]
     path.write_text("\n".join(lines) + "\n")
     return path
 
@@ -228,7 +236,9 @@ def ndbc_netcdf(order: Order) -> xr.Dataset:
         {
             "spectral_wave_density": variable(undirected(order), units="(meter * meter)/Hz"),
             "mean_wave_dir": variable(np.degrees(np.angle(c1)) % 360.0, units="degrees_true"),
-            "principal_wave_dir": variable(np.degrees(np.angle(c2)) / 2.0 % 360.0, units="degrees_true"),
+            "principal_wave_dir": variable(
+                np.degrees(np.angle(c2)) / 2.0 % 360.0, units="degrees_true"
+            ),
             "wave_spectrum_r1": variable(np.abs(c1)),
             "wave_spectrum_r2": variable(np.abs(c2)),
         },
@@ -242,7 +252,9 @@ def ndbc_netcdf(order: Order) -> xr.Dataset:
 
 
 def cdip(order: Order) -> xr.Dataset:
-    """CDIP's files: A1, B1, A2, B2 of directions FROM, clockwise from true north, and bandwidths."""
+    """
+    CDIP's files: A1, B1, A2, B2 of directions FROM, clockwise from true north, and bandwidths.
+    """
     c1, c2 = fourier(order, 1), fourier(order, 2)
     dims = ("waveTime", "waveFrequency")
     name = "sea_surface_wave_variance_spectral_density"

@@ -1,4 +1,7 @@
-"""Run by Blender's Python: build the example's scene from a bake and save where its vertices are at each frame, and one further."""
+"""
+Run by Blender's Python: build the example's scene from a bake and save where its vertices are at
+each frame, and one further.
+"""
 
 import importlib.util
 import json
@@ -18,14 +21,21 @@ sea, _ = displace.animated_sea(folder)
 frames = len(json.loads((folder / "manifest.json").read_text())["frames"])
 still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
 sea.data.vertices.foreach_get("co", still)
-np.savez(out, still=still.reshape(-1, 3), moved=np.stack([displace.vertices(sea, frame) for frame in range(frames + 1)]))
+np.savez(
+    out,
+    still=still.reshape(-1, 3),
+    moved=np.stack([displace.vertices(sea, frame) for frame in range(frames + 1)]),
+)
 
 # where east and north appear when a camera looks down, as one does that is not turned
 camera = bpy.data.objects.new("above", bpy.data.cameras.new("above"))
 camera.location = 0.0, 0.0, 20.0
 bpy.context.scene.collection.objects.link(camera)
 bpy.context.view_layer.update()
-look = [list(world_to_camera_view(bpy.context.scene, camera, Vector(p))) for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0))]
+look = [
+    list(world_to_camera_view(bpy.context.scene, camera, Vector(p)))
+    for p in ((0, 0, 0), (1, 0, 0), (0, 1, 0))
+]
 scene = bpy.context.scene
 user = sea.modifiers["waves"].texture.image_user
 print(

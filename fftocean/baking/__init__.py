@@ -1,0 +1,1 @@
+"""Baking of a job into a folder of maps that can be trusted."""

@@ -1,0 +1,117 @@
+"""
+What a bake will come to, before anything is written: files, bytes, memory and time, from two frames
+made in memory.
+"""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from fftocean.baking.bake import crew_for, scene_for
+from fftocean.baking.folder.plan import frames_of
+from fftocean.baking.scene.maps import MAPS
+from fftocean.baking.scene.scene import Scene
+from fftocean.export import formats
+from fftocean.export.profiles import range_of_normals
+from fftocean.job.job import Job
+from fftocean.ocean import memory_needed
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What to expect."""
+
+    frames: int
+    files: int  # all of them
+    bytes: int  # about
+    seconds: float  # about, on this machine
+    memory: float  # of each process [bytes]
+    container: float  # of this process beside it, to put the largest container together [bytes]
+    video: float  # that the maps of all frames take in an engine [bytes]
+    executor: str
+    workers: int
+
+
+def estimate(
+    job: Job,
+    *,
+    frames: str | None = None,
+    downsample: int = 1,
+    executor: str = "auto",
+    workers: int | None = None,
+    scene: Scene | None = None,
+) -> Estimate:
+    """
+    Estimate a bake; the arguments are those of `bake`.
+
+    Raises:
+        JobError: the job asks for more than can be.
+        OutputError: a value that the format cannot hold.
+    """
+    chosen = frames_of(frames, job.frames)
+    scene = scene or scene_for(job, downsample, len(chosen))
+    name, hands = crew_for(executor, workers, scene, len(chosen))
+    sizes = [_bytes_of(scene, j) for j in chosen[:1]]  # and whatever is to be compiled is
+    start = time.perf_counter()
+    sizes += [_bytes_of(scene, j) for j in chosen[-1:]]
+    each = time.perf_counter() - start
+    rounds = (
+        len(chosen)
+        + (0.5 * scene.job.frames if scene.form.scaled else 0.0)
+        + (scene.job.frames if "foam" in scene.job.maps else 0.0)
+    )
+    containers = len(scene.job.maps) * (len(chosen) if scene.form.scope == "frame" else 2)
+    return Estimate(
+        frames=len(chosen),
+        files=containers + len(scene.job.pictures) + 2,
+        bytes=round(float(np.mean(sizes)) * len(chosen))
+        + 700_000 * len(scene.job.pictures)
+        + 1200 * len(chosen),
+        seconds=3.0 + each * rounds / hands + (1.5 if name != "serial" else 0.0),
+        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
+        container=_container(scene, len(chosen)),
+        video=video_memory(scene, len(chosen)),
+        executor=name,
+        workers=hands,
+    )
+
+
+def video_memory(scene: Scene, frames: int) -> float:
+    """Return the bytes that the maps of some frames take as textures, three channels as four."""
+    return sum(_texels(scene, frames, {3: 4}.get(n, n)) for n in _channels(scene))
+
+
+def _container(scene: Scene, frames: int) -> float:
+    """Return the bytes to hold the largest map's sequence twice, as parts and put together."""
+    if scene.form.scope == "frame":
+        return 0.0
+    return 2.0 * max(_texels(scene, frames, n) for n in _channels(scene))
+
+
+def _channels(scene: Scene) -> list[int]:
+    return [len(MAPS[name].names) for name in scene.job.maps]
+
+
+def _texels(scene: Scene, frames: int, channels: int) -> float:
+    """Return the bytes of some frames of a map, uncompressed, with its mip levels."""
+    each = np.dtype(scene.form.stored).itemsize * channels
+    levels = sum(4.0**-level for level in range(scene.levels))
+    return float(frames * scene.ocean.grid.nx * scene.ocean.grid.ny * each) * levels
+
+
+def _bytes_of(scene: Scene, j: int) -> int:
+    """What the maps of a frame come to; without foam, which would take the whole loop to know."""
+    foam = np.zeros(scene.ocean.grid.shape) if "foam" in scene.job.maps else None
+    total = 0
+    for name, levels in scene.pictures(scene.frame(j), foam):
+        low, high = (
+            (min(float(p.min()) for p in levels), max(float(p.max()) for p in levels))
+            if scene.form.scaled
+            else (None, None)
+        )
+        if MAPS[name].kind == "normal":
+            low, high = range_of_normals(scene.profile)
+        stored = scene.stored(levels)
+        total += len(formats.encode(scene.form.name, stored[0], lo=low, hi=high, levels=stored[1:]))
+    return total

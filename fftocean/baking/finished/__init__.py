@@ -1,0 +1,1 @@
+"""Contents of a finished bake: manifest, files, check, loading."""

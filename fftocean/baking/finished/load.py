@@ -1,0 +1,195 @@
+"""A bake back as arrays: every format, every engine's conventions, one frame of reference: ours."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fftocean.arrays import Real, RealLike, require_memory, shortened
+from fftocean.baking.finished.contents import Contents
+from fftocean.baking.finished.manifest import read_manifest
+from fftocean.baking.folder import layout, listing
+from fftocean.baking.scene.maps import MAPS
+from fftocean.errors import IntegrityError, JobError
+from fftocean.files import digest, path_of, read_whole
+from fftocean.kernels import interpolate
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bake:
+    """
+    What was baked: `bake["height"]` is (frames, ny, nx, channels), float32, row 0 south, x east, y
+    north, z up, SI.
+    """
+
+    maps: Mapping[str, Real]
+    times: Real  # of the frames, (frames,) [s]
+    frames: tuple[int, ...]  # which of the loop's they are
+    manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        shapes = ", ".join(
+            f"{name} {' x '.join(map(str, array.shape))}" for name, array in self.maps.items()
+        )
+        return shortened(f"Bake({len(self.frames)} frames of {shapes})")
+
+    def __getitem__(self, name: str) -> Real:
+        """
+        Return a map by name.
+
+        Raises:
+            JobError: it is not among those loaded.
+        """
+        if name not in self.maps:
+            raise JobError(f"maps loaded are {', '.join(self.maps)}, got {name!r:.60}")
+        return self.maps[name]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BakedCascade:
+    """The tiles of a cascade that was baked, the largest first; each is a `Bake`."""
+
+    tiles: tuple[Bake, ...]
+    manifest: Mapping[str, Any]  # the list, `cascade.json`
+
+    def __len__(self) -> int:
+        """Return the number of tiles."""
+        return len(self.tiles)
+
+    def __getitem__(self, index: int) -> Bake:
+        """Return a tile."""
+        return self.tiles[index]
+
+    @property
+    def times(self) -> Real:
+        """Times of the frames, (frames,) [s]."""
+        return self.tiles[0].times
+
+    @property
+    def frames(self) -> tuple[int, ...]:
+        """Numbers of the frames in the loop."""
+        return self.tiles[0].frames
+
+    def summed(self, name: str, x: RealLike, y: RealLike, place: int = 0) -> Real:
+        """
+        Return a map at points of the world, added up over the tiles, as a shader does: bilinear.
+
+        Args:
+            name: of a map that was loaded.
+            x, y: undisplaced positions [m], of shapes that broadcast.
+            place: of the frame in `frames`.
+
+        Returns:
+            (..., channels), float64.
+
+        Raises:
+            JobError: the map is not among those loaded, or there is no such frame.
+        """
+        if not -len(self.frames) <= place < len(self.frames):
+            raise JobError(
+                f"place must be one of the {len(self.frames)} frames loaded, got {place!r:.40}"
+            )
+        xs, ys = np.broadcast_arrays(
+            np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        )
+        total = np.zeros((xs.size, self.tiles[0][name].shape[-1]))
+        for tile in self.tiles:
+            (nx, ny), (lx, ly) = tile.manifest["ocean"]["n"], tile.manifest["ocean"]["size"]
+            u, v = np.mod(xs.ravel() / lx, 1.0) * nx, np.mod(ys.ravel() / ly, 1.0) * ny
+            interpolate.bilinear(np.ascontiguousarray(tile[name][place]), u, v, total)
+        return total.reshape(*xs.shape, -1)
+
+
+def load(
+    folder: str | Path,
+    *,
+    maps: Iterable[str] | None = None,
+    frames: Iterable[int] | None = None,
+    verify: bool = True,
+) -> Any:
+    """
+    Read a finished bake: a `Bake`, or a `BakedCascade` of the folder around the tiles of one.
+
+    Args:
+        folder: that `bake` wrote.
+        maps: which; None is all of them.
+        frames: which, by their numbers in the loop; None is all of them.
+        verify: whether every file read must have the checksum that the manifest has for it.
+
+    Returns:
+        The maps as they were before they were turned into the engine's frame, as exactly as the
+        format holds them.
+
+    Raises:
+        IntegrityError: the bake is not finished, or a file is missing or not what was written;
+            `check` names all of them.
+        OutputError: a file is there and cannot be read.
+        JobError: a map or a frame that was not baked.
+    """
+    folder = path_of("folder", folder)
+    if layout.is_cascade(folder):
+        return _tiles(folder, maps, frames, verify)
+    return _bake(folder, maps, frames, verify)
+
+
+def _tiles(
+    folder: Path, maps: Iterable[str] | None, frames: Iterable[int] | None, verify: bool
+) -> BakedCascade:
+    """Read the tiles of a cascade, whose manifests must be those that its list names."""
+    listed = listing.read_listing(folder)
+    names = maps if maps is None or isinstance(maps, str) else tuple(maps)
+    chosen = None if frames is None else tuple(frames)
+    tiles = []
+    for row in listed["tiles"]:
+        path = folder / row["path"] / layout.MANIFEST_FILE
+        if digest(read_whole(path) or b"") != row["sha256"]:
+            raise IntegrityError(
+                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; `fftocean check` names all that is wrong"
+            )
+        tiles.append(_bake(folder / row["path"], names, chosen, verify))
+    return BakedCascade(tuple(tiles), listed)
+
+
+def _bake(
+    folder: Path, maps: Iterable[str] | None, frames: Iterable[int] | None, verify: bool
+) -> Bake:
+    """Read the bake of one tile."""
+    contents = Contents.of(folder, read_manifest(folder))
+    wanted = (
+        (maps,) if isinstance(maps, str) else tuple(contents.job.maps if maps is None else maps)
+    )
+    for name in wanted:
+        if name not in contents.job.maps:
+            raise JobError(
+                f"maps must be some of {', '.join(contents.job.maps)}, which were baked, got {name!r:.60}"
+            )
+    places = contents.chosen(None if frames is None else list(frames))
+    channels = sum(len(MAPS[name].names) for name in wanted)
+    require_memory(
+        f"{folder}", 4.0 * len(places) * contents.shape[0] * contents.shape[1] * channels
+    )
+    loaded = {name: _stack(contents, name, places, verify) for name in wanted}
+    rows = contents.manifest["frames"]
+    times = np.array([rows[place]["t"] for place in places])
+    return Bake(loaded, times, tuple(contents.frames[place] for place in places), contents.manifest)
+
+
+def _stack(contents: Contents, name: str, places: list[int], verify: bool) -> Real:
+    """The frames of a map at some places, one above the other."""
+    out = np.empty((len(places), *contents.shape, len(MAPS[name].names)), dtype=np.float32)
+    i = 0
+    try:
+        for i, data in enumerate(contents.data(name, places)):
+            if data is None:
+                raise IntegrityError("it is missing")
+            if verify and digest(data) != contents.entry(name, places[i])["sha256"]:
+                raise IntegrityError("it is not what was written")
+            out[i] = contents.restored(name, contents.pixels(name, data))
+    except IntegrityError as error:
+        path, frame = contents.folder / contents.path(name, places[i]), contents.frames[places[i]]
+        raise IntegrityError(
+            f"{path}, frame {frame}: {error}; `fftocean check` names all that is wrong"
+        ) from None
+    return out

@@ -1,0 +1,1 @@
+"""Folder of a bake: layout, lock, journal, identity."""

@@ -1,0 +1,288 @@
+"""
+Job and list of a cascade's bake: which tiles a folder holds, and what their manifests must say.
+"""
+
+import os
+import shutil
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import fftocean
+from fftocean.baking.folder import layout
+from fftocean.baking.folder.identity import differences, discard_work, read_checked
+from fftocean.cascade import tile_jobs
+from fftocean.cells import Band
+from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
+from fftocean.files import digest, read_json, read_whole, remove, sweep
+from fftocean.grid import Grid
+from fftocean.job.job import Job, finite_or_word
+from fftocean.job.parameters import PARAMETERS
+
+REPLACED = ("ocean.n", "ocean.size", "ocean.band_low", "ocean.band_high")
+"""
+Keys of a job whose values are those of the tiles instead; the seeds of tiles follow from its own.
+"""
+
+HEADER = ("tool", "version", "job", "units", "subset", "downsample", "inputs")
+"""What says which cascade a folder holds: all of its job's file, and the head of its list."""
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """One tile of a cascade, as a job of its own."""
+
+    path: str  # of its folder in the cascade's
+    grid: Grid
+    seed: int
+    band: Band
+    job: Job
+
+    def row(self, data: bytes, manifest: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what the list says of a tile, from its manifest and that file's bytes."""
+        return {
+            "path": self.path,
+            "n": [self.grid.nx, self.grid.ny],
+            "size": [self.grid.lx, self.grid.ly],
+            "seed": self.seed,
+            "band": [self.band[0], finite_or_word(self.band[1])],
+            "m0": manifest["statistics"]["resolved"],
+            "maps": sorted(manifest["maps"]),
+            "sha256": digest(data),
+        }
+
+
+def shares_of(job: Job, tiles: Sequence[Any]) -> list[Share]:
+    """
+    Return the tiles of a cascade as jobs.
+
+    Raises:
+        JobError: tiles that cannot share a sea.
+    """
+    pictures = [name for name in job.pictures if name not in SUMMED]
+    shares = []
+    try:
+        grids = tile_jobs(tiles, job.settings["ocean.seed"])
+    except ParameterError as error:
+        raise JobError(f"{job.source}: {error}") from None
+    for index, (grid, seed, band) in enumerate(grids):
+        own = {
+            "ocean.n": (grid.nx, grid.ny),
+            "ocean.size": (grid.lx, grid.ly),
+            "ocean.seed": seed,
+            "ocean.band_low": band[0],
+            "ocean.band_high": band[1],
+            "bake.pictures": pictures,
+        }
+        shares.append(Share(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
+    return shares
+
+
+SUMMED = ("sheet", "animation")
+"""
+Pictures that show the water: of a cascade, that of all tiles together. The others show a tile.
+"""
+
+
+def header_of(
+    job: Job, shares: Sequence[Share], *, frames: Sequence[int], downsample: int
+) -> dict[str, Any]:
+    """
+    Return what says which cascade a bake is: its job, its tiles, and the measured files.
+
+    The libraries stand in the manifests of the tiles.
+    """
+    step = frames[1] - frames[0] if len(frames) > 1 else 1
+    described = {key: value for key, value in job.describe().items() if key not in REPLACED}
+    listed = [[[s.grid.nx, s.grid.ny], [s.grid.lx, s.grid.ly]] for s in shares]
+    return {
+        "tool": "fftocean",
+        "version": fftocean.__version__,
+        "job": {"tiles": listed, **described},
+        "units": {p.key: p.unit for p in PARAMETERS if p.unit and p.key not in REPLACED},
+        "subset": "all" if len(frames) == job.frames else f"{frames[0]}:{frames[-1] + 1}:{step}",
+        "downsample": downsample,
+        "inputs": job.inputs(),
+    }
+
+
+def job_of(
+    header: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
+) -> tuple[Job, list[Any]]:
+    """
+    Return the job and the tiles that a header describes.
+
+    Raises:
+        IntegrityError: it describes none.
+    """
+    try:
+        described = dict(header["job"])
+        tiles = [(tuple(n), tuple(size)) for n, size in described.pop("tiles")]
+        return Job.from_description(described, source=source, at_sea=at_sea), tiles
+    except (JobError, KeyError, TypeError, ValueError, AttributeError) as error:
+        raise IntegrityError(f"{source} does not describe a cascade: {error!s:.200}") from None
+
+
+def read_listing(folder: Path) -> dict[str, Any]:
+    """
+    Read the list of a finished cascade.
+
+    Raises:
+        OutputError: it cannot be read.
+        IntegrityError: there is none, or it is not, to the byte, what was written.
+    """
+    return read_checked(folder / layout.CASCADE_FILE)
+
+
+def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
+    """
+    Refuse a folder that holds anything but this cascade.
+
+    Raises:
+        OutputError: it holds another one, the bake of one tile, or files that this one would
+            replace.
+    """
+    other = "choose another folder, or --overwrite"
+    for name in (layout.JOB_FILE, layout.MANIFEST_FILE):
+        if os.path.lexists(folder / name):
+            raise OutputError(f"{folder} holds the bake of one tile ({name}); {other}")
+    if not os.path.lexists(folder / layout.CASCADE_JOB):
+        there = [layout.CASCADE_FILE] if os.path.lexists(folder / layout.CASCADE_FILE) else []
+        there += [path.relative_to(folder).as_posix() for path in layout.leftovers(folder)]
+        there += layout.tile_folders(folder)
+        if there:
+            raise OutputError(f"{folder} holds a {there[0]} and no {layout.CASCADE_JOB}; {other}")
+        return
+    before = read_json(folder / layout.CASCADE_JOB)
+    if changes := differences(before if isinstance(before, dict) else {}, header):
+        raise OutputError(f"{folder} holds the cascade of another job ({changes:.400}); {other}")
+
+
+def discard(folder: Path) -> None:
+    """
+    Remove a cascade's tiles, list, job and pictures from its folder; other files stay.
+
+    Raises:
+        OutputError: one cannot be removed.
+    """
+    remove(folder / layout.CASCADE_FILE)
+    for name in layout.tile_folders(folder):
+        discard_bake(folder / name)
+    for picture in layout.PICTURES:
+        remove(folder / picture)
+    remove(folder / layout.CASCADE_JOB)
+
+
+def discard_bake(folder: Path) -> None:
+    """
+    Remove what a bake wrote to a folder, and the folder itself where nothing else is in it.
+
+    Raises:
+        OutputError: something cannot be removed.
+    """
+    remove(folder / layout.MANIFEST_FILE)
+    discard_work(folder)
+    for path in layout.leftovers(folder):
+        remove(path)
+    remove(folder / layout.JOB_FILE)
+    for room in reversed([*layout.rooms(folder)]):
+        sweep(room)
+        if not any(room.iterdir()):
+            shutil.rmtree(room, ignore_errors=True)
+
+
+def leave_cascade(folder: Path, *, overwrite: bool) -> None:
+    """
+    Refuse to bake one tile over a cascade, or remove the cascade where it is to be overwritten.
+
+    Raises:
+        OutputError: the folder holds a cascade and is not to be overwritten.
+    """
+    if layout.is_cascade(folder):
+        if not overwrite:
+            raise OutputError(
+                f"{folder} holds the tiles of a cascade; choose another folder, or --overwrite"
+            )
+        discard(folder)
+
+
+def faults(
+    folder: Path, header: Mapping[str, Any], listing: Mapping[str, Any]
+) -> Iterator[tuple[str, str]]:
+    """
+    Yield (path, detail) of what the list of a cascade and its tiles' manifests do not say alike.
+
+    Checked: the job; that bands are disjoint and cover all wavenumbers; sizes, seeds and bands of
+    the tiles, made again from the job; the SHA-256 of each manifest; that all tiles are of one sea,
+    loop, part of it and version; that bounds are the sums of the tiles' own.
+    """
+    name = layout.CASCADE_FILE
+    if any(header.get(key) != listing.get(key) for key in HEADER):
+        yield name, f"it is not the list of the job in {layout.CASCADE_JOB}"
+        return
+    try:
+        job, tiles = job_of(header, source=name, at_sea=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SeaWarning)  # said when it was baked
+            shares = shares_of(job, tiles)
+        rows = listing["tiles"]
+        edges = [edge for row in rows for edge in map(float, row["band"])]
+    except (JobError, IntegrityError, KeyError, TypeError, ValueError) as error:
+        yield name, f"it does not say what a cascade's does: {error!s:.200}"
+        return
+    if (
+        edges[0] != 0.0
+        or edges[-1] != float("inf")
+        or edges[1:-1:2] != edges[2::2]
+        or edges != sorted(edges)
+    ):
+        yield name, f"the bands of its tiles do not adjoin from 0 to inf rad/m: {edges}"
+    if [row.get("path") for row in rows] != [share.path for share in shares]:
+        yield name, f"its tiles are not the {len(shares)} of its job"
+        return
+    bounds = {"max_height": 0.0, "max_horizontal": 0.0}
+    for share, row in zip(shares, rows, strict=True):
+        path = f"{share.path}/{layout.MANIFEST_FILE}"
+        data = read_whole(folder / path)
+        try:
+            manifest = read_checked(folder / path)
+            expected = share.row(data or b"", manifest)
+            for key in bounds:
+                bounds[key] += manifest["extremes"][key]
+        except (IntegrityError, KeyError, TypeError):
+            bounds = {}
+            continue  # named by the tile's own check
+        if row["sha256"] != expected["sha256"]:
+            yield path, f"its SHA-256 is not the one in {name}"
+        for key, value in expected.items():
+            if key != "sha256" and row.get(key) != value:
+                yield (
+                    name,
+                    f"{key} of {share.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
+                )
+        if manifest["job"] != share.job.describe():
+            yield (
+                path,
+                f"its job is not that of {share.path}: {_first_difference(share.job.describe(), manifest['job'])}",
+            )
+        for key in ("version", "subset", "downsample", "inputs"):
+            if manifest[key] != listing[key]:
+                yield path, f"{key} is {manifest[key]!r:.80}, and {listing[key]!r:.80} in {name}"
+    for key, total in bounds.items():
+        if listing["extremes"][key] != total:
+            yield (
+                name,
+                f"{key} is listed as {listing['extremes'][key]} and the tiles' add up to {total}",
+            )
+
+
+def _first_difference(one: Mapping[str, Any], other: Mapping[str, Any]) -> str:
+    """Return the first key in which two jobs differ, with both values."""
+    keys = [key for key in {**one, **other} if one.get(key) != other.get(key)]
+    return (
+        f"{keys[0]} is {other.get(keys[0])!r:.80}, and should be {one.get(keys[0])!r:.80}"
+        if keys
+        else ""
+    )

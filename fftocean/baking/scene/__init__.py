@@ -1,0 +1,1 @@
+"""Rendering of one frame of a job to map files."""

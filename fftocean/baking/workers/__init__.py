@@ -1,0 +1,1 @@
+"""Workers that write the frames of a bake."""

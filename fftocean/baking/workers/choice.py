@@ -1,0 +1,47 @@
+"""Executors by their names."""
+
+from fftocean.baking.workers import cluster
+from fftocean.baking.workers.local import Crew, Processes, Serial
+from fftocean.errors import JobError
+from fftocean.job.parameters import spelled
+
+EXECUTORS = ("auto", "serial", "processes", "dask")
+
+
+def check_executor(name: str, workers: int | None) -> str:
+    """
+    Return an executor's name as we write it.
+
+    Raises:
+        JobError: the name is unknown, the number of workers out of range, or Dask not installed.
+    """
+    name = spelled(name, EXECUTORS) or name
+    if name not in EXECUTORS and "://" not in name:
+        raise JobError(
+            f"executor must be one of {', '.join(EXECUTORS)}, or an address such as tcp://host:8786, got {name!r:.80}"
+        )
+    if workers is not None and (
+        isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024
+    ):
+        raise JobError(f"workers must be a whole number between 1 and 1024, got {workers!r:.40}")
+    if name == "dask" or "://" in name:
+        cluster.require_dask()
+        if name == "dask":
+            cluster.require_main_program()
+    return name
+
+
+def crew_of(name: str, workers: int, lock: int) -> Crew:
+    """
+    Return the crew of that name, to be used as a context.
+
+    Args:
+        name: one of `EXECUTORS` but "auto", or a scheduler's address.
+        workers: how many; those of a scheduler are what they are.
+        lock: the descriptor of the folder's lock, which workers on this machine hold with us.
+    """
+    if name == "serial":
+        return Serial()
+    if name == "processes":
+        return Processes(workers, lock)
+    return cluster.Cluster(None if name == "dask" else name, workers)

@@ -1,0 +1,1 @@
+"""Job of a bake: the sea, the tile and what to write."""

@@ -1,0 +1,521 @@
+"""A job: a sea, a tile of it, and what to write. Read from TOML, checked key by key, frozen."""
+
+import hashlib
+import json
+import math
+import tomllib
+import warnings
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fftocean.arrays import shortened
+from fftocean.errors import JobError, ParameterError, ReaderError, described
+from fftocean.files import path_of
+from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
+from fftocean.job.wave_systems import measurement, systems_of, unknown_key
+from fftocean.ocean import Ocean
+from fftocean.physics.sea import Sea, WaveSystem
+from fftocean.physics.spectra import JONSWAP, TMA
+from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner
+
+if TYPE_CHECKING:
+    from fftocean.readers import Realised
+
+_KNOWN = (*BY_KEY, "sea.systems")
+MAX_BYTES = 64 * 1024
+MAX_LINE = 2048  # the standard parser takes time quadratic in the length of a dotted key
+MAX_SYSTEMS = 64  # the finest partitions of measured seas have 20
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """
+    What to bake. `settings` holds every key of `parameters.PARAMETERS` with its value; `systems`
+    the waves beside the wind sea.
+
+    Make one with `Job.default()`, `Job.read(path)` or `Job.from_toml(text)`; change one with
+    `job.replaced({"ocean.n": 512})`.
+    """
+
+    settings: Mapping[str, Any]
+    wind: bool  # whether there is a wind sea
+    systems: tuple[Mapping[str, Any], ...]  # as in the file
+    source: str = "job"
+
+    def __repr__(self) -> str:
+        s, waves = (
+            self.settings,
+            [
+                *(["a wind sea"] if self.wind else []),
+                *([f"{len(self.systems)} systems"] if self.systems else []),
+            ],
+        )
+        return shortened(
+            f"Job({self.source!r}: {' and '.join(waves)}, n={s['ocean.n']}, size={s['ocean.size']}, {self.frames} frames of "
+            f"{', '.join(self.maps)} as {self.format} for {self.engine})"
+        )
+
+    @classmethod
+    def default(cls) -> "Job":
+        """Return the embedded sea: a moderate breeze on a large lake."""
+        return cls.from_toml(
+            resources.files("fftocean.job").joinpath("default.toml").read_text(encoding="utf-8"),
+            source="the default sea",
+        )
+
+    @classmethod
+    def read(cls, path: str | Path) -> "Job":
+        """
+        Read a job file.
+
+        Raises:
+            JobError: it cannot be read, is too large, is not UTF-8 or not TOML, or holds a key or
+                value that it may not.
+        """
+        path = path_of("path", path)
+        try:
+            if not path.is_file():
+                raise JobError(
+                    f"{path} must be a TOML file, and is {'a folder or device' if path.exists() else 'not there'}"
+                )
+            with path.open("rb") as file:
+                data = file.read(MAX_BYTES + 1)
+        except OSError as error:
+            raise JobError(f"{path} cannot be read: {error.strerror}") from error
+        if len(data) > MAX_BYTES:
+            raise JobError(f"{path} must have at most {MAX_BYTES} bytes, and has more")
+        try:
+            return cls.from_toml(data.decode("utf-8"), source=str(path))
+        except UnicodeDecodeError as error:
+            raise JobError(f"{path} must be UTF-8 text, and is not at byte {error.start}") from None
+
+    @classmethod
+    def from_toml(cls, text: str, *, source: str = "job") -> "Job":
+        """
+        Parse a job; see `read` for what is refused. A byte-order mark at the start is skipped.
+        """
+        if not isinstance(text, str):
+            raise JobError(f"a job must be TOML text, got {described(text)}")
+        text = text.removeprefix("\ufeff")
+        if len(text) > MAX_BYTES:
+            raise JobError(f"{source} must have at most {MAX_BYTES} bytes, got {len(text)}")
+        for number, line in enumerate(
+            text.split("\n"), 1
+        ):  # as TOML has them: `splitlines` would break a key at U+2028
+            if len(line) > MAX_LINE:
+                raise JobError(
+                    f"{source}, line {number}: a line must have at most {MAX_LINE} characters, got {len(line)}"
+                )
+        try:
+            tree = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise JobError(f"{source} must be TOML: {error}") from None
+        except (RecursionError, ValueError) as error:
+            raise JobError(
+                f"{source} must be TOML that is not nested so deeply: {error!s:.80}"
+            ) from None
+        return cls.from_tree(tree, source=source)
+
+    @classmethod
+    def from_tree(
+        cls, tree: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
+    ) -> "Job":
+        """
+        Check a parsed job, key by key; and, `at_sea`, whether it is a sea, for which its measured
+        files must be there.
+        """
+        given: dict[str, Any] = {}
+        systems: tuple[Mapping[str, Any], ...] = ()
+        for key, value in _flatten(tree):
+            if key == "sea.systems":
+                if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
+                    raise JobError(
+                        f"{source}: sea.systems must be tables, written [[sea.systems]], got {value!r:.60}"
+                    )
+                if len(value) > MAX_SYSTEMS:
+                    raise JobError(
+                        f"{source}: sea.systems must be at most {MAX_SYSTEMS} tables, got {len(value)}"
+                    )
+                systems = tuple(value)
+            elif key in BY_KEY:
+                given[key] = BY_KEY[key].check(value)
+            else:
+                raise JobError(f"{source}: {unknown_key(key, _KNOWN)}")
+        wind = not systems or _brings_wind(given, source)
+        job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
+        if at_sea:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # said once, when it is used
+                measured = job.measurements()
+                if "sea.depth" not in given:
+                    job = job._at_measured_depth(measured)
+                job.sea(measured)
+        return job
+
+    def measurements(self) -> "dict[str, Realised]":
+        """
+        Return the measured spectra of sea.systems as they are realised, by the full names of their
+        tables.
+
+        Raises:
+            JobError, ReaderError: as `systems.measurement`.
+        """
+        folder = (
+            Path(self.source).parent
+        )  # of the job file, where measured files are looked for; here, for a job without one
+        tables = {f"sea.systems[{i}]": table for i, table in enumerate(self.systems)}
+        return {
+            key: measurement(key, table, folder)
+            for key, table in tables.items()
+            if "measured" in table and "spectrum" not in table
+        }
+
+    def _at_measured_depth(self, measured: "Mapping[str, Realised]") -> "Job":
+        """
+        Return the job in water as deep as its measured files say, where it names no sea.depth
+        itself.
+        """
+        depths = {key: m.depth_source for key, m in measured.items() if m.depth_source is not None}
+        if not depths:
+            return self
+        first, *others = depths.items()
+        for key, depth in others:
+            if not math.isclose(depth, first[1], rel_tol=1e-3):
+                raise JobError(
+                    f"{self.source}: sea.depth must be given where measured files differ in it, got {first[1]:g} m of {first[0]} "
+                    f"and {depth:g} m of {key}"
+                )
+        return self.replaced({"sea.depth": first[1]})
+
+    def measured_notes(self) -> dict[str, list[str]]:
+        """
+        Return what was masked, repaired or assumed to make the measured systems, by the full names
+        of their tables.
+        """
+        notes = {}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the notes say it
+            measured = self.measurements()
+        for key, made in measured.items():
+            depth, own = self.settings["sea.depth"], made.depth_source
+            if own is None:
+                said = f"the file has no water depth; sea.depth is {depth:g} m"
+            elif math.isclose(own, depth, rel_tol=1e-9):
+                said = f"sea.depth is the file's own, {own:g} m"
+            else:
+                said = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
+            notes[key] = [said, *made.notes]
+        return notes
+
+    def replaced(self, changes: Mapping[str, Any]) -> "Job":
+        """
+        Return the job with some keys changed; sea.wind.speed brings in a wind sea where there is
+        none.
+
+        Raises:
+            JobError: an unknown key, a value that it may not have, or another key of sea.wind where
+                there is no wind sea.
+        """
+        if not isinstance(changes, Mapping):
+            raise JobError(
+                f"changes must be keys with values, such as {{'ocean.n': 512}}, got {described(changes)}"
+            )
+        for key in changes:
+            if key == "sea.systems":
+                raise JobError("sea.systems must be given in a job file, as [[sea.systems]]")
+            if key not in BY_KEY:
+                raise JobError(unknown_key(key, BY_KEY))
+        settings = {
+            **self.settings,
+            **{key: BY_KEY[key].check(value) for key, value in changes.items()},
+        }
+        return Job(
+            settings, self.wind or _brings_wind(changes, self.source), self.systems, self.source
+        )
+
+    def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
+        """
+        Return the sea that is specified; `measured` as `measurements` returns them, where they are
+        at hand.
+        """
+        s, depth = self.settings, self.settings["sea.depth"]
+        waves: list[WaveSystem] = []
+        try:
+            if self.wind:
+                deep = JONSWAP.from_wind(
+                    speed=s["sea.wind.speed"], fetch=s["sea.wind.fetch"], gamma=s["sea.wind.gamma"]
+                )
+                spreading = Blend(DonelanBanner(), CosineSquared(), weight=s["sea.wind.blend"])
+                waves.append(
+                    WaveSystem(
+                        spectrum=TMA(deep, depth),
+                        spreading=spreading,
+                        direction=s["sea.wind.direction"],
+                    )
+                )
+            folder = (
+                Path(self.source).parent
+            )  # of the job file, where measured files are looked for; here, for a job without one
+            for i, table in enumerate(self.systems):
+                key = f"sea.systems[{i}]"
+                done = (measured or {}).get(key)
+                waves += systems_of(
+                    key,
+                    table,
+                    depth=depth,
+                    tension=s["sea.surface_tension"],
+                    folder=folder,
+                    measured=done,
+                )
+            return Sea(*waves, depth=depth, surface_tension=s["sea.surface_tension"])
+        except (JobError, ReaderError):
+            raise
+        except ParameterError as error:
+            raise JobError(f"{self.source}: sea.wind.{error}") from None
+
+    def ocean(self, *, dtype: str = "float32") -> Ocean:
+        """The tile."""
+        s = self.settings
+        low, high = s["ocean.band_low"], s["ocean.band_high"]
+        if not low < high:
+            raise JobError(
+                f"{self.source}: ocean.band_low must be below ocean.band_high, got {low:g} and {high:g} rad/m"
+            )
+        try:
+            return Ocean(
+                self.sea(),
+                n=s["ocean.n"],
+                size=s["ocean.size"],
+                seed=s["ocean.seed"],
+                loop=s["ocean.loop"],
+                choppiness=s["ocean.choppiness"],
+                amplitudes=s["ocean.amplitudes"],
+                dtype=dtype,
+                band=(low, high),
+            )
+        except (JobError, ReaderError):
+            raise
+        except ParameterError as error:
+            raise JobError(f"{self.source}: ocean: {error}") from None
+
+    @property
+    def frames(self) -> int:
+        """Frames in the loop."""
+        return int(self.settings["bake.frames"])
+
+    @property
+    def maps(self) -> tuple[str, ...]:
+        """What to write."""
+        return tuple(self.settings["bake.maps"])
+
+    @property
+    def format(self) -> str:
+        """Of the files."""
+        return str(self.settings["bake.format"])
+
+    @property
+    def engine(self) -> str:
+        """Whose conventions the files have."""
+        return str(self.settings["bake.engine"])
+
+    @property
+    def lookup(self) -> str:
+        """Whether maps are indexed by the undisplaced position, or by place."""
+        return str(self.settings["bake.lookup"])
+
+    @property
+    def normals(self) -> str:
+        """Encoding of normal maps: signed, packed, or what the engine's stock materials read."""
+        return str(self.settings["bake.normals"])
+
+    @property
+    def mips(self) -> bool:
+        """Whether smaller levels are written too."""
+        return bool(self.settings["bake.mips"])
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """What to look at."""
+        return tuple(self.settings["bake.pictures"])
+
+    @property
+    def foam(self) -> dict[str, float]:
+        """How water foams: tau, threshold and strength."""
+        return {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
+
+    def downsampled(self, factor: int) -> "Job":
+        """
+        Return the job with `factor` times fewer samples a side: the same waves, but for those too
+        short for the coarser grid.
+
+        Its samples lie on every `factor`-th of this job's. Height and displacement there are this
+        job's, low-passed; nothing is aliased.
+
+        Raises:
+            JobError: `factor` does not divide the samples.
+        """
+        n = self.settings["ocean.n"]
+        sides = n if isinstance(n, tuple) else (n,)
+        if (
+            isinstance(factor, bool)
+            or not isinstance(factor, int)
+            or factor < 1
+            or any(side % factor for side in sides)
+        ):
+            raise JobError(
+                f"downsample must be a whole number that divides ocean.n = {', '.join(map(str, sides))}, got {factor!r:.40}"
+            )
+        return (
+            self
+            if factor == 1
+            else self.replaced(
+                {
+                    "ocean.n": tuple(side // factor for side in sides)
+                    if isinstance(n, tuple)
+                    else n // factor
+                }
+            )
+        )
+
+    def inputs(self) -> dict[str, str]:
+        """
+        Return the SHA-256 of each measured file, by the name that the job gives it, with those that
+        belong to it.
+
+        Raises:
+            ReaderError: one cannot be read.
+        """
+        folder, found = Path(self.source).parent, {}
+        for table in self.systems:
+            if "measured" in table:
+                name = table["measured"]["file"]
+                for path in measured_files(folder / name):
+                    digest = hashlib.sha256()
+                    try:
+                        with path.open("rb") as file:
+                            while part := file.read(2**20):
+                                digest.update(part)
+                    except OSError as error:
+                        raise ReaderError(
+                            f"{path.name} cannot be read: {error.strerror or error}"
+                        ) from error
+                    found[name if path == folder / name else f"{name} ({path.name})"] = (
+                        digest.hexdigest()
+                    )
+        return found
+
+    @classmethod
+    def from_description(
+        cls, described: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
+    ) -> "Job":
+        """
+        Return the job that `describe` has described; not `at_sea`, where the files that it measured
+        its sea by need not be.
+
+        Raises:
+            JobError: it is none.
+        """
+        tree: dict[str, Any] = {}
+        for key, value in described.items():
+            *tables, name = str(key).split(".")
+            inner = tree
+            for table in tables:
+                inner = inner.setdefault(table, {})
+                if not isinstance(inner, dict):
+                    raise JobError(f"{source}: {key!r:.80} is no key of a job")
+            number = key in BY_KEY and BY_KEY[key].quantity is not None
+            inner[name] = (
+                float(value)
+                if number and isinstance(value, str) and value in ("inf", "-inf")
+                else value
+            )
+        return cls.from_tree(tree, source=source, at_sea=at_sea)
+
+    def describe(self) -> dict[str, Any]:
+        """
+        The whole job as plain data for a manifest: every key, with `inf` as a word, as JSON has no
+        such number.
+        """
+        shown = {p.key: self.settings[p.key] for p in PARAMETERS if self.wind or p not in WIND}
+        tree: dict[str, Any] = json.loads(
+            json.dumps(_worded({**shown, "sea.systems": list(self.systems)}), default=str)
+        )
+        return tree
+
+
+def measured_files(path: Path) -> list[Path]:
+    """Return a measured file, and those that a buoy has beside it."""
+    from fftocean import readers
+
+    return [path, *sorted(other for other in readers.files_of(path) if other != path)]
+
+
+def _brings_wind(given: Mapping[str, Any], source: str) -> bool:
+    """
+    Whether keys of sea.wind ask for a wind sea beside sea.systems; the wind's speed has no default
+    there.
+    """
+    keys = [p.key for p in WIND if p.key in given]
+    if keys and "sea.wind.speed" not in given:
+        raise JobError(
+            f"{source}: sea.wind.speed must be given where {keys[0]} is, as sea.systems alone have no wind"
+        )
+    return bool(keys)
+
+
+def _flatten(tree: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
+    """Walk a parsed TOML tree as dotted keys."""
+    for name, value in tree.items():
+        key = f"{prefix}{name}"
+        if isinstance(value, dict) and key not in _KNOWN:
+            if not any(known.startswith(key + ".") for known in _KNOWN):
+                raise JobError(unknown_key(key, _KNOWN))
+            yield from _flatten(value, key + ".")
+        else:
+            yield key, value
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """
+    Parse `key=value` from the command line; the value as in TOML, a bare word as a string.
+
+    Raises:
+        JobError: there is no `=`.
+    """
+    key, equals, value = text.partition("=")
+    if not equals or not key.strip():
+        raise JobError(f"a setting must be key=value, such as sea.wind.speed=12, got {text!r:.80}")
+    return key.strip(), parse_value(value.strip())
+
+
+def parse_value(text: str) -> Any:
+    """Parse a TOML value; what is none is a string, and `a,b` is a list."""
+    if len(text) <= MAX_LINE:
+        for attempt in (text, f"[{text}]"):
+            try:
+                tree = tomllib.loads(f"v = {attempt}")
+            except (RecursionError, ValueError):
+                continue
+            if len(tree) == 1:  # and not a value and further lines
+                return tree["v"]
+    return [part.strip() for part in text.split(",")] if "," in text else text
+
+
+def _worded(tree: Any) -> Any:
+    """A tree whose infinite numbers are words."""
+    if isinstance(tree, Mapping):
+        return {key: _worded(value) for key, value in tree.items()}
+    if isinstance(tree, (list, tuple)):
+        return [_worded(value) for value in tree]
+    return finite_or_word(tree) if isinstance(tree, float) else tree
+
+
+def finite_or_word(value: float) -> float | str:
+    """A number that JSON can hold: inf as a word."""
+    return value if math.isfinite(value) else str(value)
+
+
+__all__ = ["Job", "Parameter", "finite_or_word", "parse_setting", "parse_value"]
