@@ -24,9 +24,9 @@ from fftocean.export.form import (
     Scale,
     counted,
     finite,
-    finite_again,
     halves,
     one_level,
+    require_finite,
 )
 
 
@@ -152,7 +152,7 @@ def _format(
         pixels = read(data, None if shape is None else shape[:2])
         if pixels.dtype != stored:
             raise IntegrityError(f"format {name} must hold {stored}, got {pixels.dtype}")
-        return [finite_again(counted(pixels, shape))]
+        return [require_finite(counted(pixels, shape))]
 
     return Format(
         name=name,

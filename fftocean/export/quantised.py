@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.errors import OutputError, ParameterError
-from fftocean.export.text import as_json
+from fftocean.files import as_json
 
 Limit = float | Sequence[float] | None
 """One end of the range: of the whole map, or of each of its channels."""

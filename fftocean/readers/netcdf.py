@@ -28,11 +28,11 @@ from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
 from fftocean.readers import (
     bands,
+    bounded_reads,
     circular,
     classic,
-    files,
+    dataset_layout,
     hdf5,
-    layout,
     moments,
     package,
     units,
@@ -94,8 +94,8 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             unknown or at odds.
         ParameterError: `site` is not in the file.
     """
-    xr = layout.science()
-    magic = files.head(path, 8)
+    xr = dataset_layout.science()
+    magic = bounded_reads.head(path, 8)
     if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
         raise ReaderError(
             f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, got CDF version {magic[3]} (convert it with nccopy)"
@@ -107,7 +107,11 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
         )  # of two fill values, odd calendars: what matters is checked below
         # A stream of our own: what was checked is what is read, and the libraries cannot map the
         # file or leave it open where they fail.
-        with files.contents(path) if files.is_packed(path) else files.opened(path) as stream:
+        with (
+            bounded_reads.contents(path)
+            if bounded_reads.is_packed(path)
+            else bounded_reads.opened(path) as stream
+        ):
             unread: list[str] = []
             if modern:
                 unread = hdf5.require_sound(path.name, stream)
@@ -139,7 +143,7 @@ def _broken(name: str) -> Iterator[None]:
         raise
     except ImportError as error:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
-            raise layout.missing(error) from error
+            raise dataset_layout.missing(error) from error
         raise ReaderError(
             f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
         ) from error
@@ -170,7 +174,7 @@ def tidy(
         time: one time only; all of them where None.
         source: what to call it in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
-        negative: what to do with negative densities: "refuse" or "clip", see `layout.densities`.
+        negative: what to do with negative densities: "refuse" or "clip", see `dataset_layout.densities`.
         file_bytes: size of the file from which values are yet to be read, where there is one.
 
     Raises:
@@ -205,9 +209,9 @@ def tidy(
     if file_bytes is not None:
         _require_sane_read(where, spectrum, picked, file_bytes)
     spectrum = spectrum.isel(picked)
-    if spectrum.size > layout.MAX_VALUES:
+    if spectrum.size > dataset_layout.MAX_VALUES:
         raise ReaderError(
-            f"{where} must have at most {layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
+            f"{where} must have at most {dataset_layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
         )
     order = [
         axes[role]
@@ -216,13 +220,13 @@ def tidy(
     ]
     values = _numbers(where, spectrum.transpose(*order))
     with np.errstate(invalid="ignore"):
-        values[np.abs(values) > layout.FILL] = np.nan
+        values[np.abs(values) > dataset_layout.FILL] = np.nan
     if "time" not in axes or axes["time"] not in spectrum.dims:
         values = values[np.newaxis]
 
     there, f = _frequency(raw, axes, family, source)
-    kept, left_out = layout.above_zero(f)
-    frequency, f_order = layout.frequencies(there, f[kept])
+    kept, left_out = dataset_layout.above_zero(f)
+    frequency, f_order = dataset_layout.frequencies(there, f[kept])
     f_order = np.flatnonzero(kept)[f_order]
     notes |= left_out
     edges = _bands(raw, axes["freq"], frequency, f_order, source)
@@ -247,13 +251,13 @@ def tidy(
         notes |= repeated
         if goes_to:
             bearing = np.mod(bearing, 360.0) + 180.0
-        direction, d_order = layout.directions(there, bearing)
+        direction, d_order = dataset_layout.directions(there, bearing)
         values = values[:, :, d_order]
     if family.log10:
         values, empty = _from_log10(where, values)
         notes["below_threshold_values"] = empty
     unit = "m2/Hz/degree" if directional else "m2/Hz"
-    density, counts = layout.densities(where, values, unit, negative=negative)
+    density, counts = dataset_layout.densities(where, values, unit, negative=negative)
     if not directional:
 
         def at_place(variable: "DataArray") -> Real:
@@ -268,7 +272,7 @@ def tidy(
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)
             notes |= done
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=source if source != "the dataset" else str(raw.attrs.get("source", source)),
         source_format=str(
             raw.attrs.get("source_format", circular.FAMILIES.get(str(spectrum.name), family.name))
@@ -288,7 +292,7 @@ def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Rea
     """The numbers of one place, (time, f), NaN where they are fill values."""
     values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
     with np.errstate(invalid="ignore"):
-        values[np.abs(values) > layout.FILL] = np.nan
+        values[np.abs(values) > dataset_layout.FILL] = np.nan
     return np.atleast_2d(values)
 
 
@@ -653,7 +657,7 @@ def _from_log10(where: str, values: Real) -> tuple[Real, int]:
     0, but where a whole spectrum is missing (land, ice) it stays missing.
     """
     with np.errstate(invalid="ignore"):
-        wrong = values > np.log10(layout.LARGEST * 180.0 / np.pi)
+        wrong = values > np.log10(dataset_layout.LARGEST * 180.0 / np.pi)
     if np.any(wrong):
         raise ReaderError(
             f"{where} must be log10 of a density, at most 7.7, got {values[wrong][0]}"

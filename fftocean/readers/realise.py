@@ -21,7 +21,7 @@ from fftocean.physics.spectra import TabulatedSpectrum
 from fftocean.physics.spreading import Spreading
 from fftocean.physics.tabulated import TabulatedSpreading, bin_widths
 from fftocean.readers import bands
-from fftocean.readers.layout import announce
+from fftocean.readers.dataset_layout import announce
 from fftocean.readers.netcdf import tidy
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout
+from fftocean.readers import bounded_reads, dataset_layout
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class _Lines:
 
     def __init__(self, path: Path) -> None:
         self.name = path.name
-        self._lines: Iterator[tuple[str, str]] = files.lines(path)
+        self._lines: Iterator[tuple[str, str]] = bounded_reads.lines(path)
         self.where = path.name
 
     def next(self, wanted: str) -> str:
@@ -63,7 +63,7 @@ class _Lines:
         A count, then as many lines; of each the first `columns` numbers (a name may follow a
         place).
         """
-        rows = files.count(self.where, self.next(f"the number of {wanted}"), _MOST)
+        rows = bounded_reads.count(self.where, self.next(f"the number of {wanted}"), _MOST)
         return np.array([self._row(wanted, columns) for _ in range(rows)])
 
     def _row(self, wanted: str, columns: int) -> list[float]:
@@ -72,7 +72,7 @@ class _Lines:
             raise ReaderError(
                 f"{self.where} must hold {columns} numbers for {wanted}, got {' '.join(tokens)!r:.40}"
             )
-        return [files.number(self.where, token) for token in tokens[:columns]]
+        return [bounded_reads.number(self.where, token) for token in tokens[:columns]]
 
 
 def read(path: Path, *, site: int) -> "Dataset":
@@ -95,7 +95,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     keyword = lines.next("TIME or LONLAT").split()[0]
     dated = keyword == "TIME"
     if dated:
-        code = files.count(lines.where, lines.next("the time coding option"), 6)
+        code = bounded_reads.count(lines.where, lines.next("the time coding option"), 6)
         if code != 1:
             raise ReaderError(
                 f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
@@ -110,7 +110,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     keyword = lines.next("AFREQ or RFREQ").split()[0]
     if keyword not in ("AFREQ", "RFREQ"):
         raise ReaderError(f"{lines.where} must be AFREQ or RFREQ, got {keyword!r:.40}")
-    frequency, f_order = layout.frequencies(
+    frequency, f_order = dataset_layout.frequencies(
         f"{lines.name}: {keyword}", lines.table("frequencies", 1)
     )
     keyword = lines.next("NDIR or CDIR").split()[0]
@@ -121,7 +121,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     if keyword == "CDIR":
         bearings = 270.0 - bearings  # toward, counter-clockwise from x, which is taken as east
         bearings = np.where(np.abs(bearings) > 360.0, np.mod(bearings, 360.0), bearings)
-    direction, d_order = layout.directions(f"{lines.name}: {keyword}", bearings)
+    direction, d_order = dataset_layout.directions(f"{lines.name}: {keyword}", bearings)
     if frequency.size * direction.size > _MOST:
         raise ReaderError(
             f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}"
@@ -143,15 +143,15 @@ def read(path: Path, *, site: int) -> "Dataset":
             block = _block(lines, keyword, shape, fill, wanted=place == site)
             if place == site:
                 blocks.append(block)
-        if len(blocks) * shape[0] * shape[1] > layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
+        if len(blocks) * shape[0] * shape[1] > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if not blocks:
         raise ReaderError(
             f"{lines.name} must hold at least one spectrum after its header, got none"
         )
     values = np.array(blocks)[:, f_order][:, :, d_order] * per_degree
-    density, counts = layout.densities(lines.name, values, "m2/Hz/degree")
-    return layout.dataset(
+    density, counts = dataset_layout.densities(lines.name, values, "m2/Hz/degree")
+    return dataset_layout.dataset(
         source=lines.name,
         source_format="SWAN 2-D ASCII",
         frequency=frequency,
@@ -168,7 +168,7 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
     keyword = lines.next("QUANT").split()[0]
     if keyword != "QUANT":
         raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")
-    if files.count(lines.where, lines.next("the number of quantities"), 3) != 1:
+    if bounded_reads.count(lines.where, lines.next("the number of quantities"), 3) != 1:
         raise ReaderError(f"{lines.where}: a 2-D file must hold 1 quantity, got more")
     quantity = lines.next("VaDens or EnDens").split()[0]
     unit = lines.next("the unit").split()[0]
@@ -177,7 +177,7 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
         raise ReaderError(
             f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr, got {quantity} in {unit}"
         )
-    return known[quantity, unit], files.number(
+    return known[quantity, unit], bounded_reads.number(
         lines.where, lines.next("the exception value").split()[0]
     )
 
@@ -193,7 +193,7 @@ def _block(
         return np.full(shape if wanted else (0, 0), 0.0 if word == "ZERO" else np.nan)
     if word != "FACTOR":
         raise ReaderError(f"{lines.where} must be FACTOR, ZERO or NODATA, got {keyword!r:.40}")
-    factor = files.number(lines.where, lines.next("the factor"))
+    factor = bounded_reads.number(lines.where, lines.next("the factor"))
     if not factor >= 0.0:
         raise ReaderError(f"{lines.where}: the factor must be at least 0, got {factor}")
     block = np.empty(shape)
@@ -215,7 +215,7 @@ def _block(
 
 
 def _density(where: str, token: str, fill: float) -> float:
-    value = files.number(where, token)
+    value = bounded_reads.number(where, token)
     if value == fill:
         return float("nan")
     if value < 0.0:

@@ -16,7 +16,7 @@ from written import DATA, FREQUENCY, TO, era5, sea, write_ndbc, write_swan, writ
 
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError
-from fftocean.readers import files
+from fftocean.readers import bounded_reads
 
 # --- what is no file of spectra at all
 

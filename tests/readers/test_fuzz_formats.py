@@ -196,7 +196,7 @@ def test_names_out_of_a_broken_file_neither_fill_nor_steer_the_terminal(tmp_path
         assert str(caught.value).isprintable()
         assert str(caught.value).startswith(name)
         assert len(str(caught.value)) <= 480
-    assert readers.files.printable("a\tb\x1b[2J\u202e") == r"a\tb\x1b[2J\u202e"
+    assert readers.bounded_reads.printable("a\tb\x1b[2J\u202e") == r"a\tb\x1b[2J\u202e"
 
 
 def test_octopus_directions_must_go_round(tmp_path):

@@ -16,7 +16,7 @@ from written import DATA, sea, write_swan, write_ww3
 
 from fftocean import readers
 from fftocean.errors import ReaderError
-from fftocean.readers import classic, files, hdf5
+from fftocean.readers import bounded_reads, classic, hdf5
 
 
 def refused(path, message):
@@ -320,7 +320,7 @@ def test_a_pipe_put_in_place_of_a_file(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     with (
         pytest.raises(ReaderError, match="must be a regular file"),
-        files.opened(tmp_path / "pipe"),
+        bounded_reads.opened(tmp_path / "pipe"),
     ):
         pass
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from fftocean.readers.entropy import LIMIT, maximum_entropy
+from fftocean.readers.maximum_entropy import LIMIT, maximum_entropy
 
 BINS = 72
 THETA = 2.0 * np.pi / BINS * np.arange(BINS)
