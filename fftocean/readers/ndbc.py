@@ -101,7 +101,8 @@ def read(path: Path, *, bins: int) -> "Dataset":
     if len(there) < len(beside):
         absent = ", ".join(stem + suffix for suffix in beside if suffix not in there)
         raise ReaderError(
-            f"{path.name} must have all four files of directions beside it, or none; missing: {absent}"
+            f"{path.name} must have all four files of directions beside it, "
+            f"or none; missing: {absent}"
         )
     moments = [_table(other, _KINDS[suffix]) for suffix, other in beside.items() if other]
     return _directed(spectrum, moments, bins)
@@ -128,7 +129,8 @@ def _set_of(path: Path) -> Path:
     found = _sibling(path, stem + ".data_spec")
     if found is None:
         raise ReaderError(
-            f"{path.name} must have {stem}.data_spec beside it, which holds the densities; it is missing"
+            f"{path.name} must have {stem}.data_spec beside it, "
+            "which holds the densities; it is missing"
         )
     return found
 
@@ -152,7 +154,8 @@ def _sibling(path: Path, name: str) -> Path | None:
 def _read_historical(path: Path) -> "Dataset":
     if re.match(r"[0-9a-z]{5}[dijk][0-9]", path.name.lower()):
         raise ReaderError(
-            f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds directions or coherences"
+            f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds "
+            "directions or coherences"
         )
     return _undirected(_table(path, _KINDS[".data_spec"]), "NDBC historical text")
 
@@ -194,7 +197,8 @@ def _directed(
     )
     if s.size * bins > dataset_layout.MAX_VALUES:
         raise ReaderError(
-            f"{spectrum.name} must have at most {dataset_layout.MAX_VALUES} values, got {s.shape} by {bins} bins (ask for fewer bins)"
+            f"{spectrum.name} must have at most {dataset_layout.MAX_VALUES} values, "
+            f"got {s.shape} by {bins} bins (ask for fewer bins)"
         )
     s, counts = dataset_layout.densities(spectrum.name, s, "m2/Hz")
     c1, c2 = _moment(r1, a1, 1), _moment(r2, a2, 2)
@@ -280,7 +284,8 @@ def _pairs(where: str, tokens: list[str]) -> tuple[list[str], list[float]]:
     bracketed = tokens[1::2]
     if len(tokens) % 2 or not all(t.startswith("(") and t.endswith(")") for t in bracketed):
         raise ReaderError(
-            f"{where} must hold pairs like 0.060 (0.063) after the date, got {' '.join(tokens[-2:])!r:.40} last: is it cut?"
+            f"{where} must hold pairs like 0.060 (0.063) after the date, "
+            f"got {' '.join(tokens[-2:])!r:.40} last: is it cut?"
         )
     return tokens[0::2], [bounded_reads.number(where, token[1:-1]) for token in bracketed]
 
@@ -305,7 +310,8 @@ def _seconds(where: str, tokens: list[str], fields: int) -> int:
     """
     if len(tokens) < fields or not all(re.fullmatch(r"[0-9]{1,4}", t) for t in tokens):
         raise ReaderError(
-            f"{where} must begin with a date in {fields} whole numbers, got {' '.join(tokens)!r:.40}"
+            f"{where} must begin with a date in {fields} whole numbers, "
+            f"got {' '.join(tokens)!r:.40}"
         )
     year, *rest = (int(t) for t in tokens)
     try:
@@ -329,7 +335,8 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
 READER: Final = Reader(
     name="NDBC text",
     extensions=(".data_spec", ".txt"),
-    description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), or a year of S(f).",
+    description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), "
+    "or a year of S(f).",
     sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
     read=_read,
     files=files_of,

@@ -98,7 +98,8 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
     magic = bounded_reads.head(path, 8)
     if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
         raise ReaderError(
-            f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, got CDF version {magic[3]} (convert it with nccopy)"
+            f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, "
+            f"got CDF version {magic[3]} (convert it with nccopy)"
         )
     modern = magic.startswith(hdf5.MAGIC)
     with _broken(path.name), warnings.catch_warnings():
@@ -149,7 +150,8 @@ def _broken(name: str) -> Iterator[None]:
         ) from error
     except Exception as error:
         raise ReaderError(
-            f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}"
+            f"{name} cannot be read as netCDF: {type(error).__name__}: "
+            f"{str(error) or 'no reason given'!s:.200}"
         ) from error
 
 
@@ -174,7 +176,8 @@ def tidy(
         time: one time only; all of them where None.
         source: what to call it in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
-        negative: what to do with negative densities: "refuse" or "clip", see `dataset_layout.densities`.
+        negative: what to do with negative densities: "refuse" or "clip", see
+            `dataset_layout.densities`.
         file_bytes: size of the file from which values are yet to be read, where there is one.
 
     Raises:
@@ -202,7 +205,8 @@ def tidy(
         directional = "dir" in axes
     if directional and "dir" not in axes:
         raise ReaderError(
-            f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}"
+            f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), "
+            f"got {tuple(spectrum.dims)}"
         )
 
     picked, notes = _pick(where, spectrum, axes, site=site, time=time)
@@ -211,7 +215,8 @@ def tidy(
     spectrum = spectrum.isel(picked)
     if spectrum.size > dataset_layout.MAX_VALUES:
         raise ReaderError(
-            f"{where} must have at most {dataset_layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
+            f"{where} must have at most {dataset_layout.MAX_VALUES} values at one place, "
+            f"got {spectrum.size} (open and cut it with xarray)"
         )
     order = [
         axes[role]
@@ -245,7 +250,8 @@ def tidy(
                 else "come from there, and so it is taken: the attribute is left over"
             )
             notes["direction_note"] = (
-                f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+                f"{there} says that waves go to there, in a layout in which they come from "
+                f"there: they {taken}"
             )
         values, bearing, repeated = package.once_round(values, bearing)
         notes |= repeated
@@ -305,7 +311,8 @@ def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
     if len(found) != 1:
         held = ", ".join(str(name) for name in found or raw.data_vars) or "nothing"
         raise ReaderError(
-            f"{source} must hold one wave spectrum (efth, d2fd, or a variable with its standard_name), got {held:.200}"
+            f"{source} must hold one wave spectrum (efth, d2fd, "
+            f"or a variable with its standard_name), got {held:.200}"
         )
     return raw[found[0]], _SPECTRA[raw[found[0]].attrs["standard_name"]]
 
@@ -380,7 +387,8 @@ def _require_sane_read(
         )  # whole chunks are unpacked
     if read > _MOST_READ or read > 2**20 + hdf5.MOST_RATIO * file_bytes:
         raise ReaderError(
-            f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} MiB, and no more than its file "
+            f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} "
+            "MiB, and no more than its file "
             f"of {file_bytes} bytes can hold, got {read >> 20} MiB (cut out the place with xarray)"
         )
 
@@ -482,7 +490,8 @@ def _direction(
         if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
             if turn > 4.0 * np.pi + 1e-3:
                 raise ReaderError(
-                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in degrees?"
+                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in "
+                    "degrees?"
                 )
             values = np.degrees(values)
         elif unit is None or not unit.is_(rad=1):
@@ -502,7 +511,8 @@ def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
         return None
     if values.min() < 1.0 or values.max() > most:
         raise ReaderError(
-            f"{where} must hold bin numbers between 1 and {most}, got {values.min():g} to {values.max():g}"
+            f"{where} must hold bin numbers between 1 and {most}, "
+            f"got {values.min():g} to {values.max():g}"
         )
     return values
 
@@ -523,13 +533,15 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
             said[False] = f"{key} {text!r:.60}"
     if len(said) == 2:
         raise ReaderError(
-            f"{where} must say one way, where waves come from or where they go to, got {said[False]} and {said[True]}"
+            f"{where} must say one way, where waves come from or where they go to, "
+            f"got {said[False]} and {said[True]}"
         )
     if said:
         return next(iter(said))
     if family.goes_to is None:
         raise ReaderError(
-            f"{where} must say whether waves come from there or go there (standard_name sea_surface_wave_from_direction or _to_direction)"
+            f"{where} must say whether waves come from there or go there (standard_name "
+            "sea_surface_wave_from_direction or _to_direction)"
         )
     return family.goes_to
 
@@ -565,7 +577,8 @@ def _require_sane_packing(where: str, variable: "DataArray") -> None:
                 else f"of a size up to {high:g}"
             )
             raise ReaderError(
-                f"{where}: attribute {key} must be a number {rule}, got {variable.encoding.get(key)!r:.40}"
+                f"{where}: attribute {key} must be a number {rule}, "
+                f"got {variable.encoding.get(key)!r:.40}"
             )
 
 
@@ -625,7 +638,8 @@ def _unit(where: str, text: Any, directional: bool) -> float:
     right = {"m": 2, "s": 1, "rad": -1} if directional else {"m": 2, "s": 1}
     if unit is None or not unit.is_(**right):
         raise ReaderError(
-            f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}"
+            f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, "
+            f"got {text!r:.60}"
         )
     return unit.scale * (np.pi / 180.0 if directional else 1.0)
 
@@ -647,7 +661,8 @@ def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
     if words & {"ten", "10", "log10", "lg", "decadic", "common"}:
         return units.Unit(base=10.0)
     raise ReaderError(
-        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), got {said!r:.80}"
+        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), "
+        f"got {said!r:.80}"
     )
 
 
@@ -682,7 +697,8 @@ def _times(
     )
     if not np.issubdtype(times.dtype, np.datetime64):
         raise ReaderError(
-            f"{source}: variable {name} must be a time of the usual calendar with units like 'days since 1990-01-01', got {times.dtype}"
+            f"{source}: variable {name} must be a time of the usual calendar with units like "
+            f"'days since 1990-01-01', got {times.dtype}"
         )
     if np.any(np.isnat(times)):
         raise ReaderError(f"{source}: variable {name} must be a time everywhere, got a missing one")
@@ -735,7 +751,8 @@ def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float
 READER: Final = Reader(
     name="netCDF",
     extensions=(".nc",),
-    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, and what follows the CF conventions.",
+    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, "
+    "and what follows the CF conventions.",
     sniff=lambda head: recognises(head.data),
     read=lambda path, site, bins: read(path, site=site, bins=bins),
 )

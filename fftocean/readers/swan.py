@@ -47,7 +47,8 @@ class _Lines:
         line = self.maybe()
         if line is None:
             raise ReaderError(
-                f"{self.name} ends after {self.where.rpartition(': ')[2]}, where {wanted} must follow: the file is cut short"
+                f"{self.name} ends after {self.where.rpartition(': ')[2]}, "
+                f"where {wanted} must follow: the file is cut short"
             )
         return line
 
@@ -70,7 +71,8 @@ class _Lines:
         tokens = self.next(wanted).split()
         if len(tokens) < columns:
             raise ReaderError(
-                f"{self.where} must hold {columns} numbers for {wanted}, got {' '.join(tokens)!r:.40}"
+                f"{self.where} must hold {columns} numbers for {wanted}, "
+                f"got {' '.join(tokens)!r:.40}"
             )
         return [bounded_reads.number(self.where, token) for token in tokens[:columns]]
 
@@ -124,7 +126,8 @@ def read(path: Path, *, site: int) -> "Dataset":
     direction, d_order = dataset_layout.directions(f"{lines.name}: {keyword}", bearings)
     if frequency.size * direction.size > _MOST:
         raise ReaderError(
-            f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}"
+            f"{lines.name} must have at most {_MOST} frequencies times directions, "
+            f"got {frequency.size} by {direction.size}"
         )
     per_degree, fill = _quantity(lines)
 
@@ -175,7 +178,8 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
     known = {("VaDens", "m2/Hz/degr"): 1.0, ("EnDens", "J/m2/Hz/degr"): 1.0 / _ENERGY}
     if (quantity, unit) not in known:
         raise ReaderError(
-            f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr, got {quantity} in {unit}"
+            f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in "
+            f"J/m2/Hz/degr, got {quantity} in {unit}"
         )
     return known[quantity, unit], bounded_reads.number(
         lines.where, lines.next("the exception value").split()[0]
@@ -209,7 +213,8 @@ def _block(
             row[:] = [_density(lines.where, token, fill) for token in tokens]
     if factor == 0.0 and wanted and np.any(block > 0.0):
         raise ReaderError(
-            f"{lines.where}: the factor must be above 0 for densities that are not 0, got 0 (SWAN writes ZERO for a flat sea)"
+            f"{lines.where}: the factor must be above 0 for densities that are not 0, "
+            "got 0 (SWAN writes ZERO for a flat sea)"
         )
     return block * factor
 

@@ -12,7 +12,7 @@ import tracemalloc
 import h5py
 import numpy as np
 import pytest
-from written import DATA, sea, write_swan, write_ww3
+from spectrum_files import DATA, sea, write_swan, write_ww3
 
 from fftocean import readers
 from fftocean.errors import ReaderError
@@ -79,7 +79,8 @@ def test_external_storage(target, name, other):
     path = write(other / "a.nc", add) if name == "efth" else write(other / "a.nc", None, add)
     refused(
         path,
-        rf"variable {name} must lie in the file itself, got data in another file \(HDF5 external storage\)",
+        rf"variable {name} must lie in the file itself, got data in another file \(HDF5 "
+        rf"external storage\)",
     )
     (other / "a.nc.gz").write_bytes(gzip.compress(path.read_bytes()))
     refused(other / "a.nc.gz", f"variable {name} must lie in the file itself")

@@ -5,7 +5,7 @@ Whatever the wavespectra package hands out becomes a sea of the height that the 
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA, sea, ww3
+from spectrum_files import DATA, sea, ww3
 
 import fftocean as fo
 from fftocean import readers
