@@ -24,7 +24,7 @@ from fftocean.baking.previews import previews as pictures
 from fftocean.baking.previews import sheets as preview
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
-from fftocean.cascade import Cascade, Tile, assembled
+from fftocean.cascade import Cascade, Tile, from_oceans
 from fftocean.errors import JobError, SeaWarning
 from fftocean.export import rules
 from fftocean.files import write_whole
@@ -67,7 +67,7 @@ class Water:
         oceans = tuple(scene.ocean for scene in scenes)
         sea = oceans[0].sea
         assert sea is not None  # a job has a sea
-        self.cascade: Cascade = assembled(sea, job.settings["ocean.seed"], oceans)
+        self.cascade: Cascade = from_oceans(sea, job.settings["ocean.seed"], oceans)
         self.statistics: Statistics = measure(self.cascade)
 
     def listed(
