@@ -26,6 +26,7 @@ def test_the_archive_packs_only_folders_of_the_root():
     )
 
 
+@pytest.mark.process
 def test_an_archive_holds_no_stray_environment(tmp_path):
     """
     Built from a small copy of the tree, with an environment in it whose folders have our names.

@@ -33,7 +33,9 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="plot to write (default: bench.png)",
     )
-    parser.add_argument("--no-picture", action="store_true", help="write no plot")
+    parser.add_argument(
+        "--no-plot", "--no-picture", dest="no_plot", action="store_true", help="write no plot"
+    )
     parser.add_argument("--json", type=path, metavar="FILE", help="write the measurements as JSON")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
 
@@ -48,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
         console_for(),
         seconds=options.seconds,
         sizes=options.n or None,
-        picture=None if options.no_picture else options.output,
+        picture=None if options.no_plot else options.output,
         json=options.json,
         status=status if shown else None,
     )

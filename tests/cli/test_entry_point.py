@@ -59,6 +59,7 @@ def test_every_error_class_has_an_exit_code():
     assert {kind.exit_code for kind in kinds} <= {2, 3, 4, 5, 6}
 
 
+@pytest.mark.process
 def test_a_full_disk_under_stdout_exits_4():
     """One line, no traceback, nothing ignored at exit. (A broken pipe: rich exits 1, silently.)"""
     command = [sys.executable, "-m", "fftocean", "info", "--n", "4"]

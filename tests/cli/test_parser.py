@@ -84,6 +84,7 @@ def test_examples_of_the_help_parse(example):
         job_of(options)
 
 
+@pytest.mark.process
 def test_help_loads_no_heavy_library():
     """
     numba, FFTW, OpenEXR, SciPy and NumPy are loaded by the work that needs them.
