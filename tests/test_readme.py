@@ -47,7 +47,7 @@ def test_the_two_commands_are_one_line_each():
     )
 
 
-DEFAULT = ("README.md", "fftocean/bake/default.toml")
+DEFAULT = ("README.md", "fftocean/job/default.toml")
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,6 @@ from typing import Any
 
 from fftocean import blend_loss as blend
 from fftocean.baking.bake import require_usable, scene_for
-from fftocean.baking.finished.manifest import plain
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.folder.identity import checked
 from fftocean.baking.folder.listing import Share
@@ -100,7 +99,7 @@ class Water:
                     "choppiness": cascade.choppiness,
                     "frames": len(self.chosen),
                 },
-                "statistics": plain(self.statistics),  # specified beside realised
+                "statistics": self.statistics.as_plain(),
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
@@ -172,7 +171,7 @@ class Water:
             f"{s.ordered.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
         )
         yield "peak period Tp", f"{s.ordered.tp:.2f} s specified, {s.tp:.2f} s realised"
-        yield "energy outside the bands", outside(plain(s))
+        yield "energy outside the bands", outside(s.as_plain())
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; normal, Jacobian and foam are formed of the sums",

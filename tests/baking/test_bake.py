@@ -64,7 +64,7 @@ def quick(monkeypatch):
 def some_statistics():
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     return dataclasses.replace(
-        still, ordered=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+        still, specified=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     )
 
 

@@ -5,7 +5,6 @@ own bytes.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +36,7 @@ def compose(
         order: what was asked.
         scene: the water.
         rows: one a frame, in order, as the workers gave them.
-        statistics: ordered beside delivered.
+        statistics: of the realised sea and of the specified one.
         blend: what linear blending between two frames loses.
         containers: the files that hold several frames, and those beside them, by map.
         pictures: what there is to look at, by name.
@@ -71,7 +70,7 @@ def compose(
         **order.header,
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
-        "statistics": plain(statistics),  # ordered beside delivered
+        "statistics": statistics.as_plain(),
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
         "blend": dict(blend),
@@ -110,14 +109,6 @@ _LOOKUP = {
     "lagrangian": "lagrangian: a map is indexed by the undisplaced position",
     "eulerian": "eulerian: a map is indexed by the place in the world; what is displaced by it is a height field",
 }
-
-
-def plain(statistics: Statistics) -> dict[str, Any]:
-    """Statistics as plain data, None for a number that JSON has not."""
-    found = asdict(statistics)
-    if math.isinf(found["folding"]["largest_choppiness"]):
-        found["folding"]["largest_choppiness"] = None
-    return found
 
 
 def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
