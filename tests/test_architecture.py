@@ -17,7 +17,10 @@ FLOORS = {
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner"],
     5: ["cascade", "trains", "window"],
-    6: ["products", "foam", "eulerian", "mips", "kinematics", "query", "statistics", "blend_loss"],
+    6: [
+        *("products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"),
+        *("blend_loss", "polar_spectrum", "realised_spectrum", "measured_dispersion"),
+    ],
     7: ["job", "proof"],
     8: ["baking"],
     9: ["viewer", "plots", "science", "bench"],
@@ -43,7 +46,8 @@ STAIRS = [
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["trains", "window"]],
     [["products"], ["statistics"]],
-    [["plots"], ["bench.pictures"]],
+    [["realised_spectrum"], ["measured_dispersion"]],
+    [["plots.theme"], ["plots"], ["bench.pictures"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {
