@@ -26,6 +26,7 @@ PROCESS = (
     "baking/test_lock.py",
     "bench/test_benchmarks.py",
     "clients/",
+    "kernels/test_compiler.py",
     "test_forks.py",
     "test_packaging.py",
 )

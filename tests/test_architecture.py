@@ -6,6 +6,7 @@ even finished, to be held to it.
 """
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
@@ -241,6 +242,14 @@ def test_names_on_the_stairs_belong_to_the_floor():
         modules = [module for steps in stair for module in steps]
         assert len({FLOOR[room(module)] for module in modules}) == 1
         assert len(set(modules)) == len(modules)
+
+
+def test_the_page_shows_the_floors():
+    """docs/architecture.md has the same modules on the same floors as the table above."""
+    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    table = page.partition("<!-- floors -->")[2].partition("\n\n")[0]
+    rows = re.findall(r"^\| (\d+) \| (.*?) \|", table, re.MULTILINE)
+    assert {int(floor): re.findall(r"`(\w+)`", names) for floor, names in rows} == FLOORS
 
 
 # The checker itself: forged sources that it must catch, and honest ones that it must not

@@ -411,6 +411,7 @@ def test_the_examples_of_the_help_are_commands(example):
         cli._job(options)
 
 
+@pytest.mark.process
 def test_help_does_not_wait_for_compilers():
     """
     Nor does a usage error: numba, FFTW, OpenEXR, SciPy and NumPy are loaded by the work that needs
@@ -672,6 +673,7 @@ def test_each_error_of_ours_has_an_exit_code():
     assert {kind.exit_code for kind in kinds} <= {2, 3, 4, 5, 6}
 
 
+@pytest.mark.process
 def test_a_full_disk_under_stdout_exits_4():
     """One line, no traceback, nothing ignored at exit. (A broken pipe: rich exits 1, silently.)"""
     command = [sys.executable, "-m", "fftocean.cli", "info", "--n", "4"]

@@ -549,6 +549,7 @@ def test_a_query_is_a_frozen_value():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no fork there")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+@pytest.mark.process
 def test_a_forked_child_can_ask_too():
     query = fo.Query(ocean(), mode="bilinear", threads=2)
     x, y = points(20000)
