@@ -235,6 +235,7 @@ def test_the_manifest_says_what_was_ordered_and_delivered(whole):
     assert manifest["statistics"]["loop"]["period"] == 16.0
 
 
+@pytest.mark.process
 def test_another_process_writes_the_same_bytes(whole, tmp_path):
     """
     The whole folder, picture and manifest too: no clock, no process number, no order of hashing
@@ -931,6 +932,7 @@ def stopped(tmp_path_factory):
 
 
 @pytest.mark.parametrize("number", SIGNALS, ids=lambda n: n.name)
+@pytest.mark.process
 def test_a_stopped_bake_is_not_a_finished_one(stopped, number):
     """
     Ctrl-C is 130, SIGTERM 143, both without a traceback and with their temporary file removed;
