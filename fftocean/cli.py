@@ -665,7 +665,8 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int
     from fftocean.baking.bake import scene_for
     from fftocean.baking.cascade import estimate_tiles
     from fftocean.baking.estimate import estimate
-    from fftocean.baking.folder.identity import header_of, require_possible
+    from fftocean.baking.folder.identity import header_of
+    from fftocean.baking.folder.ownership import require_possible
     from fftocean.baking.folder.plan import frames_of
     from fftocean.baking.workers.choice import check_executor
 
@@ -1001,11 +1002,11 @@ def _info_of_tiles(options: argparse.Namespace, job: "Job") -> int:
     from rich.table import Table
     from rich.text import Text
 
-    from fftocean.baking.cascade import water_estimate
+    from fftocean.baking.cascade import estimate_prepared
     from fftocean.baking.cascade_setup import prepare
 
     water = prepare(job, options.tiles)
-    cost = water_estimate(water)
+    cost = estimate_prepared(water)
     title = Text(f"Cascade: {_plain(job.source)}")
     table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
     for name, text in water.rows():

@@ -24,7 +24,7 @@ import numpy.typing as npt
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real, require_memory
 from fftocean.errors import ParameterError, described
-from fftocean.fields import EIGHT
+from fftocean.fields import EIGHT, GEOMETRY
 from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate, resample, surface
@@ -37,7 +37,6 @@ FINEST = 8  # samples of the splines to one of the ocean, at most
 STEEPEST = 1e3
 """The largest slope that is returned; only the rim of a fold is steeper."""
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 DEFAULT = ("height", "slope_x", "slope_y")
 """The fields that are returned unless told otherwise."""
 

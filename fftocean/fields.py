@@ -50,6 +50,9 @@ FIELDS: dict[str, Field] = {
 EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
 """The eight fields of a still: what `Ocean.frame` returns unless told otherwise."""
 
+GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+"""The gradients of height and displacement, in the order that the kernels of `surface` take."""
+
 
 def potential_factor(k: Real, depth: float) -> Real:
     """

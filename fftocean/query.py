@@ -18,7 +18,7 @@ from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
 from fftocean.errors import FieldError, ParameterError
-from fftocean.fields import potential_factor
+from fftocean.fields import GEOMETRY, potential_factor
 from fftocean.gerstner.waves import Waves
 from fftocean.kernels import interpolate, surface
 from fftocean.kernels import query as kernels
@@ -30,7 +30,6 @@ KINDS = {"bilinear": kernels.BILINEAR, "bicubic": kernels.SPLINE, "exact": kerne
 WANTED = ("heights", "normals", "velocities", "accelerations")
 WAVELENGTH = Quantity("m", 0.0, math.inf)
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 MOTION = ("displace_x", "displace_y", "height")
 VELOCITY = ("velocity_x", "velocity_y", "velocity_z")
 
