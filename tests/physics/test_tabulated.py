@@ -8,7 +8,7 @@ import pytest
 from scipy import interpolate
 
 from fftocean.errors import ParameterError
-from fftocean.physics.tabulated import TabulatedSpreading
+from fftocean.physics.spreading import TabulatedSpreading
 
 F = [0.05, 0.08, 0.1, 0.2, 0.5]
 ANGLES = [-150.0, -90.0, -20.0, 0.0, 35.0, 100.0, 170.0]
