@@ -150,7 +150,7 @@ def test_a_bad_value_of_any_key_is_refused_or_gives_finite_water(key):
         assert refused_or_finite(toml_of(key, value), key, value) == (verdict == "r"), value
 
 
-def passes_at(kind, key):
+def passes_at(kind, key, keys=()):
     """
     What a kind makes of `BAD`, by the meaning of its keys: no waves are waves, and a wind of 0
     raises none; calm is number 0.
@@ -165,7 +165,8 @@ def passes_at(kind, key):
         "s_max",
         "friction_velocity",
     )
-    return ("0", "1e-308") if nothing and (kind, key) != ("phillips", "speed") else ()
+    unreachable = (kind, key) == ("phillips", "speed") and "hs" in keys
+    return ("0", "1e-308") if nothing and not unreachable else ()
 
 
 @pytest.mark.parametrize(("kind", "keys"), WAYS, ids=str)
@@ -173,7 +174,7 @@ def test_a_bad_value_in_a_spectrum_is_refused_or_gives_finite_water(kind, keys):
     for key, value in itertools.product(keys, BAD):
         table = ", ".join(f"{name} = {value if name == key else GOOD[name]}" for name in keys)
         text = f"[ocean]\nn = 8\n[[sea.systems]]\nspectrum = {{ kind = '{kind}', {table} }}\n"
-        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key, keys)), (
             key,
             value,
         )
@@ -188,7 +189,7 @@ def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind, keys)
             f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\n"
             f"spreading = {{ kind = '{kind}', {table} }}\n"
         )
-        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key, keys)), (
             key,
             value,
         )
@@ -357,15 +358,15 @@ def test_a_file_reads_as_its_text(tmp_path, ending):
         (f"[sea.systems]\n{SWELL}\n", ["sea.systems", "must be tables, written [[sea.systems]]"]),
         ("[[sea.systems]]\n", ["sea.systems[0].spectrum", "must be given"]),
         (f"[[sea.systems]]\n{SWELL}\n[[sea.systems]]\n{SWELL}\nspeading = 3\n", ["sea.systems[1].speading", "sea.systems[1].spreading?"]),
-        ("[[sea.systems]]\nspectrum = 5\n", ["sea.systems[0].spectrum", "one of jonswap, tma", "5"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n", ["sea.systems[0].spectrum", "one of jonswap, tma", "'jonswp'"]),
+        ("[[sea.systems]]\nspectrum = 5\n", ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "5"]),
+        ("[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n", ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "'jonswp'"]),
         ("[[sea.systems]]\nspectrum = { kind = ['jonswap'] }\n", ["sea.systems[0].spectrum", "['jonswap']"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n", ["{hs, tp, gamma} or {speed, fetch, gamma}", "got {hs}"]),
+        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n", ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"]),
         ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n", ["got {hs, tp, speed}"]),
         ("[[sea.systems]]\nspectrum = { kind = 'pierson-moskowitz', hs = 1.0, tp = 9.0, gamma = 2.0 }\n", ["got {hs, tp, gamma}"]),
         (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-power' }}\n", ["spreading", "{s}", "got {}"]),
         (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-squared', s = 3 }}\n", ["spreading", "got {s}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n", ["spreading", "one of cosine-squared", "'blend'"]),
+        (f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n", ["spreading", "one of blend, cosine-n", "'blend'"]),
         ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 50.0, tp = 2.0 }\n", ["sea.systems[0].spectrum", "50 m with 2 s"]),
         ("sea.depth = 0.01\n[[sea.systems]]\nspectrum = { kind = 'tma', hs = 9.0, tp = 4.0 }\n", ["9 m with 4 s", "in 0.01 m of water"]),
         ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [0.1, 0.2], density = [1.0] }\n", ["sea.systems[0].spectrum"]),

@@ -48,7 +48,7 @@ class TabulatedSpreading:
     def __post_init__(self) -> None:
         f = _FREQUENCY.check_array("frequency", self.frequency, ndim=1, least=2, ascending=True)
         angle = _DIRECTION.check_array("direction", self.direction, ndim=1, least=3)
-        table = _DENSITY.check_array("density", self.density)
+        table = _DENSITY.check_array("density", self.density, ndim=2)
         if table.shape != (f.size, angle.size):
             raise ParameterError(
                 f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
