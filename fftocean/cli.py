@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from fftocean.job.job import Job
 
 EPILOG = """\
-exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity, 6 folder in use, 130 interrupted
+exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity,
+            6 folder in use, 130 interrupted
 """
 EXAMPLES = {
     "bake": "fftocean bake -o sea\nfftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22\n"
@@ -175,8 +176,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="fftocean",
         usage="fftocean COMMAND [options]",
-        description="Specify a sea state; get a seamlessly tiling, looping ocean surface; verify "
-        "that it has\nthe statistics you asked for; export it to any game engine.",
+        description="Specify a sea state; get a seamlessly tiling, looping ocean surface;\n"
+        "verify that it has the statistics you asked for; export it to any game engine.",
         epilog="example:\n  fftocean bake -o sea\n\n" + EPILOG,
         formatter_class=raw,
     )
@@ -547,6 +548,7 @@ def _bake_job(
             raise
     if not (options.quiet or options.json):
         _sum_up(options, manifest, time.perf_counter() - start, kept=at["kept"])
+        _say_loading(job)
     return 0
 
 
@@ -596,6 +598,7 @@ def _bake_cascade(
         print(_blending(listed["blend"]))
         if "preview" in listed:
             print(f"look at {_plain(options.output / listed['preview']['path'])}")
+        _say_loading(job)
         print(f"how to add them stands in {_plain(options.output / CASCADE_FILE)}")
     return 0
 
@@ -646,6 +649,14 @@ def _note_folds(extremes: Mapping[str, Any]) -> None:
         print(f"note: {folding_sentence(*shown)}", file=sys.stderr)
 
 
+def _say_loading(job: "Job") -> None:
+    """Print how files of the format get into the engine, where a job names one."""
+    from fftocean.export.engines import profile_for
+
+    if job.engine != "canonical":
+        print(f"{job.format} in {job.engine}: {profile_for(job.engine, job.format).note}")
+
+
 def _blending(blend: dict[str, Any]) -> str:
     """What players that blend two frames lose, in a line."""
     rate, enough = blend["frames_per_second"], blend["enough"]
@@ -694,6 +705,7 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> int
     print(f"about {e.seconds:.0f} s here, by {who}")
     print(f"memory: {_memory(e)}")
     print(f"video memory of the maps in an engine: {_video(e)}")
+    _say_loading(job)
     return 0
 
 

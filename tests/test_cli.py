@@ -196,7 +196,7 @@ def test_a_bad_value_by_flag(run, parameter, value):
     "key", ["spectrum.hs", "spectrum.tp", "spectrum.gamma", "spreading.s", "direction"]
 )
 def test_a_bad_value_in_a_wave_system(run, key, value):
-    """One spectrum stands for all here; tests/job/test_job.py goes through them."""
+    """One spectrum stands for all here; tests/bake/test_job.py goes through them."""
     values = {
         "spectrum.hs": "0.5",
         "spectrum.tp": "4.0",
@@ -228,7 +228,7 @@ def test_each_command_refuses_alike(run, command):
 
 @pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
 def test_more_samples_than_memory_are_refused_before_they_are_taken(run, command, monkeypatch):
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
     start = time.process_time()
     assert "n = 65536 x 65536 needs about " in clean(run(command, "--n", "65536"))
     assert "between 1 and 65536, got 1000000000" in clean(run(command, "--n", "1000000000"))
@@ -588,7 +588,7 @@ def test_presets_are_listed(run):
         assert call in out
 
 
-# Output faults: tests/baking/test_bake.py has them all; here their exit code and their line
+# Output faults: tests/bake/test_baker.py has them all; here their exit code and their line
 
 
 @pytest.mark.usefixtures("quick")
@@ -952,6 +952,40 @@ def test_a_dry_run_writes_nothing_and_foretells_the_files(run, monkeypatch):
 
 
 @pytest.mark.parametrize(
+    ("engine", "format_name", "words"),
+    [
+        ("unity", "exr-float", "exr-float in unity: choose the texture format RGBA Float"),
+        ("babylon", "exr", "exr in babylon: by Texture, whose invertY is true"),
+        ("canonical", "exr", None),
+    ],
+)
+def test_a_bake_says_how_its_files_get_into_the_engine(run, engine, format_name, words):
+    """In the summary, in that of tiles, and in a dry run."""
+    flags = (
+        "--engine",
+        engine,
+        "--format",
+        format_name,
+        "--maps",
+        "displacement",
+        "--frames",
+        "2",
+        "--executor",
+        "serial",
+    )
+    for more in (
+        ("--n", "8", "--dry-run"),
+        ("--n", "8"),
+        ("--tiles", "8:60,8:7", "--dry-run"),
+        ("--tiles", "8:60,8:7", "--overwrite"),
+    ):
+        code, out, _ = run("bake", "-o", f"out{len(more)}", *flags, *more)
+        assert code == 0
+        found = [line for line in out.splitlines() if f" in {engine}: " in line]
+        assert found == ([words] if words else [])
+
+
+@pytest.mark.parametrize(
     "arguments",
     [
         ["--executor", "thread"],
@@ -1164,7 +1198,7 @@ def test_events_tell_of_a_stop(run, stop, code, word, monkeypatch):
     assert "2 of 2 frames are finished; the same command goes on from there" in err
 
 
-# fftocean check: tests/baking/test_check.py has what it finds; here its words and its exit code
+# fftocean check: tests/bake/test_check.py has what it finds; here its words and its exit code
 
 
 @pytest.fixture

@@ -23,7 +23,7 @@ WATER = ("depth", "surface_tension")
 class Key(Protocol):
     """The rule of one key: a `Quantity`, a `Count`, or one of the classes below."""
 
-    def check(self, name: str, value: Any) -> Any:
+    def check(self, name: str, value: Any, /) -> Any:
         """Return the value as the constructor takes it, or raise `ParameterError`."""
 
 
@@ -56,7 +56,7 @@ class Switch:
 class Numbers:
     """A list or table of numbers, which the model checks."""
 
-    def check(self, name: str, value: Any) -> Any:
+    def check(self, _name: str, value: Any, /) -> Any:
         """Return the value as it is."""
         return value
 
@@ -67,7 +67,7 @@ class Part:
 
     role: str
 
-    def check(self, name: str, value: Any) -> Any:
+    def check(self, _name: str, value: Any, /) -> Any:
         """Return a model that has already been made."""
         return value
 

@@ -51,7 +51,7 @@ def cosine_2s(s: RealLike, theta: RealLike) -> Real:
     from scipy.special import poch
 
     s, theta = np.asarray(s, dtype=np.float64), np.asarray(theta, dtype=np.float64)
-    sine2 = np.sin(0.5 * theta) ** 2
+    sine2 = np.square(np.sin(0.5 * theta))
     in_front = 0.5 * np.log1p(-np.minimum(sine2, 0.5))
     log_cosine = np.where(
         sine2 < 0.5, in_front, np.log(np.maximum(np.abs(np.cos(0.5 * theta)), 1e-300))

@@ -22,7 +22,7 @@ class CustomSpreading:
     The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and toward `breaks`,
     so a bell round any of them of any width down to 0.1 degree is good to 1e-12, and so is anything
     smooth; a function with a kink or a jump that `breaks` does not name is refused when the
-    quadrature sees it. Between many frequencies the norm is interpolated, to 1e-12 as well.
+    quadrature sees it. Between frequencies the norm is interpolated, to 1e-12 as well.
     """
 
     function: Function  # f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi]
@@ -45,7 +45,9 @@ class CustomSpreading:
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""
         omega = held(omega, peak)
-        frequency, angle = np.broadcast_arrays(omega, wrapped(theta))
+        frequency, angle = (
+            np.array(a, order="C") for a in np.broadcast_arrays(omega, wrapped(theta))
+        )
         density: Real = self._checked(frequency, angle, peak) / circle_integral(
             self._checked, omega, peak, tuple(self.breaks)
         )

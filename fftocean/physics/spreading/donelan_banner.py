@@ -26,15 +26,15 @@ class DonelanBanner:
         beta = donelan_banner_beta(np.asarray(omega, dtype=np.float64) / peak)
         # sech^2(y) = 4 e^{-2|y|} / (1 + e^{-2|y|})^2, which cannot overflow
         decay = np.exp(-2.0 * np.abs(beta * wrapped(theta)))
-        density: Real = beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / (1.0 + decay) ** 2
+        density: Real = beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / np.square(1.0 + decay)
         return density
 
 
 def donelan_banner_beta(x: Real) -> Real:
     """beta(omega/omega_p) [-] of `DonelanBanner`."""
-    below = 2.61 * np.clip(x, 0.56, 0.95) ** 1.3
-    near = 2.28 * np.clip(x, 0.95, 1.6) ** -1.3
-    above = 10.0 ** (-0.4 + 0.8393 * np.exp(-0.567 * np.log(np.maximum(x, 1.6) ** 2)))
+    below = 2.61 * np.power(np.clip(x, 0.56, 0.95), 1.3)
+    near = 2.28 * np.power(np.clip(x, 0.95, 1.6), -1.3)
+    above = np.power(10.0, -0.4 + 0.8393 * np.exp(-0.567 * np.log(np.square(np.maximum(x, 1.6)))))
     return np.where(x < 0.95, below, np.where(x < 1.6, near, above))
 
 

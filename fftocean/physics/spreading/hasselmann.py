@@ -39,7 +39,9 @@ class Hasselmann:
         x = relative(omega, peak)
         mu = -2.33 - 1.45 * (self.speed * peak / GRAVITY - 1.17)
         return np.where(
-            x < 1.05, 6.97 * np.minimum(x, 1.05) ** 4.06, 9.77 * np.maximum(x, 1.05) ** mu
+            x < 1.05,
+            6.97 * np.power(np.minimum(x, 1.05), 4.06),
+            9.77 * np.power(np.maximum(x, 1.05), mu),
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:

@@ -35,7 +35,7 @@ class LongCrested:
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `theta`, [1/rad]: the bell."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
-        bell: Real = np.exp(-0.5 * (theta / LONG_CRESTED_WIDTH) ** 2)
+        bell: Real = np.exp(-0.5 * np.square(theta / LONG_CRESTED_WIDTH))
         return bell / (LONG_CRESTED_WIDTH * math.sqrt(2.0 * np.pi))
 
 

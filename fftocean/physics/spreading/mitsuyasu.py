@@ -52,8 +52,11 @@ class Mitsuyasu:
 
 def peaked_exponent(x: Real, s_peak: float) -> Real:
     """s_p x^5 below the peak, s_p x^-2.5 above."""
+    # np.power, not **, which rounds a lone number otherwise than one in an array
     return np.minimum(
-        s_peak * np.where(x <= 1.0, np.minimum(x, 1.0) ** 5.0, np.maximum(x, 1.0) ** -2.5), SHARPEST
+        s_peak
+        * np.where(x <= 1.0, np.power(np.minimum(x, 1.0), 5.0), np.power(np.maximum(x, 1.0), -2.5)),
+        SHARPEST,
     )
 
 

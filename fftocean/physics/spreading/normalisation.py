@@ -15,9 +15,9 @@ Function = Callable[[Real, Real, float], RealLike]
 Panels = tuple[Real, Real]
 """Nodes theta [rad] and their weights [rad]."""
 
-_MANY = 1024  # frequencies from which on a table is cheaper
-
 _DEGREE = 16  # of the table's polynomials
+_WIDEST = 0.5  # panel of the table, in ln(omega/omega_p)
+_HALVINGS = 23  # down to a panel 6e-8 wide, which is a mere edge
 
 
 @lru_cache(maxsize=64)
@@ -51,13 +51,18 @@ def _panels(breaks: tuple[float, ...], order: int) -> Panels:
 def integrals(
     function: Function, omega: Real, peak: float, breaks: tuple[float, ...], order: int = 16
 ) -> Real:
-    """The integral over theta at each of a list of frequencies; in blocks, to spare memory."""
+    """
+    Return the integral over theta at each of a list of frequencies; in blocks, to spare memory.
+
+    Each is a sum of its own, so that its bits depend on no other frequency of the list.
+    """
     theta, weights = _panels(breaks, order)
     out = np.empty(omega.size)
     for start in range(0, omega.size, 512):
         some = omega[start : start + 512]
-        frequency, angle = np.broadcast_arrays(some[:, None], theta)
-        out[start : start + 512] = np.asarray(function(frequency, angle, peak)) @ weights
+        frequency = np.repeat(some[:, None], theta.size, axis=1)
+        values = np.asarray(function(frequency, np.tile(theta, (some.size, 1)), peak))
+        out[start : start + 512] = np.sum(np.ascontiguousarray(values) * weights, axis=1)
     return out
 
 
@@ -83,27 +88,29 @@ def circle_integral(
             "the spreading must have an integral over theta that quadrature can find: more than 0, and with every kink named in "
             f"breaks; got {coarse[i]:.12g} and {fine[i]:.12g} at omega = {probes[i]:g} rad/s"
         )
-    few = unique.size <= _MANY
-    values = (
-        integrals(function, unique, peak, breaks)
-        if few
-        else interpolated_integrals(function, unique, peak, breaks)
-    )
-    return values[place].reshape(omega.shape)
+    values = interpolated_integrals(function, unique, peak, breaks)
+    if not np.all(values > 0.0):
+        raise ParameterError(
+            "the spreading must have an integral over theta that is more than 0, got "
+            f"{np.min(values):g} at omega = {unique[np.argmin(values)]:g} rad/s"
+        )
+    integral: Real = values[place].reshape(omega.shape)
+    return integral
 
 
 def interpolated_integrals(
     function: Function, omega: Real, peak: float, breaks: tuple[float, ...]
 ) -> Real:
     """
-    The integral at many frequencies (ascending), by Chebyshev interpolation in ln omega on panels
-    bisected until it holds.
+    Return the integral at many frequencies, by Chebyshev interpolation in ln omega.
 
-    A panel holds when its last three coefficients are under 1e-13 of the first. Both its ends are
-    nodes, so a jump of the base (Donelan-Banner steps at 0.95) cannot hide beyond the last one; it
-    is bisected down to a width of 1e-7, where the few frequencies inside are integrated one by one.
+    The panels are `_WIDEST` wide, counted from the peak, and are halved until the polynomial holds:
+    until its last three coefficients are under 1e-13 of the first. Which panel a frequency lies in,
+    and so the bits of its integral, depends on no other frequency of the list. Both ends of a panel
+    are nodes, so a jump of the base (Donelan-Banner steps at 0.95) cannot hide beyond the last one;
+    what lies in a panel that does not hold after `_HALVINGS` is integrated one by one.
     """
-    u = np.log(omega)
+    u = np.log(omega / peak)
     j = np.arange(_DEGREE + 1)
     x = np.cos(np.pi * j / _DEGREE)
     ends_halved = np.where((j == 0) | (j == _DEGREE), 0.5, 1.0)
@@ -115,40 +122,22 @@ def interpolated_integrals(
         / _DEGREE
     )
     out = np.empty_like(u)
-    pending = np.array([[u[0], u[-1]]])
-    while pending.size:
-        middle, half = 0.5 * pending.sum(axis=1), 0.5 * (pending[:, 1] - pending[:, 0])
-        first, last = (
-            np.searchsorted(u, pending[:, 0], "left"),
-            np.searchsorted(u, pending[:, 1], "left"),
-        )
-        last = np.where(pending[:, 1] >= u[-1], u.size, last)
-        # A panel with fewer frequencies than nodes is not worth a table; nor is one that has become
-        # a mere edge.
-        direct = (last - first <= _DEGREE) | (half <= 0.5e-7)
-        for i in np.flatnonzero(direct):
-            out[first[i] : last[i]] = integrals(function, omega[first[i] : last[i]], peak, breaks)
-        keep = ~direct
-        middle, half, first, last, pending = (
-            middle[keep],
-            half[keep],
-            first[keep],
-            last[keep],
-            pending[keep],
-        )
-        if not half.size:
-            break
-        nodes = np.exp(middle[:, None] + half[:, None] * x)
-        c = (
-            integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape)
-            @ to_coefficients.T
-        )
+    pending = np.arange(u.size)
+    for halvings in range(_HALVINGS):
+        width = _WIDEST * 0.5**halvings  # a power of 2: panels of all levels have exact ends
+        number, place = np.unique(np.floor(u[pending] / width), return_inverse=True)
+        middle = (number + 0.5) * width
+        nodes = peak * np.exp(middle[:, None] + 0.5 * width * x)
+        values = integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape)
+        c = np.sum(values[:, None, :] * to_coefficients, axis=2)
         holds = np.max(np.abs(c[:, -3:]), axis=1) <= 1e-13 * np.abs(c[:, 0])
-        for i in np.flatnonzero(holds):
-            inside = slice(first[i], last[i])
-            out[inside] = np.polynomial.chebyshev.chebval((u[inside] - middle[i]) / half[i], c[i])
-        broken, split = pending[~holds], middle[~holds]
-        pending = np.concatenate(
-            [np.column_stack([broken[:, 0], split]), np.column_stack([split, broken[:, 1]])]
+        done = holds[place]
+        inside, panel = pending[done], place[done]
+        out[inside] = np.polynomial.chebyshev.chebval(
+            (u[inside] - middle[panel]) / (0.5 * width), c[panel].T, tensor=False
         )
+        pending = pending[~done]
+        if not pending.size:
+            break
+    out[pending] = integrals(function, omega[pending], peak, breaks)
     return out

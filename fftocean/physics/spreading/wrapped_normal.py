@@ -41,7 +41,7 @@ class WrappedNormal:
         )  # what is left out lies beyond 8.5 sigma: under 1e-16
         total = np.zeros_like(theta)
         for j in range(-turns, turns + 1):
-            total += np.exp(-0.5 * ((theta + 2.0 * np.pi * j) / sigma) ** 2)
+            total += np.exp(-0.5 * np.square((theta + 2.0 * np.pi * j) / sigma))
         return total / (sigma * math.sqrt(2.0 * np.pi))
 
 
