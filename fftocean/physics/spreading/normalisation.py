@@ -94,7 +94,7 @@ def circle_integral(
             "the spreading must have an integral over theta that is more than 0, got "
             f"{np.min(values):g} at omega = {unique[np.argmin(values)]:g} rad/s"
         )
-    integral: Real = values[place].reshape(omega.shape)
+    integral: Real = np.asarray(values)[place].reshape(omega.shape)
     return integral
 
 
