@@ -94,8 +94,7 @@ def circle_integral(
             "the spreading must have an integral over theta that is more than 0, got "
             f"{np.min(values):g} at omega = {unique[np.argmin(values)]:g} rad/s"
         )
-    integral: Real = np.asarray(values)[place].reshape(omega.shape)
-    return integral
+    return values[place].reshape(omega.shape)
 
 
 def interpolated_integrals(
@@ -121,7 +120,7 @@ def interpolated_integrals(
         * 2.0
         / _DEGREE
     )
-    out = np.empty_like(u)
+    out: Real = np.empty(u.shape)
     pending = np.arange(u.size)
     for halvings in range(_HALVINGS):
         width = _WIDEST * 0.5**halvings  # a power of 2: panels of all levels have exact ends
