@@ -267,6 +267,8 @@ class Query:
 
     def _find(self, x: Real, y: Real, t: float, out: PointResults) -> None:
         """Find the water at all points at one time, block by block."""
+        if x.size == 0:
+            return
         find = self._water.at(t, out.fields)
         block = self._water.block
         if x.size <= block:
