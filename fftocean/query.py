@@ -134,7 +134,8 @@ class Query:
         ParameterError: a source without waves, an unknown mode, interpolation of waves that have no
             tile, or a value out of range.
 
-    Source: Newton's inversion of choppy displacement: DESIGN; splines: Unser 1999.
+    Method: Newton's iteration on the summed displacement with its exact Jacobian (`kernels.query`).
+    Source: splines: Unser 1999.
     Pinned by tests/test_query.py: an independent inversion of `gerstner.surface`; differences in
     time and space; folds.
     """

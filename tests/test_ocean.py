@@ -460,6 +460,7 @@ def test_sixteen_threads_on_one_ocean_get_right_data():
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")
 @pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
 @pytest.mark.parametrize("backend", ["pyfftw", "scipy"])
+@pytest.mark.process
 def test_a_forked_child_has_threads_of_its_own(backend):
     """The parent's workers are not handed down to it: without new ones it would wait for ever."""
     o = ocean(dtype="float32", threads=2, backend=backend)
@@ -506,6 +507,7 @@ def test_an_ocean_is_frozen(name, value):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")
 @pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@pytest.mark.process
 def test_a_forked_child_does_not_hang_on_the_parent_s_lock():
     o = ocean(dtype="float32")
     expected = o.frame(1.0).height
@@ -673,6 +675,7 @@ def test_arrays_of_an_unpickled_ocean_are_read_only():
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # Python 3.12 warns of what is tested
+@pytest.mark.process
 def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
     ocean = fo.Ocean(WATER, n=16, size=100.0)
     truth = [ocean.frame(float(t), ("height",)).height for t in range(4)]
@@ -690,6 +693,7 @@ def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
 
 
 @pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.process
 def test_a_thread_that_outlives_the_main_one_goes_on(threads):
     """
     When Python is on its way out, no new work can be handed to a pool: it is done where it is asked
