@@ -454,7 +454,9 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
     """
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
-    with pytest.raises(OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"):
+    with pytest.raises(
+        OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"
+    ):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
     with pytest.raises(
@@ -599,9 +601,7 @@ def test_a_link_in_a_map_folder_s_place_leads_nowhere(tmp_path, outside, name, a
     if name == "jacobian":
         fo.bake(job(), out, overwrite=overwrite)
     else:
-        with pytest.raises(
-            OutputError, match=rf"{name} must be a folder, and is a link"
-        ):
+        with pytest.raises(OutputError, match=rf"{name} must be a folder, and is a link"):
             fo.bake(job(), out, overwrite=overwrite)
         assert not (out / "manifest.json").exists()
     assert tree(outside) == before

@@ -460,7 +460,9 @@ def test_a_tile_of_another_sea_is_found(copy, tmp_path):
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
     (copy / "cascade.json").unlink()
     flip(copy / "cascade-job.json")
-    with pytest.raises(fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"):
+    with pytest.raises(
+        fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"
+    ):
         fo.repair(copy, executor="serial")
 
 

@@ -325,7 +325,9 @@ def test_an_unfinished_bake_is_said_to_be_one(exr, tmp_path):
 @pytest.mark.parametrize("name", ["none", "file"])
 def test_what_is_no_folder_is_an_output_error(tmp_path, name):
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"):
+    with pytest.raises(
+        OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"
+    ):
         check(tmp_path / name)
 
 
