@@ -86,6 +86,7 @@ POINTS = [
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+@pytest.mark.process
 def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
     """
     One run of node over all profiles: at samples, between them, and far outside the tile; and a cut
