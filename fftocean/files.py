@@ -1,7 +1,7 @@
 """
-Files that are complete or absent: written under a temporary name, flushed to the disk, then renamed.
+Files that are complete or absent, and canonical JSON.
 
-All files of the package are written here, and canonical JSON is made here.
+A file is written under a temporary name, flushed to the disk, then renamed.
 """
 
 import contextlib
@@ -84,7 +84,7 @@ def remove_temporary_files(folder: Path) -> None:
 
 def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
     """
-    Return the bytes of a file, or None where there is none: links, folders and devices do not count.
+    Return the bytes of a file; None if there is none, or a link, a folder or a device.
 
     Raises:
         OutputError: the file exists and cannot be read, or is larger than `most` bytes.

@@ -241,12 +241,24 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
     gets in.
     """
     order, folder, _ = whole
-    text = "sea.depth = 5.0\n[sea.wind]\nspeed = 7.0\nfetch = 35e3\ndirection = 25.0\n[ocean]\nn = [12, 7]\nsize = [60, 35]\nseed = 1\n"
-    text += "loop = 16\nchoppiness = 1.3\n[bake]\nframes = 3\nmaps = ['displacement', 'normal', 'jacobian', 'height']\n"
+    text = (
+        "sea.depth = 5.0\n[sea.wind]\nspeed = 7.0\nfetch = 35e3\ndirection = 25.0\n[ocean]\nn "
+        "= [12, 7]\nsize = [60, 35]\nseed = 1\n"
+    )
+    text += (
+        "loop = 16\nchoppiness = 1.3\n[bake]\nframes = 3\nmaps = ['displacement', 'normal', "
+        "'jacobian', 'height']\n"
+    )
     (tmp_path / "job.toml").write_text(text)
     assert fo.Job.read(tmp_path / "job.toml").settings == order.settings
-    program = "import sys; from fftocean import cli; from fftocean.baking.previews import sheets as preview; "
-    program += f"vars(preview).update({SMALL_PICTURE}); sys.exit(cli.main(['bake', 'job.toml', '-o', 'again']))"
+    program = (
+        "import sys; from fftocean import cli; from fftocean.baking.previews import sheets as "
+        "preview; "
+    )
+    program += (
+        f"vars(preview).update({SMALL_PICTURE}); sys.exit(cli.main(['bake', 'job.toml', '-o', "
+        f"'again']))"
+    )
     done = subprocess.run(
         [sys.executable, "-c", program],
         cwd=tmp_path,
@@ -400,7 +412,8 @@ def test_another_job_s_folder_is_refused_and_left_alone(tmp_path):
     before = tree(tmp_path / "out")
     with pytest.raises(
         OutputError,
-        match=r"another job \(ocean\.n: 8 there, 9 here; ocean\.seed: 1 there, 2 here\).*--overwrite",
+        match=r"another job \(ocean\.n: 8 there, 9 here; ocean\.seed: 1 there, 2 "
+        r"here\).*--overwrite",
     ) as caught:
         fo.bake(job(ocean__n=9, ocean__seed=2), tmp_path / "out")
     assert caught.value.exit_code == 4
@@ -453,7 +466,11 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
     """
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
-    with pytest.raises(OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"):
+    with pytest.raises(
+        OutputError,
+        match=rf"contains {name}, named like a file of a bake, but "
+        rf"no job\.json",
+    ):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
     with pytest.raises(
@@ -598,9 +615,7 @@ def test_a_link_in_a_map_folder_s_place_leads_nowhere(tmp_path, outside, name, a
     if name == "jacobian":
         fo.bake(job(), out, overwrite=overwrite)
     else:
-        with pytest.raises(
-            OutputError, match=rf"{name} must be a folder, and is a link"
-        ):
+        with pytest.raises(OutputError, match=rf"{name} must be a folder, and is a link"):
             fo.bake(job(), out, overwrite=overwrite)
         assert not (out / "manifest.json").exists()
     assert tree(outside) == before
@@ -907,8 +922,14 @@ def stopped(tmp_path_factory):
     started = []
     for number in SIGNALS:
         place = tmp_path_factory.mktemp("stopped")
-        program = "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, signal.default_int_handler); "
-        program += "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '100000', '--maps', 'height']))"
+        program = (
+            "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, "
+            "signal.default_int_handler); "
+        )
+        program += (
+            "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '100000', '--maps', "
+            "'height']))"
+        )
         command, pipe = [sys.executable, "-c", program], subprocess.PIPE
         started.append(
             (

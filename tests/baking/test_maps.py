@@ -130,8 +130,11 @@ def test_the_velocity_map_is_how_the_displacement_map_moves(ocean):
         ocean.sea, n=(24, 14), size=(60.0, 35.0), seed=3, choppiness=1.3, dtype="float64"
     )
     fields = ("displace_x", "displace_y", "height")
-    before, after = (np.stack([f[name] * c for name, c in zip(fields, (1.3, 1.3, 1.0), strict=True)], -1)
-                     for f in (twin.frame(1.0 - 1e-3, fields), twin.frame(1.0 + 1e-3, fields)))  # fmt: skip
+    scaled = list(zip(fields, (1.3, 1.3, 1.0), strict=True))
+    before, after = (
+        np.stack([frame[name] * factor for name, factor in scaled], -1)
+        for frame in (twin.frame(1.0 - 1e-3, fields), twin.frame(1.0 + 1e-3, fields))
+    )
     velocity = MAPS["velocity"].channels(ocean.frame(1.0, EVERY))
     assert np.allclose(velocity, (after - before) / 2e-3, atol=1e-5)
 
@@ -197,7 +200,10 @@ def test_by_place_the_maps_are_those_of_a_height_field(ocean, foam):
 
 
 def test_a_map_that_no_height_field_shows_is_refused(tmp_path):
-    reason = "the map 'stretch' cannot be baked with the lookup 'eulerian', as it shows stretch_xx: a height field"
+    reason = (
+        "the map 'stretch' cannot be baked with the lookup 'eulerian', as it shows "
+        "stretch_xx: a height field"
+    )
     with pytest.raises(fo.ParameterError, match=reason):
         maps.needed(["height", "stretch"], eulerian=True)
     job = fo.Job.default().replaced(

@@ -82,7 +82,7 @@ def animation(
 
     At most `FILM_FRAMES` of the frames are drawn, every second or third of them, so that neither
     time nor size grow with the bake. Frames are shown for 20 ms to 2 s, so that a very long loop
-    runs faster than in reality, and a very short one slower. Arguments are those of `contact_sheet`.
+    runs faster than in reality, and a very short one slower. See `contact_sheet` for arguments.
 
     Raises:
         OutputError: this Pillow cannot write WebP.
@@ -115,7 +115,7 @@ def animation(
 
 def tiling(ocean: Sea, frames: int) -> bytes:
     """
-    Draw a PNG of frame 0 from above, two tiles wide and two high; marks in the margin show the seams.
+    Draw a PNG of frame 0 from above, 2 x 2 tiles; marks in the margin show the seams.
 
     Of a cascade the first tile is shown without the others, which do not repeat with it.
     """
