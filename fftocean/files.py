@@ -70,6 +70,15 @@ def digest(data: bytes | memoryview) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 of a file, read in parts; links are followed."""
+    sha256 = hashlib.sha256()
+    with path.open("rb") as file:
+        while part := file.read(2**20):
+            sha256.update(part)
+    return sha256.hexdigest()
+
+
 def remove_temporary_files(folder: Path) -> None:
     """
     Remove the temporary files that a stopped process left in a folder; do nothing through a link.

@@ -53,6 +53,21 @@ STEP = {
     for module in modules
 }
 
+# The floors within packages, lowest first; the parts of one floor do not know each other.
+INNER = {
+    "job": [["parameters"], ["wave_systems"], ["job"]],
+    "baking": [
+        ["folder"],
+        ["scene"],
+        ["finished", "previews", "workers"],
+        ["survey"],
+        ["bake"],
+        ["cascade_setup", "estimate"],
+        ["cascade"],
+        ["repair"],
+    ],
+}
+
 ONLY = {
     "kernels": {"arrays", "errors", "forks"},
     "export": {"arrays", "errors"},
@@ -318,6 +333,42 @@ def test_no_module_waits_for_itself():
         module: imported - PACKAGES for module, imported in GRAPH.items() if module not in PACKAGES
     }
     assert [module for module in bare if module in reach(bare, module)] == []
+
+
+def box(module: str, package: str) -> str | None:
+    """Return the part of a package that a module belongs to: a folder, or the module itself."""
+    inner = module.removeprefix(f"{package}.")
+    return None if inner == module else inner.partition(".")[0]
+
+
+def arrows(graph: dict[str, set[str]], package: str) -> set[tuple[str, str]]:
+    """Return (importer, imported) of the parts of a package that import each other."""
+    found = {
+        (box(importer, package), box(module, package))
+        for importer, modules in graph.items()
+        for module in modules
+    }
+    return {(a, b) for a, b in found if a and b and a != b}
+
+
+def upward(graph: dict[str, set[str]], package: str) -> list[tuple[str, str]]:
+    """Return the arrows of a package that do not lead to a lower floor of `INNER`."""
+    floor = {name: i for i, names in enumerate(INNER[package]) for name in names}
+    return sorted((a, b) for a, b in arrows(graph, package) if not floor[b] < floor[a])
+
+
+@pytest.mark.parametrize("package", INNER)
+def test_imports_within_a_package_point_down(package):
+    parts = {box(module, package) for module in SOURCES} - {None}
+    assert parts == {name for names in INNER[package] for name in names}
+    assert upward(GRAPH, package) == []
+
+
+def test_an_upward_import_within_a_package_is_caught():
+    forged = {**GRAPH, "baking.folder.layout": {"baking.scene.maps"}}
+    assert upward(forged, "baking") == [("folder", "scene")]
+    forged = {**GRAPH, "baking.workers.local": {"baking.finished.load"}}
+    assert upward(forged, "baking") == [("workers", "finished")]
 
 
 def test_names_on_the_stairs_belong_to_the_floor():
@@ -613,3 +664,11 @@ def test_a_roundabout_way_is_followed():
     graph = {"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set()}
     assert reach(graph, "a") == {"a", "b", "c", "d"}
     assert reach(graph, "d") == set()
+
+
+if __name__ == "__main__":
+    for package in INNER:
+        pairs = sorted(arrows(GRAPH, package))
+        print(f"{package}: {len(pairs)} arrows, {len(upward(GRAPH, package))} of them upward")
+        for importer, imported in pairs:
+            print(f"  {importer} -> {imported}")

@@ -1,6 +1,5 @@
 """Job: a sea, a tile of it, and maps to write. Read from TOML, checked key by key, immutable."""
 
-import hashlib
 import json
 import math
 import tomllib
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from fftocean.arrays import shortened
 from fftocean.errors import JobError, ParameterError, ReaderError, described
-from fftocean.files import path_of
+from fftocean.files import digest_of, path_of
 from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.job.wave_systems import measurement, systems_of, unknown_key
 from fftocean.ocean import Ocean
@@ -403,18 +402,13 @@ class Job:
             if "measured" in table:
                 name = table["measured"]["file"]
                 for path in measured_files(folder / name):
-                    digest = hashlib.sha256()
                     try:
-                        with path.open("rb") as file:
-                            while part := file.read(2**20):
-                                digest.update(part)
+                        sha256 = digest_of(path)
                     except OSError as error:
                         raise ReaderError(
                             f"{path.name} cannot be read: {error.strerror or error}"
                         ) from error
-                    found[name if path == folder / name else f"{name} ({path.name})"] = (
-                        digest.hexdigest()
-                    )
+                    found[name if path == folder / name else f"{name} ({path.name})"] = sha256
         return found
 
     @classmethod

@@ -7,9 +7,11 @@ import dataclasses
 import errno
 import functools
 import hashlib
+import inspect
 import io
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -1001,6 +1003,18 @@ def test_json_has_no_nan():
     assert strict(files.as_json({"b": 1, "a": "é", "x": 0.1})) == {"b": 1, "a": "é", "x": 0.1}
 
 
-def test_the_room_can_be_called_and_names_its_pictures_in_order():
-    assert callable(fo.bake)
-    assert struct.calcsize("e") == 2  # what `half` means
+@pytest.mark.parametrize("name", ["bake", "check", "load", "repair"])
+def test_public_functions_of_baking_show_their_signature_and_docstring(name):
+    """Plain functions, whose parameters are all described: `help(fo.bake)` is of use."""
+    function = getattr(fo, name)
+    assert inspect.isfunction(function)
+    assert function.__name__ == name
+    described = function.__doc__.partition("Args:")[2].partition("Returns:")[0]
+    for parameter in inspect.signature(function).parameters:
+        assert re.search(rf"\b{parameter}\b.*:", described), parameter
+    assert "Returns:" in function.__doc__
+    assert "Raises:" in function.__doc__
+
+
+def test_numpy_and_struct_agree_on_a_half():
+    assert struct.calcsize("e") == np.dtype(np.float16).itemsize == 2

@@ -1,8 +1,6 @@
-"""
-What goes into the maps: each channel against the ocean's own fields, by either lookup, and its
-smaller levels.
-"""
+"""Maps: each channel against the ocean's own fields, by either lookup, and their mip levels."""
 
+import dataclasses
 from typing import get_args
 
 import numpy as np
@@ -14,6 +12,7 @@ from fftocean.baking.scene.maps import MAPS
 from fftocean.eulerian import Eulerian
 from fftocean.export.profiles import Kind
 from fftocean.fields import FIELDS
+from fftocean.job import parameters
 
 EVERY = maps.needed(MAPS, mips=True)
 
@@ -218,3 +217,20 @@ def test_unresolved_is_that_of_the_ocean_s_sea(ocean):
     xx, xy, yy = maps.unresolved(ocean)
     assert 0.0 < yy < xx < 0.1  # the wind goes east
     assert abs(xy) < 1e-3 * xx
+
+
+def test_a_map_without_one_of_its_parts_is_refused():
+    """At import: each name of a job has a row, each row a name, and each row all of its parts."""
+    row = MAPS["displacement"]
+    maps.require_registered(MAPS, parameters.MAPS)
+    for table, names, says in (
+        (MAPS, [*parameters.MAPS, "salt"], "differ in salt"),
+        ({**MAPS, "salt": row}, parameters.MAPS, "differ in salt"),
+        ({"a": dataclasses.replace(row, names=row.names[:2])}, "a", "must have 3 channels, got 2"),
+        ({"a": dataclasses.replace(row, names=(), kind="scalar")}, "a", "some channels, got 0"),
+        ({"a": dataclasses.replace(row, kind="salt")}, "a", "no known kind, got 'salt'"),
+        ({"a": dataclasses.replace(row, caption="")}, "a", "must have a caption"),
+        ({"a": dataclasses.replace(row, needs_levels=("slope_x",))}, "a", "no function of them"),
+    ):
+        with pytest.raises(ImportError, match=says):
+            maps.require_registered(table, names)
