@@ -15,7 +15,6 @@ from typing import Any
 
 from fftocean import blend_loss as blend
 from fftocean.baking.bake import require_usable, scene_for
-from fftocean.baking.finished.manifest import plain
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.folder.listing import TileJob
 from fftocean.baking.folder.plan import frames_of
@@ -23,7 +22,7 @@ from fftocean.baking.folder.sealed import sealed
 from fftocean.baking.previews import previews, sheets
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
-from fftocean.cascade import Cascade, Tile, assembled
+from fftocean.cascade import Cascade, Tile, from_oceans
 from fftocean.errors import JobError, SeaWarning
 from fftocean.export import rules
 from fftocean.files import write_whole
@@ -69,7 +68,7 @@ class TileSet:
         oceans = tuple(scene.ocean for scene in scenes)
         sea = oceans[0].sea
         assert sea is not None  # a job has a sea
-        self.cascade: Cascade = assembled(sea, job.settings["ocean.seed"], oceans)
+        self.cascade: Cascade = from_oceans(sea, job.settings["ocean.seed"], oceans)
         self.statistics: Statistics = measure(self.cascade)
 
     def listed(
@@ -102,7 +101,7 @@ class TileSet:
                     "choppiness": cascade.choppiness,
                     "frames": len(self.chosen),
                 },
-                "statistics": plain(self.statistics),  # specified beside realised
+                "statistics": self.statistics.as_plain(),
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
@@ -175,7 +174,7 @@ class TileSet:
             f"{s.ordered.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
         )
         yield "peak period Tp", f"{s.ordered.tp:.2f} s specified, {s.tp:.2f} s realised"
-        yield "energy outside the bands", outside(plain(s))
+        yield "energy outside the bands", outside(s.as_plain())
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

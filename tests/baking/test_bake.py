@@ -66,7 +66,7 @@ def quick(monkeypatch):
 def some_statistics():
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     return dataclasses.replace(
-        still, ordered=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+        still, specified=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     )
 
 
@@ -237,6 +237,7 @@ def test_the_manifest_says_what_was_ordered_and_delivered(whole):
     assert manifest["statistics"]["loop"]["period"] == 16.0
 
 
+@pytest.mark.process
 def test_another_process_writes_the_same_bytes(whole, tmp_path):
     """
     The whole folder, picture and manifest too: no clock, no process number, no order of hashing
@@ -954,6 +955,7 @@ def stopped(tmp_path_factory):
 
 
 @pytest.mark.parametrize("number", SIGNALS, ids=lambda n: n.name)
+@pytest.mark.process
 def test_a_stopped_bake_is_not_a_finished_one(stopped, number):
     """
     Ctrl-C is 130, SIGTERM 143, both without a traceback and with their temporary file removed;

@@ -255,6 +255,7 @@ tiles.bake_tiles(job, [(16, 100.0), (16, 15.0)], folder, executor="serial", list
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs SIGKILL")
+@pytest.mark.process
 def test_killed_anywhere_the_same_command_comes_to_the_same_bytes(tmp_path):
     """Between the tiles, and within the second one; each time it goes on where it was."""
     folder = tmp_path / "sea"

@@ -62,9 +62,9 @@ def quick():
     their own tests.
     """
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    ordered = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+    specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(baker, "measure", lambda _: dataclasses.replace(still, ordered=ordered))
+        patch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
         patch.setattr(preview, "tiling", lambda *_: b"\x89PNG a picture of the sea" * 40)
         yield
 

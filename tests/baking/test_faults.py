@@ -51,8 +51,8 @@ def job(**changes):
 def quick(monkeypatch):
     """No picture, and no integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    ordered = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
-    monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, ordered=ordered))
+    specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+    monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
     monkeypatch.setattr(preview, "tiling", lambda *_: b"picture")
 
 

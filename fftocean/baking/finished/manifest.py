@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +67,7 @@ def compose(
         **plan.header,
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
-        "statistics": plain(statistics),  # specified and realised
+        "statistics": statistics.as_plain(),  # specified and realised
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),
@@ -108,14 +107,6 @@ _LOOKUP = {
     "eulerian": "eulerian: a map is indexed by the place in the world; "
     "what is displaced by it is a height field",
 }
-
-
-def plain(statistics: Statistics) -> dict[str, Any]:
-    """Return statistics as plain data, None for infinity, which JSON does not have."""
-    found = asdict(statistics)
-    if math.isinf(found["folding"]["largest_choppiness"]):
-        found["folding"]["largest_choppiness"] = None
-    return found
 
 
 def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
