@@ -174,7 +174,9 @@ class _Frames:
 
     def _initial_foam(self, t: float) -> Whitecaps:
         """Return the foam at a time [s], accumulated over the few decay times before it."""
-        moments = [self._squeeze(t - i * self.step) for i in reversed(range(self.steps))]
+        moments = [
+            self._smallest_eigenvalue(t - i * self.step) for i in reversed(range(self.steps))
+        ]
         return Whitecaps.before(moments, self.step, self.foam, self.cover)
 
     def _advance(
@@ -184,11 +186,11 @@ class _Frames:
         parts = min(max(1, math.ceil((stop - start) / self.step)), self.steps)
         step = (stop - start) / parts
         for i in range(1, parts):
-            caps.add(self._squeeze(start + i * step), step)
-        caps.add(whitecaps.squeeze(fields), step)
+            caps.add(self._smallest_eigenvalue(start + i * step), step)
+        caps.add(whitecaps.smallest_eigenvalue(fields), step)
 
-    def _squeeze(self, t: float) -> Real:
-        return whitecaps.squeeze(self.ocean.frame(t, SQUEEZE))
+    def _smallest_eigenvalue(self, t: float) -> Real:
+        return whitecaps.smallest_eigenvalue(self.ocean.frame(t, SQUEEZE))
 
 
 def _oceans(ocean: Sea) -> tuple[Ocean, ...]:
