@@ -64,7 +64,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
     "baking": [
         ["folder"],
         ["scene"],
