@@ -1,0 +1,334 @@
+"""
+The one layout in which every measured spectrum comes out, and the door through which its numbers
+pass.
+
+    dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)
+    ef [m2/Hz] freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north,
+    ascending dpt    (time) water depth [m], where known        lon, lat   where known
+    freq_bnds (freq, 2) edges of the bands [Hz], where the file has its own
+
+It is the layout of the wavespectra package, so its accessor works on it (`dataset.efth.spec.hs()`).
+"""
+
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from fftocean.arrays import Integer, Real, RealLike
+from fftocean.errors import ParameterError, ReaderError, SeaWarning, how_to_install
+from fftocean.limits import FREQUENCY
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+LARGEST: Final = 1e6  # [m2/Hz/degree]; a 30 m sea, all in one bin of 0.01 Hz by 1 degree, is 6e3
+# beyond it stand the fill values of netCDF: 9.999e20, 9.969e36, 1e20, also where no attribute says
+# so
+FILL: Final = 1e19
+ROUNDING: Final = 1e-7  # of the largest density: the last bit of float32, in which files are packed
+NEGATIVE: Final = ("refuse", "clip")
+MAX_VALUES: Final = 2**27  # numbers in one dataset: 1 GiB
+
+
+def science() -> Any:
+    """
+    The xarray module, loaded when first needed: its import takes seconds.
+
+    Raises:
+        ReaderError: it is not installed; the message names the extra that brings it.
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise missing(error) from error
+    return xarray
+
+
+def missing(error: ImportError) -> ReaderError:
+    """What to say when an optional package is not there."""
+    hint = how_to_install("science")
+    return ReaderError(
+        f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
+    )
+
+
+def announce(made: "Dataset") -> "Dataset":
+    """
+    Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`.
+    """
+    for key, text in made.attrs.items():
+        if key.endswith("_note"):
+            warnings.warn(str(text), SeaWarning, stacklevel=3)
+    return made
+
+
+def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
+    """
+    Check a frequency axis.
+
+    Returns:
+        The frequencies [Hz], ascending, and the order that sorted them: a descending axis is turned
+        round.
+
+    Raises:
+        ReaderError: fewer than two, not finite, zero or negative, twice the same, or neither
+            ascending nor descending.
+    """
+    f = np.asarray(values, dtype=np.float64).ravel()
+    if f.size < 2:
+        raise ReaderError(f"{where} must hold at least 2 frequencies, got {f.size}")
+    bad = ~((f >= FREQUENCY.low) & (f <= FREQUENCY.high))
+    if np.any(bad):
+        raise ReaderError(f"{where} must be {FREQUENCY.rule}, got {f[bad][0]}")
+    order = np.arange(f.size) if f[-1] > f[0] else np.arange(f.size)[::-1]
+    step = np.diff(f[order])
+    if np.any(step <= 0.0):
+        i = int(np.argmax(step <= 0.0))
+        a, b = f[order][i], f[order][i + 1]
+        raise ReaderError(
+            f"{where} must ascend or descend without repeats [Hz], got {a} "
+            + ("twice" if a == b else f"before {b}")
+        )
+    return f[order], order
+
+
+def above_zero(values: RealLike) -> tuple[npt.NDArray[np.bool_], dict[str, Any]]:
+    """
+    Choose the frequencies that waves can have: analyses by FFT also give one of exactly 0 Hz, the
+    mean level.
+
+    Args:
+        values: a frequency axis [Hz].
+
+    Returns:
+        Where the axis is not 0, shape of `values`; and a note of how many were left out, empty
+        where none.
+    """
+    kept = np.asarray(values, dtype=np.float64).ravel() != 0.0
+    left_out = int(np.count_nonzero(~kept))
+    return kept, {"zero_frequencies_left_out": left_out} if left_out else {}
+
+
+def in_order(seconds: RealLike) -> tuple[Integer, int]:
+    """
+    Sort records by time; of those of one time the first stays.
+
+    Returns:
+        The indices of the records that stay, in order of time, and how many were left out.
+    """
+    times, first = np.unique(np.asarray(seconds), return_index=True)
+    return first, int(np.size(seconds) - times.size)
+
+
+def compare_heights(where: str, m0: Real, stated: Real, rounding: float) -> dict[str, Any]:
+    """
+    Compare significant wave heights with those that the file states.
+
+    Args:
+        where: what to call the file.
+        m0: (time,) variances of what was read [m2].
+        stated: (time,) significant wave heights of the file's own [m]; NaN where there are none.
+        rounding: half a unit of the last decimal of `stated` [m].
+
+    Returns:
+        Notes: the largest difference, and a warning where it is more than 5 % and the rounding.
+    """
+    read = 4.0 * np.sqrt(m0)
+    apart = np.where(np.isfinite(read) & np.isfinite(stated), np.abs(read - stated), 0.0)
+    notes: dict[str, Any] = {"stated_hs_difference": float(np.max(apart, initial=0.0))}
+    wrong = np.flatnonzero(apart > rounding + 0.05 * np.abs(stated))
+    if wrong.size:
+        i = int(wrong[0])
+        notes["height_note"] = (
+            f"{where}: the densities of record {i} have a significant wave height of "
+            f"{read[i]:.4g} m, "
+            f"but the file states {stated[i]:.4g} m ({wrong.size} of {read.size} records differ "
+            "by more than 5 %)"
+        )
+    return notes
+
+
+def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
+    """
+    Check a direction axis, in degrees of any convention.
+
+    Returns:
+        The directions in [0, 360), ascending, and the order that sorted them.
+
+    Raises:
+        ReaderError: fewer than four, not finite, more than one turn, the same direction twice (0
+            and 360 are the same), or all of them within 2 pi degrees: no instrument or model has
+            such a sector, and radians do.
+    """
+    d = np.asarray(values, dtype=np.float64).ravel()
+    if d.size < 4:
+        raise ReaderError(f"{where} must hold at least 4 directions, got {d.size}")
+    bad = ~((d >= -360.0) & (d <= 720.0))
+    if np.any(bad):
+        raise ReaderError(f"{where} must be between -360 and 720 degrees, got {d[bad][0]}")
+    if np.ptp(d) > 360.0:
+        raise ReaderError(f"{where} must span at most one turn, got {d.min()} to {d.max()} degrees")
+    turned = np.mod(np.round(d, 6), 360.0)  # a float32 axis of 0.1 degree steps is good to 3e-5
+    order = np.argsort(turned, kind="stable")
+    same = np.diff(turned[order]) <= 1e-4
+    if np.any(same):
+        raise ReaderError(
+            f"{where} must hold each direction once (0 and 360 degrees are one), "
+            f"got {turned[order][int(np.argmax(same))]} twice"
+        )
+    span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
+    if span <= 2.0 * np.pi + 1e-3:
+        raise ReaderError(
+            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: "
+            "is it in radians?"
+        )
+    return turned[order], order
+
+
+def densities(
+    where: str, values: RealLike, unit: str, *, negative: str = "refuse"
+) -> tuple[Real, dict[str, Any]]:
+    """
+    Check spectral densities: mask what is missing, forgive rounding, refuse the rest.
+
+    Args:
+        where: what to call them in an error.
+        values: any shape, in `unit`; NaN is missing.
+        unit: m2/Hz or m2/Hz/degree.
+        negative: "refuse" negative values beyond rounding, or "clip" them to 0. Of a spectrum with
+            directions (the last axis) the others of the same frequency are then made smaller, so
+            that its energy stays what it was.
+
+    Returns:
+        float64 values >= 0, NaN where masked, same shape; and how many were masked, how many small
+        negatives made 0, and what was clipped.
+
+    Raises:
+        ReaderError: infinite, negative by more than rounding (1e-7 of the largest), or larger than
+            any sea's.
+        ParameterError: `negative` is neither.
+    """
+    if negative not in NEGATIVE:
+        raise ParameterError(f"negative must be one of {', '.join(NEGATIVE)}, got {negative!r:.40}")
+    e: Real = np.array(values, dtype=np.float64)
+    with np.errstate(invalid="ignore"):
+        masked = int(np.count_nonzero(np.isnan(e)))
+        largest = float(np.max(e, initial=0.0, where=~np.isnan(e)))
+        wrong = (e < -max(ROUNDING * largest, 1e-12)) | (e > LARGEST)
+    notes: dict[str, Any] = {}
+    if negative == "clip":
+        e, notes = _clipped(e, wrong & (e < 0.0), turning=unit == "m2/Hz/degree")
+        wrong &= e > LARGEST
+    if np.any(wrong):
+        place = tuple(int(i) for i in np.argwhere(wrong)[0])
+        hint = (
+            ' (Sea.from_spectrum(dataset, negative="clip") takes them as 0)'
+            if e[place] < 0.0
+            else ""
+        )
+        raise ReaderError(
+            f"{where} must be between 0 and {LARGEST:g} {unit}, got {e[place]} at {place}{hint}"
+        )
+    with np.errstate(invalid="ignore"):
+        small = e < 0.0
+    e[small] = 0.0
+    return e, {"masked_values": masked, "rounded_negatives": int(np.count_nonzero(small)), **notes}
+
+
+def _clipped(
+    e: Real, wrong: npt.NDArray[np.bool_], *, turning: bool
+) -> tuple[Real, dict[str, Any]]:
+    """Make negative densities 0; over directions, keep the sum of each frequency."""
+    count = int(np.count_nonzero(wrong))
+    if not count:
+        return e, {}
+    clipped = np.maximum(e, 0.0)  # NaN stays
+    if turning:
+        before = np.nansum(e, axis=-1, keepdims=True)
+        after = np.nansum(clipped, axis=-1, keepdims=True)
+        clipped = clipped * np.where(
+            after > 0.0, np.maximum(before, 0.0) / np.where(after > 0.0, after, 1.0), 1.0
+        )
+    share = float(-np.sum(e[wrong]) / np.nansum(np.abs(e)))
+    kept = ", the energy of each frequency kept" if turning else ""
+    return clipped, {
+        "clipped_negatives": count,
+        "negative_note": (
+            f"{count} negative densities ({100.0 * share:.2g} % of all) were taken as 0{kept}"
+        ),
+    }
+
+
+def dataset(
+    *,
+    source: str,
+    source_format: str,
+    frequency: Real,
+    density: Real,
+    direction: Real | None = None,
+    time: Any = None,
+    depth: Real | None = None,
+    position: Mapping[str, float] | None = None,
+    bands: Real | None = None,
+    notes: Mapping[str, Any] | None = None,
+) -> "Dataset":
+    """
+    Put checked numbers into the layout.
+
+    Args:
+        source: the file's name.
+        source_format: the format it was in, in words.
+        frequency: (f,) ascending [Hz].
+        density: (time, f, d) [m2/Hz/degree], or (time, f) [m2/Hz] without directions; NaN is
+            missing.
+        direction: (d,) ascending, FROM, clockwise from north [degrees].
+        time: (time,) datetime64, where known.
+        depth: (time,) [m], where known.
+        position: `lon`, `lat` [degrees] or `x`, `y` [m], where known.
+        bands: (f, 2) lower and upper edge of each frequency's band [Hz], where the file has them.
+        notes: what else is to be known, as attributes.
+    """
+    xr = science()
+    variables: dict[str, Any] = {}
+    coords: dict[str, Any] = {
+        "freq": ("freq", frequency, {"standard_name": "sea_surface_wave_frequency", "units": "Hz"}),
+    }
+    if time is not None:
+        coords["time"] = (
+            "time",
+            np.asarray(time, dtype="datetime64[ns]"),
+            {"standard_name": "time"},
+        )
+    if direction is None:
+        name = {"standard_name": "sea_surface_wave_variance_spectral_density", "units": "m2 s"}
+        variables["ef"] = (("time", "freq"), density, name)
+    else:
+        name = {
+            "standard_name": "sea_surface_wave_directional_variance_spectral_density",
+            "units": "m2 s degree-1",
+        }
+        variables["efth"] = (("time", "freq", "dir"), density, name)
+        coords["dir"] = (
+            "dir",
+            direction,
+            {"standard_name": "sea_surface_wave_from_direction", "units": "degree"},
+        )
+    if bands is not None:
+        coords["freq"][2]["bounds"] = "freq_bnds"
+        coords["freq_bnds"] = (("freq", "bnds"), bands)
+    if depth is not None:
+        variables["dpt"] = (
+            "time",
+            depth,
+            {"standard_name": "sea_floor_depth_below_sea_surface", "units": "m"},
+        )
+    for key, value in (position or {}).items():
+        unit = {"lon": "degrees_east", "lat": "degrees_north"}.get(key, "m")
+        coords[key] = ((), float(value), {"units": unit})
+    made: Dataset = xr.Dataset(
+        variables, coords, {"source": source, "source_format": source_format, **(notes or {})}
+    )
+    return made
