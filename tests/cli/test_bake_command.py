@@ -106,7 +106,7 @@ def test_a_full_disk_exits_4(run):
     try:
         resource.setrlimit(
             resource.RLIMIT_FSIZE, (5000, limits[1])
-        )  # the job and the journal fit, a picture does not
+        )  # the job and the journal fit, a map does not
         code, out, err = run("bake", "-o", "out", "--n", "64", "--frames", "1", "--maps", "height")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
