@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 
 from fftocean.amplitudes import Draw, Modes, seed_amplitudes
-from fftocean.arrays import precision_of, require_memory
+from fftocean.arrays import precision_of
 from fftocean.cells import WHOLE, Band
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
 from fftocean.ocean import Frame, Ocean, longest_period, memory_needed, named, remade

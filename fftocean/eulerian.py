@@ -22,11 +22,12 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
 from fftocean.fields import EIGHT
 from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate, resample, surface
 from fftocean.ocean import Ocean, memory_needed, named, remade
 

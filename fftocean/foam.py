@@ -77,7 +77,7 @@ class Foam:
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
-        ocean = _water(ocean)
+        ocean, count = _water(ocean), FRAMES.check_whole("count", count)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
@@ -96,6 +96,7 @@ class Foam:
         Return the state at frame `stop` of `count` if the water was clean at frame `first`: (ny,
         nx), float64.
         """
+        _require_looping(ocean)
         state = np.zeros(ocean.grid.shape)
         for _ in self._run(ocean, count, state, first, stop):
             pass
@@ -108,16 +109,15 @@ class Foam:
         Args:
             made: the `response` of each span of `spans_of(count)`, in order.
         """
-        assert ocean.loop is not None  # else there were no responses
+        loop = _require_looping(ocean)
         kept = [
-            math.exp(-(stop - first) * ocean.loop / count / self.tau)
-            for first, stop in spans_of(count)
+            math.exp(-(stop - first) * loop / count / self.tau) for first, stop in spans_of(count)
         ]
         turn = np.zeros(ocean.grid.shape)
         for decay, new in zip(kept, made, strict=True):
             turn = decay * turn + new
         states = np.empty((len(made), *ocean.grid.shape))
-        states[0] = turn / -math.expm1(-ocean.loop / self.tau)
+        states[0] = turn / -math.expm1(-loop / self.tau)
         for i in range(1, len(made)):
             states[i] = kept[i - 1] * states[i - 1] + made[i - 1]
         return states
@@ -140,13 +140,10 @@ class Foam:
         self, ocean: Ocean | Window, count: int, state: Real, first: int, last: int
     ) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
-        if ocean.loop is None:
-            raise ParameterError(
-                "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without"
-            )
+        loop = _require_looping(ocean)
         count = FRAMES.check_whole("count", count)
-        parts = max(1, math.ceil(ocean.loop / count / longest_step(ocean)))
-        stepper = _Stepper(self, ocean.loop / (count * parts))
+        parts = max(1, math.ceil(loop / count / longest_step(ocean)))
+        stepper = _Stepper(self, loop / (count * parts))
         watch = _Watch(ocean)
         window = (
             [watch.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)]
@@ -251,6 +248,22 @@ def _water(source: Any) -> Ocean | Window:
     if not isinstance(source, (Ocean, Window)):
         raise ParameterError(f"foam needs an Ocean, a Cascade or a Window, got {source!r:.80}")
     return source
+
+
+def _require_looping(source: Any) -> float:
+    """
+    Return the period [s] of the water that a state of foam belongs to.
+
+    Raises:
+        ParameterError: it is no water with samples of its own, or does not loop.
+    """
+    if not isinstance(source, (Ocean, Window)):
+        raise ParameterError(f"a state of foam needs an Ocean or a Window, got {source!r:.80}")
+    if source.loop is None:
+        raise ParameterError(
+            "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without"
+        )
+    return source.loop
 
 
 def longest_step(ocean: Ocean | Window) -> float:

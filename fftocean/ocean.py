@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
-from fftocean.arrays import Real, RealLike, precision_of, require_memory
+from fftocean.arrays import Real, RealLike, precision_of
 from fftocean.cells import WHOLE, Band
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, potential_factor
 from fftocean.forks import no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.kernels import passes
 from fftocean.limits import AHEAD, BAND_EDGE, BAND_START, CHOPPINESS, LOOP, MOMENTS, THREADS, TIME
 from fftocean.physics import dispersion

@@ -12,12 +12,13 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.frame import Frame
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate, surface
 from fftocean.limits import FRAMES, Quantity
 from fftocean.ocean import Ocean, memory_needed, named, remade

@@ -423,7 +423,7 @@ def test_waves_that_would_overflow_are_refused():
 
 
 def test_too_much_memory_is_refused_before_it_is_taken(monkeypatch):
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
     with pytest.raises(
         fo.ParameterError,
         match=r"n = 65536 x 65536 needs about \d+\.\d GiB of memory, but only 1.0 GiB",

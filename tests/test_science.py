@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean import arrays, science
+from fftocean import host, science
 from fftocean.errors import OutputError, ParameterError, SeaWarning
 from fftocean.fields import FIELDS
 from fftocean.statistics import ordered
@@ -168,8 +168,8 @@ def test_memory_is_refused_before_anything_is_computed(monkeypatch):
     science.to_xarray(o, range(5))
     ((what, needed),) = asked
     assert what == "5 times of 16 x 12 samples of height"
-    monkeypatch.setattr(science, "require_memory", arrays.require_memory)
-    monkeypatch.setattr(arrays, "available_memory", lambda: 0.999 * needed)
+    monkeypatch.setattr(science, "require_memory", host.require_memory)
+    monkeypatch.setattr(host, "available_memory", lambda: 0.999 * needed)
     with monkeypatch.context() as patch:
         patch.setattr(fo.Ocean, "frame", lambda *_, **__: pytest.fail("computed"))
         with pytest.raises(
@@ -184,7 +184,7 @@ def test_memory_is_refused_before_anything_is_computed(monkeypatch):
                 o, freq=np.linspace(0.01, 2.0, 1000), dir=np.arange(0.0, 360.0, 0.5)
             )
     data = science.to_xarray(o, range(4))
-    monkeypatch.setattr(arrays, "available_memory", lambda: 10.0)
+    monkeypatch.setattr(host, "available_memory", lambda: 10.0)
     with pytest.raises(ParameterError, match=r"encoding x.nc needs about"):
         science.write(data, "x.nc")
 
@@ -452,7 +452,7 @@ def test_a_full_disk_leaves_what_was_there(suffix, tmp_path):
 import resource, sys
 from pathlib import Path
 import numpy as np, xarray as xr
-from fftocean import science
+from fftocean import host, science
 from fftocean.errors import OutputError
 first, second = (xr.Dataset({{"height": (("time", "y", "x"), np.full((2, 32, 32), z))}}, {{"time": [0.0, 1.0]}}) for z in (1.0, 2.0))
 place = Path({str(tmp_path / ("a" + suffix))!r})

@@ -15,7 +15,6 @@ from typing import Any
 
 from fftocean import blend_loss as blend
 from fftocean import foam
-from fftocean.arrays import available_memory
 from fftocean.baking.finished.containers import assemble, intact, unpack
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import compose, read_manifest
@@ -43,7 +42,7 @@ from fftocean.errors import IntegrityError, JobError, OutputError, ParameterErro
 from fftocean.export import engines, formats
 from fftocean.export.profiles import Profile
 from fftocean.files import as_json, make_folder, path_of, sweep, write_whole
-from fftocean.host import cores
+from fftocean.host import available_memory, cores
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure

@@ -7,6 +7,7 @@ from fftocean.cli.console import note, size_in_words
 
 if TYPE_CHECKING:
     from fftocean.baking.estimate import Estimate
+    from fftocean.job.job import Job
 
 _MUCH = 0.02
 """Share of the energy from which a note says that the tile cannot hold it."""
@@ -46,6 +47,14 @@ def note_folds(extremes: Mapping[str, Any]) -> None:
     if extremes.get("folded", 0.0) > 0.0:
         values = (extremes[name] for name in ("folded", "min_jacobian", "largest_choppiness"))
         note(folding_sentence(*values))
+
+
+def print_import_settings(job: "Job") -> None:
+    """Print how the job's engine imports files of its format, if it names an engine."""
+    from fftocean.export.engines import profile_for
+
+    if job.engine != "canonical":
+        print(f"{job.format} in {job.engine}: {profile_for(job.engine, job.format).note}")
 
 
 def blending(blend: Mapping[str, Any]) -> str:

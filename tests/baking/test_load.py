@@ -232,6 +232,6 @@ def test_an_unfinished_or_changed_bake_is_refused(tmp_path):
 
 def test_more_than_there_is_memory_for_is_refused(tmp_path, monkeypatch):
     fo.bake(job(bake__maps=["height"]), tmp_path)
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 1000.0)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 1000.0)
     with pytest.raises(fo.ParameterError, match="GiB"):
         load(tmp_path)

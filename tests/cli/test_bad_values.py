@@ -136,7 +136,7 @@ def test_every_command_refuses_the_same_values(run, command):
 
 @pytest.mark.parametrize("command", ["bake", "info", "verify", "plot"])
 def test_more_samples_than_memory_are_refused_before_they_are_allocated(run, command, monkeypatch):
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
     start = time.process_time()
     assert "n = 65536 x 65536 needs about " in refusal(run(command, "--n", "65536"))
     assert "between 1 and 65536, got 1000000000" in refusal(run(command, "--n", "1000000000"))

@@ -320,3 +320,27 @@ def test_the_last_json_event_of_a_stopped_bake_is_an_error(run, stop, code, word
     assert left == code
     assert events(out)[-1] == {"event": "error", "message": word, "exit_code": code}
     assert "2 of 2 frames are finished; run the same command again to resume" in err
+
+
+@pytest.mark.parametrize(
+    ("engine", "format_name", "words"),
+    [
+        ("unity", "exr-float", "exr-float in unity: choose the texture format RGBA Float"),
+        ("babylon", "exr", "exr in babylon: by Texture, whose invertY is true"),
+        ("canonical", "exr", None),
+    ],
+)
+def test_import_settings_of_the_engine_are_printed(run, engine, format_name, words):
+    """The summaries of a tile, of a cascade and of a dry run have them."""
+    flags = ("--engine", engine, "--format", format_name, "--maps", "displacement")
+    for more in (
+        ("--n", "8", "--dry-run"),
+        ("--n", "8"),
+        ("--tiles", "8:60,8:20", "--dry-run"),
+        ("--tiles", "8:60,8:20", "--overwrite"),
+    ):
+        work = ("--frames", "2", "--executor", "serial", *more)
+        code, out, _ = run("bake", "-o", f"out{len(more)}", *flags, *work)
+        assert code == 0
+        found = [line for line in out.splitlines() if f" in {engine}: " in line]
+        assert found == ([words] if words else [])

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, require_memory, shortened
+from fftocean.arrays import Real, RealLike, shortened
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
 from fftocean.files import digest, path_of, read_whole
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate
 
 
