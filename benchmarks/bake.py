@@ -31,7 +31,7 @@ from fftocean import host, kernels
 from fftocean.bench.pictures import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
-from fftocean.plots import BLUE
+from fftocean.plots.theme import BLUE
 
 ASKS = "How fast is a bake, and where does its time go?"
 Function = tuple[str, int, str]  # file, line, name: as the profiler has it

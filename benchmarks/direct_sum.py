@@ -26,7 +26,7 @@ from fftocean.bench.pictures import COLOURS, Line, curves, plain, sheet
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Entry, Pair, Reading, Result, race
 from fftocean.fields import EIGHT
-from fftocean.plots import BLUE, FAINT
+from fftocean.plots.theme import BLUE, FAINT
 
 ASKS = "From which n on is the FFT faster than the direct sum, and by which laws do the two grow?"
 FFT, SUM = "FFT", "direct sum"

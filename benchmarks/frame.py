@@ -32,7 +32,7 @@ from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT
 from fftocean.host import available_memory
-from fftocean.plots import BLUE
+from fftocean.plots.theme import BLUE
 
 ASKS = "What does a frame cost, and against what?"
 # that the largest race holds: the textbook's filters and intermediate fields, and the floors'

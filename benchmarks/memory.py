@@ -22,7 +22,7 @@ from fftocean.bench.pictures import bars, plain, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
 from fftocean.errors import ParameterError
-from fftocean.plots import BLUE
+from fftocean.plots.theme import BLUE
 
 ASKS = "How much memory do full frames take?"
 CHILD = """

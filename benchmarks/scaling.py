@@ -20,7 +20,7 @@ from fftocean.bench.fits import power_law
 from fftocean.bench.pictures import Line, curves, sheet
 from fftocean.bench.quick import ocean
 from fftocean.bench.results import Entry, Reading, Result, race
-from fftocean.plots import BLUE, VERMILION
+from fftocean.plots.theme import BLUE, VERMILION
 
 ASKS = "How does a full frame scale with n, and what do odd and prime sizes cost?"
 KINDS = {

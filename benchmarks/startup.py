@@ -23,7 +23,7 @@ from fftocean.bench.contenders import FULL
 from fftocean.bench.pictures import bars, duration, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
-from fftocean.plots import BLUE
+from fftocean.plots.theme import BLUE
 
 ASKS = "How long until the first frame?"
 FIRST = f"""

@@ -440,6 +440,7 @@ def test_only_a_dataset_is_written(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".zarr"])
+@pytest.mark.process
 def test_a_full_disk_leaves_what_was_there(suffix, tmp_path):
     """
     A limit on the size of files stands in for a full disk, at every scale from the first byte to

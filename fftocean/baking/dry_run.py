@@ -6,7 +6,8 @@ from pathlib import Path
 from fftocean.baking.bake import scene_for
 from fftocean.baking.cascade import estimate_tiles
 from fftocean.baking.estimate import Estimate, estimate
-from fftocean.baking.folder.identity import header_of, require_possible
+from fftocean.baking.folder.identity import header_of
+from fftocean.baking.folder.ownership import require_possible
 from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile

@@ -16,10 +16,10 @@ from fftocean import plots
 from fftocean.arrays import RealLike
 from fftocean.bench import machine
 from fftocean.bench.results import Result
-from fftocean.plots import BLUE as BLUE
-from fftocean.plots import DPI, INK, SYSTEMS, VERMILION
-from fftocean.plots import FAINT as FAINT
 from fftocean.plots import SUFFIXES as SUFFIXES
+from fftocean.plots.theme import BLUE as BLUE
+from fftocean.plots.theme import DPI, INK, SYSTEMS, VERMILION
+from fftocean.plots.theme import FAINT as FAINT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

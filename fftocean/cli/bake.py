@@ -97,7 +97,7 @@ def _dry_run(options: argparse.Namespace, job: "Job", subset: str | None) -> Non
     print(f"time: about {cost.seconds:.0f} s here, by {by}")
     print(f"memory: {notes.memory(cost)}")
     print(f"video memory of the maps in an engine: {notes.video_memory(cost)}")
-    notes.print_import_settings(job)
+    notes.print_loading(job)
 
 
 def _work(options: argparse.Namespace, subset: str | None) -> dict[str, Any]:
@@ -174,7 +174,7 @@ def _bake_tile(
             raise
     if not silent:
         _summarise(options.output, manifest, time.perf_counter() - start, follower.kept)
-        notes.print_import_settings(job)
+        notes.print_loading(job)
 
 
 def _summarise(folder: Path, manifest: Mapping[str, Any], seconds: float, kept: int) -> None:
@@ -243,7 +243,7 @@ def _bake_cascade(
     print(notes.blending(listed["blend"]))
     if "preview" in listed:
         print(f"preview: {plain(options.output / listed['preview']['path'])}")
-    notes.print_import_settings(job)
+    notes.print_loading(job)
     print(f"rules for adding the tiles: {plain(options.output / CASCADE_FILE)}")
 
 

@@ -154,11 +154,11 @@ def _describe_cascade(options: argparse.Namespace, job: "Job") -> int:
     """Print what a job means as a cascade."""
     from rich.text import Text
 
-    from fftocean.baking.cascade import water_estimate
+    from fftocean.baking.cascade import estimate_prepared
     from fftocean.baking.cascade_setup import prepare
 
     water = prepare(job, options.tiles)
-    cost = water_estimate(water)
+    cost = estimate_prepared(water)
     table = key_value_table(f"Cascade: {plain(job.source)}")
     for name, text in (
         *water.rows(),

@@ -49,8 +49,8 @@ def note_folds(extremes: Mapping[str, Any]) -> None:
         note(folding_sentence(*values))
 
 
-def print_import_settings(job: "Job") -> None:
-    """Print how the job's engine imports files of its format, if it names an engine."""
+def print_loading(job: "Job") -> None:
+    """Print how files of the format are loaded into the engine, if the job names one."""
     from fftocean.export.engines import profile_for
 
     if job.engine != "canonical":

@@ -441,7 +441,7 @@ def _tabulated(function: Function, omega: Real, peak: float, breaks: tuple[float
         * 2.0
         / _DEGREE
     )
-    out = np.empty_like(u)
+    out: Real = np.empty(u.shape)
     pending = np.arange(u.size)
     for halvings in range(_HALVINGS):
         width = _WIDEST * 0.5**halvings  # a power of 2: panels of all levels have exact ends

@@ -312,7 +312,7 @@ def test_a_pond_is_not_a_storm():
         sea = fo.Ocean(
             fo.Sea.from_wind(speed=wind, fetch=fetch), n=64, size=size, seed=1, loop=32.0
         )
-        moments = preview._Moments(sea, 8, fo.Foam(), whitecaps.whitecap_cover(wind))
+        moments = preview._Frames(sea, 8, fo.Foam(), whitecaps.whitecap_cover(wind))
         views[wind] = render.perspective(next(moments.waters([0])), 160, 60)
     horizon = 18
     above = {wind: view[: horizon - 1, :90].std(axis=1).max() for wind, view in views.items()}

@@ -106,7 +106,7 @@ def test_a_full_disk_exits_4(run):
     try:
         resource.setrlimit(
             resource.RLIMIT_FSIZE, (5000, limits[1])
-        )  # the job and the journal fit, a map does not
+        )  # the job and the journal fit, a picture does not
         code, out, err = run("bake", "-o", "out", "--n", "64", "--frames", "1", "--maps", "height")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
@@ -323,24 +323,25 @@ def test_the_last_json_event_of_a_stopped_bake_is_an_error(run, stop, code, word
 
 
 @pytest.mark.parametrize(
-    ("engine", "format_name", "words"),
+    ("engine", "form", "words"),
     [
         ("unity", "exr-float", "exr-float in unity: choose the texture format RGBA Float"),
         ("babylon", "exr", "exr in babylon: by Texture, whose invertY is true"),
         ("canonical", "exr", None),
     ],
 )
-def test_import_settings_of_the_engine_are_printed(run, engine, format_name, words):
-    """The summaries of a tile, of a cascade and of a dry run have them."""
-    flags = ("--engine", engine, "--format", format_name, "--maps", "displacement")
-    for more in (
-        ("--n", "8", "--dry-run"),
-        ("--n", "8"),
-        ("--tiles", "8:60,8:20", "--dry-run"),
-        ("--tiles", "8:60,8:20", "--overwrite"),
+def test_a_bake_says_how_its_files_are_loaded_into_the_engine(run, engine, form, words):
+    """The summaries of a tile, of a cascade and of a dry run have the same line."""
+    flags = ["--engine", engine, "--format", form, "--maps", "displacement", "--frames", "2"]
+    for number, more in enumerate(
+        (
+            ["--n", "8", "--dry-run"],
+            ["--n", "8"],
+            ["--tiles", "8:60,8:20", "--dry-run"],
+            ["--tiles", "8:60,8:20"],
+        )
     ):
-        work = ("--frames", "2", "--executor", "serial", *more)
-        code, out, _ = run("bake", "-o", f"out{len(more)}", *flags, *work)
+        code, out, _ = run("bake", "-o", f"out{number}", *flags, "--executor", "serial", *more)
         assert code == 0
         found = [line for line in out.splitlines() if f" in {engine}: " in line]
         assert found == ([words] if words else [])
