@@ -348,7 +348,8 @@ def test_broken_foam_covers_as_much_of_the_water_as_it_should():
 def test_the_threshold_is_found_for_a_cover(cover):
     sea = ocean(ocean__n=64)
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT)) for i in reversed(range(40))
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(40))
     ]
     caps = whitecaps.Whitecaps.before(moments, 0.25, fo.Foam(), cover)
     assert np.mean(caps.coverage) == pytest.approx(cover, rel=0.05)  # all points were looked at
@@ -360,7 +361,8 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     foam = fo.Foam(threshold=0.8)
     truth = next(iter(foam.loop(sea, 64)))
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT)) for i in reversed(range(64))
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(64))
     ]
     shown = whitecaps.Whitecaps.before(moments, 0.25, foam).coverage
     assert np.mean(truth) > 0.01
