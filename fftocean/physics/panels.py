@@ -7,6 +7,7 @@ by halves toward each of them, toward the peak and toward the system's own direc
 values change there, and are bisected until eight Gauss points resolve each of them.
 """
 
+import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -116,7 +117,7 @@ def frequency_panels(system: "WaveSystem") -> Panels:
         [
             edges,
             *(
-                _graded(sampled, f, f, np.max(sampled(np.array(features)), axis=1))
+                _graded(sampled, f, (f, f), np.max(sampled(np.array(features)), axis=1))
                 for f in features
             ),
         ]
@@ -157,7 +158,15 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
         np.concatenate([[-0.5 * np.pi, 0.0, 0.5 * np.pi], breaks[np.abs(breaks) < np.pi]])
     )
     top = np.max(sampled(np.concatenate([features, quarters])), axis=1)
-    graded = [_graded(sampled, f, 0.25 * np.pi, top) for f in features]
+    # up to the next feature on each side: a table names many
+    gaps = np.minimum(
+        np.diff(features, prepend=features[-1] - 2.0 * np.pi, append=features[0] + 2.0 * np.pi),
+        0.25 * np.pi,
+    )
+    graded = [
+        _graded(sampled, f, reach, top)
+        for f, reach in zip(features, itertools.pairwise(gaps), strict=True)
+    ]
     edges = np.concatenate([quarters, features, *graded])
     edges = _bisected(sampled, _apart(edges[np.abs(edges) <= np.pi], 1e-12))
     jumps = _jumps(sampled, features, np.full(features.size, 1e-9))
@@ -173,14 +182,15 @@ def _apart(edges: Iterable[float], least: float) -> Real:
     return kept
 
 
-def _graded(sampled: Sampled, feature: float, reach: float, top: Real) -> Real:
+def _graded(sampled: Sampled, feature: float, reach: tuple[float, float], top: Real) -> Real:
     """
-    Edges at `reach` halved on both sides of a feature, down to where the values no longer change.
+    Edges at `reach` (before, after) halved on both sides of a feature, down to where the values no
+    longer change.
     """
-    steps = reach * 0.5 ** np.arange(1, _HALVINGS + 1)
     found = []
     scale = np.where(top > 0.0, top, 1.0)[:, None]
-    for side in (-1.0, 1.0):
+    for side, most in zip((-1.0, 1.0), reach, strict=True):
+        steps = most * 0.5 ** np.arange(1, _HALVINGS + 1)
         values = sampled(feature + side * np.append(steps, 0.25 * steps[-1]))
         changed = np.any(
             np.abs(values[:, :-1] - values[:, -1:]) > _CHANGE * np.maximum(scale, values[:, -1:]),

@@ -175,7 +175,9 @@ def test_the_sea_has_the_height_and_direction_that_the_oracle_reports(name):
         assert made.factor == pytest.approx(1.0, abs=0.01)
 
 
-TEXTS = sorted(p.name for p in DATA.iterdir() if p.is_file() and p.suffix not in (".md", ".nc", ".gz"))
+TEXTS = sorted(
+    p.name for p in DATA.iterdir() if p.is_file() and p.suffix not in (".md", ".nc", ".gz")
+)
 
 
 @pytest.mark.parametrize("packed", [False, True])
