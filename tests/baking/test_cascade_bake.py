@@ -544,6 +544,7 @@ def test_info_of_tiles(capsys):
         "m specified",
         "realised by all tiles",
         "energy outside",
+        "choppiness up to",
         "files",
     ):
         assert line in out

@@ -135,7 +135,10 @@ def test_what_cannot_be_a_spreading_is_refused(changes, message):
 
 
 def test_a_smooth_table_of_many_directions_takes_few_panels():
-    """At most four a direction: panels narrow toward a direction of the table no farther out than to the next one."""
+    """
+    At most four a direction: panels narrow toward a direction of the table no farther out than to
+    the next one.
+    """
     angles = np.arange(0.0, 360.0, 5.0)
     bell = np.cos(np.radians(angles - 7.0) / 2.0) ** 8
     table = TabulatedSpreading(
