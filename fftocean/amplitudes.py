@@ -71,7 +71,7 @@ class Amplitudes:
         self.freeze()
 
     def freeze(self) -> None:
-        """Forbid changes of the arrays; once more after they were unpickled, which forgets it."""
+        """Make the arrays read-only; needed again after unpickling, which drops the flag."""
         for array in (
             self.forward,
             self.backward,
@@ -85,7 +85,8 @@ class Amplitudes:
     @property
     def squares(self) -> Real:
         """
-        |forward|^2 + |backward|^2: half the a^2/2 of an entry's two waves, +k and -k together, (ny, nx // 2 + 1) [m^2].
+        The sum |forward|^2 + |backward|^2 [m^2], (ny, nx // 2 + 1): half the a^2/2 of an entry's
+        two waves, +k and -k together.
         """
         total: Real = np.abs(self.forward) ** 2 + np.abs(self.backward) ** 2
         return total
@@ -93,19 +94,18 @@ class Amplitudes:
     @property
     def omega(self) -> Real:
         """
-        The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked
-        for.
+        The frequencies of the dispersion relation, before any loop [rad/s]; computed on demand.
         """
         return dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)
 
     @property
     def running_omega(self) -> Real:
-        """The frequencies at which the waves do run: omega, or 2 pi cycles / loop  [rad/s]."""
+        """The frequencies of the waves as they run: omega, or 2 pi cycles / loop  [rad/s]."""
         return self.omega if self.cycles is None else self.cycles * (2.0 * np.pi / self.loop)  # type: ignore[operator]
 
     @property
     def variance(self) -> float:
-        """m0 that the tile holds on average over seeds: the sum of E_k [m^2]."""
+        """m0 of the tile, averaged over seeds: the sum of E_k [m^2]."""
         half = float(np.sum(self.variance_forward))
         return half + float(
             np.sum(self.variance_backward[:, 1:])
@@ -219,8 +219,8 @@ def place_modes(
     loop: float | None = None,
 ) -> Amplitudes:
     """
-    Build a sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x - omega
-    t - phase).
+    Return the sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x -
+    omega t - phase).
 
     Waves on the same (mx, my) add up.
 

@@ -46,7 +46,8 @@ def philox(
 
 def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
     """
-    Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1).
+    Return two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in
+    [0, 1).
     """
     mx, my = np.broadcast_arrays(mx, my)
     first, second = np.empty(mx.shape), np.empty(mx.shape)

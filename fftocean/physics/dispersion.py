@@ -24,13 +24,13 @@ FREQUENCY = Quantity("rad/s", 0.0, LARGEST)
 
 
 def _water(depth: float, surface_tension: float) -> float:
-    """Check the water itself; return its kinematic surface tension sigma/rho [m^3/s^2]."""
+    """Return the kinematic surface tension sigma/rho [m^3/s^2] of checked water."""
     DEPTH.check("depth", depth)
     return SURFACE_TENSION.check("surface_tension", surface_tension) / WATER_DENSITY
 
 
 def _times_depth(k: Real, depth: float) -> Real:
-    """k h, with 0 h = 0 also in infinitely deep water."""
+    """Return k h, with 0 h = 0 also in infinitely deep water."""
     if math.isinf(depth):
         return np.where(k > 0.0, np.inf, 0.0)
     with np.errstate(over="ignore"):  # inf is as deep as it gets
@@ -38,7 +38,7 @@ def _times_depth(k: Real, depth: float) -> Real:
 
 
 def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
-    """omega(k), unchecked."""
+    """Return omega(k), unchecked."""
     omega: Real = np.sqrt(
         (GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth))
     )
@@ -46,7 +46,7 @@ def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
 
 
 def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
-    """(d omega/dk) / (omega/k), unchecked."""
+    """Return (d omega/dk) / (omega/k), unchecked."""
     s = kinematic_tension * k**2
     x2 = 2.0 * np.minimum(
         _times_depth(k, depth), 350.0
@@ -61,7 +61,7 @@ def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
 def turns_per_second(omega: Real) -> Real:
     """
     Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest
-    double, not the next.
+    double.
     """
     turns: Real = (
         omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
@@ -184,8 +184,8 @@ _NEWTON_STEPS = 6
 
 def loop_cycles(omega: RealLike, period: float) -> Integer:
     """
-    Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2
-    pi)).
+    Return the number of whole cycles of each wave in a loop of `period` [s]: max(1, round(omega T /
+    2 pi)).
 
     A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T,
     except for the slowest waves, which are sped up to one turn a loop rather than frozen.

@@ -15,9 +15,7 @@ from fftocean.limits import (
 
 @dataclass(frozen=True, slots=True)
 class CustomSpectrum:
-    """
-    Any function of omega, named by its peak. It must return finite values >= 0 of the same shape.
-    """
+    """Any function of omega, with its peak. It must return finite values >= 0 of the same shape."""
 
     function: Callable[[Real], RealLike]  # S(omega) [m^2 s/rad]
     peak: float  # omega_p [rad/s]
@@ -30,7 +28,9 @@ class CustomSpectrum:
         keep_checked(self, peak=PEAK)
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not asked."""
+        """
+        Return S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not called.
+        """
         omega = np.asarray(omega, dtype=np.float64)
         asked = np.where(omega > 0.0, omega, self.peak)
         try:

@@ -65,7 +65,7 @@ class TabulatedSpectrum:
         return tuple(self._omega.tolist())
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return np.interp(
             np.asarray(omega, dtype=np.float64), self._omega, self._s, left=0.0, right=0.0
         )

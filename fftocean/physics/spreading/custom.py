@@ -43,7 +43,7 @@ class CustomSpreading:
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         omega = held(omega, peak)
         frequency, angle = (
             np.array(a, order="C") for a in np.broadcast_arrays(omega, wrapped(theta))
@@ -54,7 +54,7 @@ class CustomSpreading:
         return density
 
     def _checked(self, omega: Real, theta: Real, peak: float) -> Real:
-        """The function, or the reason why it will not do."""
+        """Return the values of the function, or raise if they cannot be a spreading."""
         values = np.asarray(self.function(omega, theta, peak))
         if values.dtype.kind not in "iuf":
             raise ParameterError(
