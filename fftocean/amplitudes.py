@@ -1,4 +1,4 @@
-"""h0(k): the variance of each wavenumber cell times chance, frozen."""
+"""Random amplitudes h0(k) of a tile, from the variance of each wavenumber cell."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -142,11 +142,11 @@ def seed_amplitudes(
     Args:
         sea: the sea to realise.
         grid: the tile.
-        seed: which of all the seas that it could be.
+        seed: random seed; each seed is another realisation of the sea.
         loop: period after which the tile repeats [s].
-        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from draw to
-            draw; "fixed" for random phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over
-            the waves is the same in every draw.
+        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from seed to
+            seed; "fixed" for random phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over
+            the waves is the same for every seed.
         band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever
             the band; one whose cell is cut by an edge keeps its phase, and carries the energy of
             its part (see `share_below`).
@@ -184,12 +184,12 @@ def seed_amplitudes(
             if band != WHOLE:
                 low, high = (cells.share_below(edge, mx, my) for edge in band)
                 variance *= np.maximum(high - low, 0.0)
-            chance = (
+            random = (
                 noise.complex_normals(seed, mx, my)
                 if draw == "gaussian"
                 else np.sqrt(2.0) * noise.unit_phasors(seed, mx, my)
             )
-            h0 = 0.5 * np.sqrt(variance) * chance
+            h0 = 0.5 * np.sqrt(variance) * random
             if sx > 0:
                 variance_forward[my, mx], forward[my, mx] = variance, h0
             else:
@@ -246,7 +246,8 @@ def place_modes(
             and abs(my) <= reach_y
         ):
             raise ParameterError(
-                f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, not both 0, got ({mx}, {my})"
+                f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, "
+                f"not both 0, got ({mx}, {my})"
             )
         mx, my = int(mx), int(my)
         h0 = 0.5 * LENGTH.check("amplitude", amplitude) * np.exp(-1j * ANGLE.check("phase", phase))

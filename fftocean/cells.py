@@ -100,7 +100,8 @@ class Cells:
                 total[:, block] += part.share * self._variances_of(part, ax[block], ay[block])
         if not np.all((total >= 0.0) & (total < np.inf)):
             raise ParameterError(
-                "the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not"
+                "the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, "
+                f"got {total[~((total >= 0.0) & (total < np.inf))][0]} m^2 in a cell"
             )
         return total
 
@@ -165,8 +166,9 @@ class Cells:
             [a for edge in band if 0.0 < edge < math.inf for a in _crossings(half_x, half_y, edge)]
         )
         # k = half_x / cos(theta) turns fast beside the axes of a long rectangle
-        near = np.concatenate([a + s * np.array([-1.0, 1.0])[:, None] * (2.0 ** np.arange(-2.0, 40.0)) for a, s in
-                               ((0.0, corner), (0.5 * np.pi, 0.5 * np.pi - corner))], axis=None)  # fmt: skip
+        both_sides = np.array([-1.0, 1.0])[:, None] * 2.0 ** np.arange(-2.0, 40.0)
+        axes = ((0.0, corner), (0.5 * np.pi, 0.5 * np.pi - corner))
+        near = np.concatenate([axis + angle * both_sides for axis, angle in axes], axis=None)
         near = near[(np.abs(near) < 0.5 * np.pi) | (np.abs(near - 0.5 * np.pi) < 0.5 * np.pi)]
         edges = np.remainder(
             np.concatenate([corners, corners + np.pi, circles, near, near + np.pi]), 2.0 * np.pi
@@ -204,8 +206,9 @@ class Cells:
         for part in self.parts:
             if abs(part.unity - 1.0) > TOLERANCE:
                 raise ParameterError(
-                    f"the spreading must integrate to 1 round the circle, within {TOLERANCE:g}, got {part.unity:.6g} for "
-                    f"{part.system.spreading!r:.60}: name narrow features and jumps in its `breaks`, or wrap it in CustomSpreading"
+                    f"the spreading must integrate to 1 round the circle, within {TOLERANCE:g}, "
+                    f"got {part.unity:.6g} for {part.system.spreading!r:.60}: name narrow features "
+                    "and jumps in its `breaks`, or wrap it in CustomSpreading"
                 )
         reach_x, reach_y = grid.reach
         within = self.inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
@@ -213,9 +216,10 @@ class Cells:
         scale = sum(part.share * part.mainly for part in self.parts)
         if not abs(held - within) <= TOLERANCE * scale:
             raise ParameterError(
-                f"the waves of a tile must hold the sea's variance at their wavenumbers, {within:.6g} m^2 of {self.specified:.6g} m^2, "
-                f"within {TOLERANCE:g}, got {held:.6g} m^2: name narrow features and jumps of the spectrum and the spreading in "
-                "their `breaks`"
+                "the waves of a tile must hold the sea's variance at their wavenumbers, "
+                f"{within:.6g} m^2 of {self.specified:.6g} m^2, within {TOLERANCE:g}, "
+                f"got {held:.6g} m^2: name narrow features and jumps of the spectrum and the "
+                "spreading in their `breaks`"
             )
 
     def distances(self, mx: Integer, my: Integer) -> tuple[Real, Real]:
@@ -290,9 +294,10 @@ class Cells:
         out = np.zeros(mx.size)
         for start in range(0, mx.size, _CELLS):
             some = slice(start, start + _CELLS)
+            axes = ((mx, self.dkx), (my, self.dky))
             low_x, high_x, low_y, high_y = (
-                (m[some] + s) * dk for m, dk in ((mx, self.dkx), (my, self.dky)) for s in (-0.5, 0.5)
-            )  # fmt: skip
+                (m[some] + s) * dk for m, dk in axes for s in (-0.5, 0.5)
+            )
             cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), band)
             c, s = np.cos(theta), np.sin(theta)
             with np.errstate(divide="ignore", over="ignore"):

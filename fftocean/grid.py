@@ -1,4 +1,4 @@
-"""The tile: how many samples, how wide, in which order, and which wavenumbers it can hold."""
+"""Sample positions and wavenumbers of a periodic tile."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -1,4 +1,4 @@
-"""What the integrals of a spectrum say: m_n, Hs, Tp, Tz, mean direction and spread."""
+"""Integral parameters of a spectrum: m_n, Hs, Tp, Tz, mean direction and spread."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -10,7 +10,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
 
-# Spectra and seas are told apart by what they can do, not imported: this room lies below theirs.
+# Any callable with a peak is taken: this module lies below those of spectra and seas.
 Spectrum = Any
 """A `FrequencySpectrum`: callable on omega, with `.peak` and, where it has corners, `.breaks`."""
 
@@ -128,7 +128,8 @@ def _split(integrand: Callable[[float], float], a: float, b: float, tolerance: f
         total, doubt = total + part, doubt + error
         if doubt > tolerance:
             raise ParameterError(
-                f"the spectrum is too rough to integrate: a part of the moment came out as {part:g} +- {error:g}"
+                "the spectrum is too rough to integrate: a part of the moment came out as "
+                f"{part:g} +- {error:g}"
             )
     return total
 
@@ -163,7 +164,7 @@ def peak_period(spectrum: Spectrum) -> float:
     """
     Return Tp = 2 pi / omega at which S is highest [s], found on the curve itself; 0 for a flat sea.
 
-    For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that
+    For a wrapped spectrum (TMA) this is the peak of the product, a little shorter than that
     of the deep-water sea.
     """
     peak = _peak_of(spectrum)

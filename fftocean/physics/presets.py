@@ -1,6 +1,6 @@
 """
-Wind seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly
-the height it promises.
+Wind seas of the Beaufort scale and of the sea states of WMO code table 3700, each with exactly the
+wave height of its number.
 """
 
 import math

@@ -1,6 +1,4 @@
-"""
-The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them.
-"""
+"""Sea state as a sum of wave systems, wind seas and swells, over one depth of water."""
 
 import math
 import warnings
@@ -70,8 +68,9 @@ class WaveSystem:
             for other in statements(name, "spreading", self.spreading):
                 if spectral and not math.isclose(spectral.value, other.value, rel_tol=SAME):
                     warnings.warn(
-                        f"the {words} of a wave system is {spectral.value:g} m/s for its {spectral} and "
-                        f"{other.value:g} m/s for its {other}: its directions are those of another wind",
+                        f"the {words} of a wave system is {spectral.value:g} m/s for its "
+                        f"{spectral} and {other.value:g} m/s for its {other}: its directions are "
+                        "those of another wind",
                         SeaWarning,
                         stacklevel=3,
                     )

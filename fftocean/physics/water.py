@@ -83,13 +83,15 @@ def agreed(
         first = stated[0]
         if value is not None and not _same(value, statement.value):
             raise ParameterError(
-                f"{name} of a sea must be that of its spectra and spreadings, got {_with_unit(value, quantity)} for the "
-                f"sea and {_with_unit(statement.value, quantity)} for {statement}"
+                f"{name} of a sea must be that of its spectra and spreadings, "
+                f"got {_with_unit(value, quantity)} for the sea and "
+                f"{_with_unit(statement.value, quantity)} for {statement}"
             )
         if not _same(first.value, statement.value):
             raise ParameterError(
                 f"{name} must be the same in all spectra and spreadings of a sea, got "
-                f"{_with_unit(first.value, quantity)} for {first} and {_with_unit(statement.value, quantity)} for {statement}"
+                f"{_with_unit(first.value, quantity)} for {first} and "
+                f"{_with_unit(statement.value, quantity)} for {statement}"
             )
     if value is not None:
         return value

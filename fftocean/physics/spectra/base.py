@@ -43,7 +43,8 @@ def require_spectrum(name: str, value: object) -> None:
     """
     if isinstance(value, type) or not isinstance(value, FrequencySpectrum):
         raise ParameterError(
-            f"{name} must be callable and have a peak (wrap a plain function: CustomSpectrum(f, peak=...)), got {described(value)}"
+            f"{name} must be callable and have a peak (wrap a plain function: "
+            f"CustomSpectrum(f, peak=...)), got {described(value)}"
         )
     PEAK.check(f"{name}.peak", value.peak)
 
@@ -66,4 +67,8 @@ def phillips_constant(hs: float, tp: float, shape_integral: float) -> float:
 
 
 def too_steep(hs: float, tp: float, alpha: float) -> str:
-    return f"hs and tp must make waves that can be (Phillips constant at most 1), got {hs:g} m with {tp:g} s (alpha = {alpha:.3g})"
+    """Return the message about waves steeper than possible."""
+    return (
+        "hs and tp must make waves that are possible (Phillips constant at most 1), "
+        f"got {hs:g} m with {tp:g} s (alpha = {alpha:.3g})"
+    )

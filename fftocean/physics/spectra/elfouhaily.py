@@ -83,8 +83,8 @@ class Elfouhaily:
                 / GRAVITY
             )
             raise ParameterError(
-                f"fetch must be at least {shortest:.4g} m for a wind of {self.speed:g} m/s (where U10/c_p is {YOUNGEST:g}), "
-                f"got {self.fetch:g} m"
+                f"fetch must be at least {shortest:.4g} m for a wind of {self.speed:g} m/s "
+                f"(where U10/c_p is {YOUNGEST:g}), got {self.fetch:g} m"
             )
         warn_of_short_fetch(self.speed, self.fetch)
 

@@ -32,8 +32,8 @@ ENHANCEMENT = Quantity(
 
 STEEPEST = 4.0 / math.sqrt(5.0)
 """
-Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the door that
-`spectra` keeps, in other words.
+Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the limit of
+`base.phillips_constant`, in other words.
 """
 
 
@@ -163,7 +163,8 @@ def require_possible(hs: float, tp: float) -> None:
     steepness = hs * (2.0 * math.pi / tp) ** 2 / GRAVITY
     if steepness > STEEPEST:
         raise ParameterError(
-            f"hs and tp must make waves that can be (hs at most {STEEPEST / (2.0 * math.pi):.3f} of the wavelength), "
+            "hs and tp must make waves that are possible "
+            f"(hs at most {STEEPEST / (2.0 * math.pi):.3f} of the wavelength), "
             f"got {hs:g} m with {tp:g} s ({steepness / (2.0 * math.pi):.3g})"
         )
 

@@ -67,7 +67,8 @@ class Phillips:
         )
         if self.cutoff > self._longest:
             raise ParameterError(
-                f"cutoff must be at most the scale of the longest waves, {self._longest:g} m, got {self.cutoff:g} m"
+                f"cutoff must be at most the scale of the longest waves, {self._longest:g} m, "
+                f"got {self.cutoff:g} m"
             )
 
     @classmethod
@@ -95,8 +96,8 @@ class Phillips:
         amplitude = (hs / 4.0) ** 2 / unit._variance if unit._variance else math.inf if hs else 0.0
         if not 2.0 * math.pi * amplitude <= 1.0:
             raise ParameterError(
-                f"hs and speed must make waves that can be (2 pi amplitude at most 1), got hs = {hs:g} m with a wind of "
-                f"{speed:g} m/s (amplitude = {amplitude:.3g})"
+                "hs and speed must make waves that are possible (2 pi amplitude at most 1), "
+                f"got hs = {hs:g} m with a wind of {speed:g} m/s (amplitude = {amplitude:.3g})"
             )
         return cls(
             speed=speed,

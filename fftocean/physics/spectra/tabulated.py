@@ -52,7 +52,10 @@ class TabulatedSpectrum:
     def __repr__(self) -> str:
         f = self.frequency
         depth = "" if self.depth is None else f", depth={self.depth:g}"
-        return f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
+        return (
+            f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, "
+            f"peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
+        )
 
     @property
     def peak(self) -> float:

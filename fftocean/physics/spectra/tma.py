@@ -1,4 +1,4 @@
-"""TMA spectrum of finite depth, with the Kitaigorodskii factor."""
+"""TMA spectrum of finite depth, a deep-water spectrum times the Kitaigorodskii factor."""
 
 import math
 from dataclasses import dataclass, replace
@@ -45,7 +45,8 @@ class TMA:
         for statement in statements("depth", "spectrum", self.spectrum):
             if statement.value != math.inf:
                 raise ParameterError(
-                    f"spectrum must be one of deep water, which TMA carries into {self.depth:g} m, got {statement} of {statement.value:g} m"
+                    f"spectrum must be one of deep water, which TMA carries into {self.depth:g} m, "
+                    f"got {statement} of {statement.value:g} m"
                 )
 
     @classmethod

@@ -41,8 +41,8 @@ def warn_of_short_fetch(speed: float, fetch: float) -> None:
     if fetch < least:
         warnings.warn(
             f"a fetch of {fetch:g} m is very short for a wind of {speed:g} m/s: g F/U^2 is "
-            f"{SHORTEST_FETCH * fetch / least:.3g}, and growth was measured from {SHORTEST_FETCH:g} ({least:.4g} m) on; "
-            "fetch is in metres: 200 km is 200e3",
+            f"{SHORTEST_FETCH * fetch / least:.3g}, and growth was measured from "
+            f"{SHORTEST_FETCH:g} ({least:.4g} m) on; fetch is in metres: 200 km is 200e3",
             SeaWarning,
             stacklevel=4,
         )

@@ -32,11 +32,12 @@ def require_spreading(name: str, value: object) -> None:
 
     Raises:
         ParameterError: not callable, a model's class where a model is wanted, or a plain function,
-            whose integral nobody has seen to.
+            whose integral is not known to be 1.
     """
     if isinstance(value, (FunctionType, BuiltinFunctionType, MethodType, partial)):
         raise ParameterError(
-            f"{name} must integrate to 1 round the circle (wrap a plain function: CustomSpreading(f)), got {value!r:.60}"
+            f"{name} must integrate to 1 round the circle (wrap a plain function: "
+            f"CustomSpreading(f)), got {value!r:.60}"
         )
     if not callable(value) or isinstance(value, type):
         raise ParameterError(f"{name} must be callable as D(omega, theta, peak), got {value!r:.60}")

@@ -81,10 +81,10 @@ class SwellElongation:
     def _product(self, omega: RealLike, theta: RealLike, peak: float) -> Real:
         """Return D cos^2s(theta/2), not normalised."""
         cosine = np.maximum(np.abs(np.cos(0.5 * np.asarray(theta, dtype=np.float64))), 1e-300)
-        drawn: Real = self.base(omega, theta, peak) * np.exp(
+        product: Real = self.base(omega, theta, peak) * np.exp(
             2.0 * self.exponent_added(omega, peak) * np.log(cosine)
         )
-        return drawn
+        return product
 
 
 SPREADINGS.add("swell", SwellElongation, Way(SwellElongation, base=Part("spreading"), xi=FRACTION))

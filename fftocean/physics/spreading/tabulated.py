@@ -50,13 +50,15 @@ class TabulatedSpreading:
         table = _DENSITY.check_array("density", self.density, ndim=2)
         if table.shape != (f.size, angle.size):
             raise ParameterError(
-                f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
+                f"density must be a table of {f.size} frequencies by {angle.size} directions, "
+                f"got shape {table.shape}"
             )
         order = np.argsort(np.mod(angle, 360.0))
         turned = np.mod(angle, 360.0)[order]
         if np.any(np.diff(turned, append=turned[0] + 360.0) <= 0.0):
             raise ParameterError(
-                f"direction must hold each angle once (0 and 360 degrees are one), got {self.direction!r:.60}"
+                "direction must hold each angle once (0 and 360 degrees are one), "
+                f"got {self.direction!r:.60}"
             )
         filled = np.flatnonzero(np.any(table > 0.0, axis=1))
         if not filled.size:
@@ -84,7 +86,10 @@ class TabulatedSpreading:
 
     def __repr__(self) -> str:
         f = self.frequency
-        return f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, {len(self.direction)} directions)"
+        return (
+            f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, "
+            f"{len(self.direction)} directions)"
+        )
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `omega` and `theta`, which broadcast, [1/rad]."""
