@@ -21,10 +21,11 @@ FLOORS = {
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner"],
-    5: ["cascade", "trains", "window"],
+    5: ["cascade", "wave_list", "window", "points", "point_results"],
     6: [
-        *("products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"),
-        *("blend_loss", "polar_spectrum", "realised_spectrum", "measured_dispersion"),
+        *("products", "foam", "eulerian", "mips", "kinematics", "statistics", "blend_loss"),
+        *("summed_waves", "interpolated_tiles", "query"),
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
     7: ["job", "proof"],
     8: ["baking"],
@@ -49,7 +50,8 @@ STAIRS = [
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
-    [["cascade"], ["trains", "window"]],
+    [["cascade"], ["wave_list", "window"]],
+    [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["plots.theme"], ["plots"], ["bench.pictures"]],
@@ -60,6 +62,21 @@ STEP = {
     for stair, steps in enumerate(STAIRS)
     for step, modules in enumerate(steps)
     for module in modules
+}
+
+# The floors within packages, lowest first; the parts of one floor do not know each other.
+INNER = {
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "baking": [
+        ["folder"],
+        ["scene"],
+        ["finished", "previews", "workers"],
+        ["survey"],
+        ["bake"],
+        ["cascade_setup", "estimate"],
+        ["cascade"],
+        ["dry_run", "repair"],
+    ],
 }
 
 ONLY = {
@@ -253,6 +270,42 @@ def test_no_module_waits_for_itself():
         if module not in packages()
     }
     assert [module for module in bare if module in reach(bare, module)] == []
+
+
+def box(module: str, package: str) -> str | None:
+    """Return the part of a package that a module belongs to: a folder, or the module itself."""
+    inner = module.removeprefix(f"{package}.")
+    return None if inner == module else inner.partition(".")[0]
+
+
+def arrows(imported_by: dict[str, set[str]], package: str) -> set[tuple[str, str]]:
+    """Return (importer, imported) of the parts of a package that import each other."""
+    found = {
+        (box(importer, package), box(module, package))
+        for importer, modules in imported_by.items()
+        for module in modules
+    }
+    return {(a, b) for a, b in found if a and b and a != b}
+
+
+def upward(imported_by: dict[str, set[str]], package: str) -> list[tuple[str, str]]:
+    """Return the arrows of a package that do not lead to a lower floor of `INNER`."""
+    floor = {name: i for i, names in enumerate(INNER[package]) for name in names}
+    return sorted((a, b) for a, b in arrows(imported_by, package) if not floor[b] < floor[a])
+
+
+@pytest.mark.parametrize("package", INNER)
+def test_imports_within_a_package_point_down(package):
+    parts = {box(module, package) for module in sources()} - {None}
+    assert parts == {name for names in INNER[package] for name in names}
+    assert upward(graph(), package) == []
+
+
+def test_an_upward_import_within_a_package_is_caught():
+    forged = {**graph(), "baking.folder.layout": {"baking.scene.maps"}}
+    assert upward(forged, "baking") == [("folder", "scene")]
+    forged = {**graph(), "baking.workers.local": {"baking.finished.load"}}
+    assert upward(forged, "baking") == [("workers", "finished")]
 
 
 def test_names_on_the_stairs_belong_to_the_floor():

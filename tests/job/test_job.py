@@ -199,7 +199,10 @@ def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind, keys)
 @pytest.mark.parametrize("key", ["time", "site"])
 def test_a_bad_place_in_a_measured_file_is_refused(key, value):
     """Counted from 0, or back from the end, as Python does."""
-    text = f"[ocean]\nn = 8\n[[sea.systems]]\nmeasured = {{ file = '{SPECTRA_FILES / '41010.data_spec'}', {key} = {value} }}\n"
+    text = (
+        f"[ocean]\nn = 8\n[[sea.systems]]\nmeasured = {{ file = "
+        f"'{SPECTRA_FILES / '41010.data_spec'}', {key} = {value} }}\n"
+    )
     if value == "0" or (key, value) == ("time", "-1"):
         assert not refused_or_finite(text, key, value)
     else:
@@ -524,7 +527,9 @@ def test_any_tree_is_a_job_or_refused(flat):
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(
     st.dictionaries(
-        st.sampled_from(["kind", "hs", "tp", "gamma", "speed", "fetch", "frequency", "density", "x"]),
+        st.sampled_from(
+            ["kind", "hs", "tp", "gamma", "speed", "fetch", "frequency", "density", "x"]
+        ),
         kinds | st.floats() | trees | st.lists(st.floats(1e-3, 1.0), max_size=4),
         min_size=1,
         max_size=4,
@@ -561,7 +566,8 @@ def same_sea(one, other):
 
 def test_the_wind_sea_is_that_of_the_library():
     job = Job.from_toml(
-        "sea.depth = 30.0\n[sea.wind]\nspeed = 12.0\nfetch = 2e5\ndirection = 40.0\ngamma = 2.0\nblend = 0.3\n"
+        "sea.depth = 30.0\n[sea.wind]\nspeed = 12.0\nfetch = 2e5\ndirection = 40.0\ngamma "
+        "= 2.0\nblend = 0.3\n"
     )
     spreading = fo.Blend(fo.DonelanBanner(), fo.CosineSquared(), weight=0.3)
     same_sea(
@@ -607,7 +613,8 @@ SPREADINGS = {
 def wave_system(spectrum, spreading):
     """The sea of a job of one wave system."""
     job = Job.from_toml(
-        f"sea.depth = {DEPTH}\n[[sea.systems]]\nspectrum = {{ {spectrum} }}\n{spreading}\ndirection = 110\n"
+        f"sea.depth = {DEPTH}\n[[sea.systems]]\nspectrum = {{ {spectrum} "
+        f"}}\n{spreading}\ndirection = 110\n"
     )
     assert not job.wind
     return job.sea()
@@ -785,7 +792,8 @@ def test_the_wind_sea_stands_in_the_same_water():
 def test_measured_files_of_different_depths_need_one_named():
     with pytest.raises(
         JobError,
-        match=r"sea\.depth must be given where measured files differ in it, got .* of sea\.systems\[0\] and",
+        match=r"sea\.depth must be given where measured files differ in it, got .* of "
+        r"sea\.systems\[0\] and",
     ):
         measured_job({"file": WW3, "site": 0}, {"file": WW3, "site": 1})
     assert (
@@ -826,7 +834,8 @@ def test_a_file_without_depth_leaves_deep_water_and_says_so():
         (
             {"file": str(SPECTRA_FILES / "44004w2000.txt")},
             JobError,
-            r"sea\.systems\[1\]\.measured, file '.*44004w2000\.txt': a spectrum without directions needs direction",
+            r"sea\.systems\[1\]\.measured, file '.*44004w2000\.txt': a spectrum without "
+            r"directions needs direction",
         ),
         (
             {"file": str(SPECTRA_FILES / "README.md")},
