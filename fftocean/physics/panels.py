@@ -69,7 +69,7 @@ def split(low: Real, high: Real, edges: Real) -> tuple[Index, Real, Real]:
 
 def parts_of(system: "WaveSystem") -> "list[tuple[float, WaveSystem]]":
     """
-    Return the systems, each with its share, that make up one: a blend with a long-crested part is
+    Return the systems that make up one, each with its share: a blend with a long-crested part is
     taken apart.
     """
     spreading = system.spreading
@@ -129,7 +129,7 @@ def frequency_panels(system: "WaveSystem") -> Panels:
 
 def energetic_frequencies(system: "WaveSystem", edges: Real, count: int = 16) -> tuple[Real, Real]:
     """
-    Return frequencies [rad/s] that stand for a system, the peak first, and the energy of the
+    Return frequencies [rad/s] that represent a system, the peak first, and the energy of the
     panels, (panels,) [m^2].
     """
     omega, weight = gauss(edges[:-1], edges[1:])
@@ -174,7 +174,7 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
 
 
 def _apart(edges: Iterable[float], least: float) -> Real:
-    """The same edges, ascending, without those that stand on another but for rounding."""
+    """Return the edges, ascending, without those that differ from another by rounding only."""
     ascending = np.unique(np.fromiter(edges, dtype=np.float64))
     kept: Real = ascending[
         np.concatenate([[True], np.diff(ascending) > least * np.abs(ascending[1:])])
@@ -184,8 +184,8 @@ def _apart(edges: Iterable[float], least: float) -> Real:
 
 def _graded(sampled: Sampled, feature: float, reach: tuple[float, float], top: Real) -> Real:
     """
-    Edges at `reach` (before, after) halved on both sides of a feature, down to where the values no
-    longer change.
+    Return edges at `reach` (before, after) halved on both sides of a feature, down to where the
+    values no longer change.
     """
     found = []
     scale = np.where(top > 0.0, top, 1.0)[:, None]
@@ -202,7 +202,9 @@ def _graded(sampled: Sampled, feature: float, reach: tuple[float, float], top: R
 
 
 def _bisected(sampled: Sampled, edges: Real) -> Real:
-    """The edges, with more in between until eight points resolve every curve in every panel."""
+    """
+    Return the edges, with more in between until eight points resolve every curve in every panel.
+    """
     low, high = edges[:-1], edges[1:]
     done = [edges]
     total: Real | float = 0.0
@@ -227,7 +229,7 @@ def _bisected(sampled: Sampled, edges: Real) -> Real:
 
 
 def _jumps(sampled: Sampled, at: Real, step: Real) -> Real:
-    """Those of some points at which a curve jumps."""
+    """Return the points among some at which a curve jumps."""
     before, after = sampled(at - step), sampled(at + step)
     top = np.max(np.maximum(before, after), axis=1, keepdims=True)
     jumping: Real = at[np.any(np.abs(after - before) > 1e-3 * top, axis=0) & (at != 0.0)]
