@@ -19,11 +19,12 @@ class _FieldProperty(property):
         caption, unit = field.caption, "-" if field.unit == "1" else field.unit
         if not caption.startswith("d "):  # a derivative, whose d stays small
             caption = caption[0].upper() + caption[1:]
-        super().__init__(lambda frame: frame[name], doc=f"{caption} [{unit}].")
+        super().__init__(lambda frame: frame[name])
+        self.__doc__ = f"{caption} [{unit}]."
 
     if TYPE_CHECKING:  # a plain property would make every field of type Any
 
-        def __get__(self, frame: Any, owner: type | None = None) -> Real: ...
+        def __get__(self, frame: Any, owner: type | None = None) -> Real: ...  # type: ignore[override]
 
 
 class _Arrays:

@@ -113,12 +113,15 @@ class Window:
         self.source = source
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
-        """Pickle and copy as what it is made of."""
+        """Pickle and copy the arguments."""
         return _rebuilt, (self.source, self._recipe)
 
     def __repr__(self) -> str:
         g = self.grid
-        return f"Window({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m from ({self.x:g}, {self.y:g}), {len(self.oceans)} tiles)"
+        return (
+            f"Window({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m from ({self.x:g}, {self.y:g}), "
+            f"{len(self.oceans)} tiles)"
+        )
 
     def frame(self, t: float, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
         """
@@ -169,8 +172,7 @@ class Window:
         out: Frame | None,
     ) -> Frame:
         """
-        Add up splines of the tiles at the samples of the window, and make what follows from the
-        sums.
+        Sum the splines of the tiles at the samples of the window, and compute pointwise fields.
         """
         grid = self.grid
         total = np.zeros((grid.nx * grid.ny, len(needs)))
@@ -192,13 +194,13 @@ class Window:
         return out
 
     def _texels(self, fine: Grid) -> tuple[Real, Real]:
-        """The samples of the window in texels of a tile, reduced to it in double precision."""
+        """Return the samples of the window in texels of a tile, reduced in double precision."""
         u = np.fmod((self.x + self.grid.x) / fine.lx, 1.0) * fine.nx
         v = np.fmod((self.y + self.grid.y) / fine.ly, 1.0) * fine.ny
         return np.tile(u, self.grid.ny), np.repeat(v, self.grid.nx)
 
     def _made(self, name: str, sums: dict[str, Real]) -> Real:
-        """A normal or a Jacobian from summed slopes and stretches."""
+        """Return a normal or a Jacobian from summed slopes and stretches."""
         c = np.dtype(self.dtype).type(self.choppiness)
         parts = [sums[part] for part in _MADE_OF[name]]
         normal = name == "normal"
@@ -214,15 +216,16 @@ def _rebuilt(source: Cascade | Ocean, recipe: dict[str, Any]) -> Window:
 
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The fields asked for, and the linear ones that they are made of."""
+    """Return the fields asked for, and the linear ones that they are computed from."""
     fields = check_fields(fields, tuple(_MADE_OF))
     return fields, tuple(dict.fromkeys(part for name in fields for part in _MADE_OF[name]))
 
 
 def _spline_grid(ocean: Ocean) -> Grid:
     """
-    The grid of a tile's splines: its own where all its waves have eight samples, else one
-    `OVERSAMPLED` times as fine.
+    Return the grid for the splines of a tile.
+
+    It is that of the tile if all waves have eight samples, else one `OVERSAMPLED` times as fine.
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(a.squares > 0.0)
@@ -235,8 +238,9 @@ def _spline_grid(ocean: Ocean) -> Grid:
 
 def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
     """
-    The ocean whose frames are the cubic spline coefficients of this one's fields, on a finer grid,
-    without its shortest waves.
+    Return the ocean whose frames are cubic spline coefficients of the fields of another.
+
+    They are on the grid `fine`, without waves shorter than `shortest` [m].
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(grid.active & (grid.k * shortest <= 2.0 * np.pi))
