@@ -300,8 +300,8 @@ def _grids(tiles: Iterable[Tile]) -> list[Grid]:
     for i, (large, small) in enumerate(pairwise(grids)):
         if not (small.lx < large.lx and small.ly < large.ly):
             raise ParameterError(
-                f"tiles must go from the largest to the smallest, got {large.lx:g} x {large.ly:g} m "
-                f"before {small.lx:g} x {small.ly:g} m"
+                f"tiles must go from the largest to the smallest, "
+                f"got {large.lx:g} x {large.ly:g} m before {small.lx:g} x {small.ly:g} m"
             )
         for along, ratio in (("x", large.lx / small.lx), ("y", large.ly / small.ly)):
             if abs(ratio - round(ratio)) < 1e-9 * ratio:

@@ -1,7 +1,7 @@
 """
 Inverse FFTs of rows by MKL, FFTW or SciPy.
 
-All libraries compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+2 pi i m j / n},
+For each row of a buffer they compute  result[j] = sum over m of source[m] e^{+2 pi i m j / n},
 without 1/n, on one thread.
 """
 
@@ -107,8 +107,9 @@ def inverse_rows(
 @cache
 def library(backend: str) -> str | None:
     """
-    Name a backend's library and its version, such as "FFTW 3.3.5 (pyfftw 0.15.1)"; None where it is
-    not installed.
+    Return the library of a backend with its version; None if it is not installed.
+
+    For example "FFTW 3.3.5 (pyfftw 0.15.1)".
     """
     if backend == "mkl":
         return f"MKL {importlib.metadata.version('mkl')}" if _mkl() else None

@@ -1,7 +1,4 @@
-"""
-The summed water of a cascade on a grid of the world: the linear fields of all tiles added, and what
-follows from the sums.
-"""
+"""The sum of a cascade's tiles on a grid of the world, with pointwise fields of the sum."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -15,7 +12,7 @@ from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
-from fftocean.fields import EIGHT, FIELDS
+from fftocean.fields import EIGHT, FIELDS, POINTWISE
 from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
@@ -26,28 +23,21 @@ from fftocean.ocean import Ocean, check_fields, memory_needed
 PLACE = Quantity("m", -1e9, 1e9)
 WAVELENGTH = Quantity("m", 0.0, math.inf)
 OVERSAMPLED = 2
-"""
-Samples of the splines to one of the tile, along each axis, where the tile holds waves of less than
-eight samples.
-"""
+"""Samples of the splines to one of a tile that has waves of fewer than eight samples, a side."""
 
-_MADE_OF = {
-    **{name: (name,) for name in FIELDS},
-    "normal": ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy"),
-    "jacobian": ("stretch_xx", "stretch_xy", "stretch_yy"),
-}
+_MADE_OF: dict[str, tuple[str, ...]] = {**{name: (name,) for name in FIELDS}, **POINTWISE}
 
 
 class Window:
     """
-    A rectangle of the world in which all tiles of a cascade are added up. `frame` and `loop_frame`
-    are those of `Ocean`.
+    A rectangle of the world in which all tiles of a cascade are added up.
 
-    Sample [iy, ix] is the water whose undisplaced position is (x + ix size_x/nx, y + iy size_y/ny).
-    Heights, displacements, slopes, stretches and velocities are the sums over the tiles; "normal"
-    and "jacobian" are made from the sums, as are `fo.normals(frame)`, `fo.jacobian(frame)` and the
-    foam of `fo.Foam().loop(window, count)`: none of these is a sum of what the tiles have of it. A
-    window repeats in space only where its sides are whole multiples of all tiles' sizes.
+    `frame` and `loop_frame` are those of `Ocean`. Sample [iy, ix] is the water whose rest position
+    is (x + ix size_x/nx, y + iy size_y/ny). Heights, displacements, slopes, stretches and
+    velocities are sums over the tiles; "normal" and "jacobian" are computed from the sums, as are
+    `fo.normals(frame)`, `fo.jacobian(frame)` and the foam of `fo.Foam().loop(window, count)`: they
+    do not add up over tiles. A window repeats in space only where its sides are whole multiples of
+    the sizes of all tiles.
 
     Between the samples of a tile its fields are cubic splines on a grid that is fine enough: they
     miss at most 0.6 % of a wave of two samples, 0.04 % of one of four (Unser 1999, the error kernel
