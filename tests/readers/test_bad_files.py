@@ -1,4 +1,4 @@
-"""What can be wrong with a file, and what is said about it."""
+"""Errors for damaged, impossible and contradictory files."""
 
 import gzip
 import os
@@ -93,7 +93,7 @@ def test_rubbish(data, message, tmp_path):
 
 
 def require_cheap_refusal(path, message):
-    """Within 2 s of this process and 16 MiB."""
+    """Assert that a file is refused within 2 s of this process and 16 MiB."""
     tracemalloc.start()
     start = time.process_time()
     with pytest.raises(ReaderError, match=message):
@@ -330,7 +330,10 @@ def test_broken_historical_files(changes, message, tmp_path):
 
 @pytest.mark.parametrize("kind", "dijk")
 def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
-    """They look just like densities; only the name tells, and names what is missing."""
+    """
+    The values look like densities; only the name tells them apart, and the error says what is
+    missing.
+    """
     with pytest.raises(ReaderError, match=r"missing: 44004w2000\.txt"):
         readers.open(historical(tmp_path, name=f"44004{kind}2000.txt"))
 
@@ -528,7 +531,7 @@ def test_the_second_of_two_places_and_no_times(tmp_path):
 
 
 def with_attrs(data, name, **attrs):
-    """The same dataset with attributes of one variable changed; None takes one away."""
+    """Return the dataset with attributes of one variable changed; None removes one."""
     out = data.copy()
     kept = {k: v for k, v in (out[name].attrs | attrs).items() if v is not None}
     if name in out.indexes:

@@ -22,8 +22,8 @@ LONG_CRESTED = {"direction": 0.0, "spreading": CosinePower(s=20.0)}
 
 def moments_of(spectrum):
     """
-    Integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact for a
-    cubic.
+    Return the integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact
+    for a cubic.
     """
     total = np.zeros(3)
     for a, b in pairwise(sorted(spectrum.breaks)):
@@ -34,10 +34,7 @@ def moments_of(spectrum):
 
 
 def require_own_sums(made, density, frequency, width):
-    """
-    Hs, Tm01 and Tm02, in the order in which a buoy's data sheet has them, against sums written out
-    here.
-    """
+    """Assert Hs, Tm01 and Tm02, in the order of a buoy's data sheet, against explicit sums."""
     m0, m1, m2 = (float(np.sum(density * width * frequency**n)) for n in range(3))
     got = moments_of(made.sea.systems[0].spectrum)
     close = 1e-7  # the corners are approached to 1e-9 of a step
@@ -50,7 +47,7 @@ def require_own_sums(made, density, frequency, width):
 
 
 def half_way(f):
-    """Widths of bands half way to the neighbours, the outermost as far out as in."""
+    """Return widths of bands half way to the neighbours, the outermost symmetric."""
     return np.concatenate([[f[1] - f[0]], 0.5 * (f[2:] - f[:-2]), [f[-1] - f[-2]]])
 
 
@@ -112,14 +109,14 @@ HALVED = np.concatenate([FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), 
 
 
 def young():
-    """A wind sea whose peak is near the last frequency, where half a band weighs most."""
+    """Return a wind sea with its peak near the last frequency, where half a band weighs most."""
     s = 2.0 * np.pi * JONSWAP.from_sea_state(hs=0.15, tp=2.6)(2.0 * np.pi * FREQUENCY)
     spread = np.abs(np.cos(np.radians(TO - 90.0) / 2.0)) ** 10
     return s, s[:, None] * spread / (spread.sum() * 15.0)
 
 
 def stated(how, low, high):
-    """The young sea with its bands in one of the ways in which netCDF files have them."""
+    """Return the young sea with its bands in one of the ways of netCDF files."""
     _, density = young()
     data = ww3(sea())
     back = np.argsort(-((TO - 90.0) % 360.0))
@@ -254,7 +251,9 @@ def test_the_energy_is_exact_whatever_the_densities(density, ratio):
 
 
 def test_a_single_band_is_a_triangle():
-    """Of three nodes: m0 is exact, Tm01 off by a third of the difference of the steps beside it."""
+    """
+    With three nodes m0 is exact, Tm01 off by a third of the difference of the steps beside it.
+    """
     density = np.zeros(30)
     density[10] = 0.1
     lines = bands.straight_lines(FREQUENCY, density, bands.between_neighbours(FREQUENCY))

@@ -1,4 +1,4 @@
-"""The formats of instruments and of models' text: one sea in all of them, and real files."""
+"""Formats of instruments and of models' text: one sea in all of them, and real files."""
 
 import gzip
 import re
@@ -32,7 +32,10 @@ SPECIFIED = sea(toward=100.0)  # skew against the bins
 
 
 def require_moments(data, *, c2=True, rounding=1e-8, within=2e-6):
-    """E(f) to the decimals of the file, and both moments of the directions to what they leave."""
+    """
+    Assert E(f) to the decimals of the file, and both moments of the directions to the precision
+    that they allow.
+    """
     density = data.efth.values
     step = 360.0 / data.sizes["dir"]
     total = density.sum(axis=2) * step
@@ -309,14 +312,16 @@ def wavespectra():
 
 
 def unpacked(name, folder):
-    """The oracle reads some formats only unpacked."""
+    """Return a file unpacked, because wavespectra reads some formats only so."""
     path = folder / name
     path.write_bytes(gzip.decompress((DATA / (name + ".gz")).read_bytes()))
     return path
 
 
 def require_same_sea(ours, theirs, *, degrees, rel=2e-7, spread=None):
-    """Hs, mean direction and spread by the oracle's own integrals, over its own bands."""
+    """
+    Assert Hs, mean direction and spread against the integrals of wavespectra over its own bands.
+    """
     spec, want = ours.efth.spec, theirs.efth.spec
     assert spec.hs(tail=False).values.ravel() == pytest.approx(
         want.hs(tail=False).values.ravel(), rel=rel

@@ -1,6 +1,4 @@
-"""
-Whatever the wavespectra package hands out becomes a sea of the height that the package gives it.
-"""
+"""Datasets and arrays of the wavespectra package become seas of the height that it reports."""
 
 import numpy as np
 import pytest
