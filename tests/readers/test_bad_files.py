@@ -640,7 +640,7 @@ def test_rounding_below_zero_is_forgiven_and_counted():
     data = ww3(sea())
     tiny = 0.5e-7 * float(data.efth.max())
     for value in (-1e-21, -tiny):
-        got = readers.netcdf.tidy(with_values(data, "efth", put(value, 1, 0, 2, 3)))
+        got = readers.netcdf.to_layout(with_values(data, "efth", put(value, 1, 0, 2, 3)))
         assert got.attrs["rounded_negatives"] == 1
         assert float(got.efth.min()) == 0.0
 
@@ -677,18 +677,18 @@ def test_broken_era5(make, message, tmp_path):
 def test_era5_counts_what_was_below_its_threshold():
     """Nothing is 0 inside a spectrum, missing where all of it is."""
     data = era5(sea())
-    got = readers.netcdf.tidy(data, site=1)
+    got = readers.netcdf.to_layout(data, site=1)
     assert (
         got.attrs["below_threshold_values"] == int(np.isnan(data.d2fd.isel(latitude=1)).sum()) > 0
     )
     assert (got.attrs["masked_values"], float(got.efth.min())) == (0, 0.0)
-    land = readers.netcdf.tidy(data, site=0)
+    land = readers.netcdf.to_layout(data, site=0)
     assert land.attrs["masked_values"] == land.efth.size == int(np.isnan(land.efth).sum())
 
 
 def test_part_of_era5s_bins_keep_their_numbers():
     """Bins 5 to 20 are not taken for 1 to 16."""
-    part = readers.netcdf.tidy(era5(sea()).isel(frequencyNumber=slice(4, 20)), site=1)
+    part = readers.netcdf.to_layout(era5(sea()).isel(frequencyNumber=slice(4, 20)), site=1)
     assert part.freq.values == pytest.approx(FREQUENCY[4:20], rel=1e-12)
 
 
@@ -760,12 +760,12 @@ def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
     with pytest.raises(
         ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"
     ):
-        readers.netcdf.tidy(with_values(data, "direction", np.radians))
+        readers.netcdf.to_layout(with_values(data, "direction", np.radians))
     with pytest.raises(
         ReaderError,
         match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees",
     ):
-        readers.netcdf.tidy(with_attrs(data, "direction", units="radian"))
+        readers.netcdf.to_layout(with_attrs(data, "direction", units="radian"))
 
 
 @pytest.mark.parametrize("name", ["efth", "frequency", "direction"])

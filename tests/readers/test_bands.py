@@ -162,12 +162,12 @@ def test_widths_of_bands():
     """`df`, a tenth of each frequency: nowhere half way to the neighbours."""
     width = 0.1 * FREQUENCY
     data = stated("df", FREQUENCY - 0.5 * width, FREQUENCY + 0.5 * width)
-    for dataset in (data, readers.netcdf.tidy(data)):
+    for dataset in (data, readers.netcdf.to_layout(data)):
         require_own_sums(Realised.from_spectrum(dataset), young()[0], FREQUENCY, width)
 
 
 def test_bands_go_with_the_dataset_through_a_file(tmp_path):
-    first = readers.netcdf.tidy(stated("bounds", HALVED[:-1], HALVED[1:]))
+    first = readers.netcdf.to_layout(stated("bounds", HALVED[:-1], HALVED[1:]))
     first.to_netcdf(tmp_path / "own.nc", engine="h5netcdf")
     assert np.array_equal(readers.open(tmp_path / "own.nc").freq_bnds, first.freq_bnds)
     part = Realised.from_spectrum(first.isel(freq=slice(0, 28)))
@@ -175,7 +175,7 @@ def test_bands_go_with_the_dataset_through_a_file(tmp_path):
 
 
 def test_beside_a_missing_frequency_bands_meet_in_the_middle():
-    data = readers.netcdf.tidy(stated("bounds", HALVED[:-1], HALVED[1:]))
+    data = readers.netcdf.to_layout(stated("bounds", HALVED[:-1], HALVED[1:]))
     data.efth[0, 12] = np.nan
     made = Realised.from_spectrum(data)
     low, high = np.delete(HALVED[:-1], 12), np.delete(HALVED[1:], 12)
@@ -210,14 +210,14 @@ def test_bands_that_cannot_be_are_refused(change, message):
     edges = np.stack([HALVED[:-1], HALVED[1:]], axis=1)
     change(edges)
     with pytest.raises(ReaderError, match=f"variable edges.* {message}"):
-        readers.netcdf.tidy(stated("bounds", edges[:, 0], edges[:, 1]))
+        readers.netcdf.to_layout(stated("bounds", edges[:, 0], edges[:, 1]))
 
 
 def test_units_of_bands_are_read():
     data = stated("frequency1 and frequency2", HALVED[:-1], HALVED[1:])
     data.frequency2.attrs["units"] = "m"
     with pytest.raises(ReaderError, match="variable frequency2 must have units Hz or s-1, got 'm'"):
-        readers.netcdf.tidy(data)
+        readers.netcdf.to_layout(data)
 
 
 # --- straight lines

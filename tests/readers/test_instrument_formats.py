@@ -259,14 +259,14 @@ def test_netcdf_of_buoys(make, tmp_path):
 )  # fmt: skip
 def test_netcdf_of_buoys_with_variables_that_do_not_fit(change, message):
     with pytest.raises(ReaderError, match=message):
-        readers.netcdf.tidy(change(ndbc_netcdf(SPECIFIED)))
+        readers.netcdf.to_layout(change(ndbc_netcdf(SPECIFIED)))
 
 
 def test_cdip_moments_are_checked_against_its_mean_direction():
     raw = cdip(SPECIFIED)
     turned = raw.assign(waveMeanDirection=(raw.waveMeanDirection + 180.0) % 360.0)
     with pytest.raises(ReaderError, match="waveMeanDirection must be the direction of waveA1Value"):
-        readers.netcdf.tidy(turned)
+        readers.netcdf.to_layout(turned)
 
 
 @pytest.mark.parametrize(
@@ -282,7 +282,7 @@ def test_cdip_moments_are_checked_against_its_mean_direction():
 def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
     """ww3_ounp's default packs log10 of the density + 1e-12 in short integers of 4e-4."""
     raw = ww3(SPECIFIED)
-    want = readers.netcdf.tidy(raw)
+    want = readers.netcdf.to_layout(raw)
     floor = raw.efth.where(raw.efth > 0.0, 1e-12) if not offset else raw.efth + offset
     log = (np.log(floor) / np.log(base)).assign_attrs({**raw.efth.attrs, "units": unit, **name})
     packing = {"dtype": "int16", "scale_factor": 4e-4, "_FillValue": np.int16(-32767)}
@@ -298,7 +298,7 @@ def test_a_logarithm_must_say_its_base():
     raw = ww3(SPECIFIED)
     raw.efth.attrs["long_name"] = "logarithm of the density"
     with pytest.raises(ReaderError, match="must say the base of its logarithm"):
-        readers.netcdf.tidy(raw)
+        readers.netcdf.to_layout(raw)
 
 
 # --- real files, against their own statements and an independent reader
@@ -493,7 +493,7 @@ def test_realtime_sets_are_given_by_their_folder(tmp_path):
 def test_units_of_depth_are_read():
     raw = ww3(SPECIFIED)
     raw.dpt.attrs["units"] = "km"
-    assert readers.netcdf.tidy(raw).dpt.values.tolist() == [30000.0, 30000.0]
+    assert readers.netcdf.to_layout(raw).dpt.values.tolist() == [30000.0, 30000.0]
     assert TO.size == 24
 
 
