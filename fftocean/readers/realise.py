@@ -17,8 +17,8 @@ from fftocean.limits import SIGNIFICANT_WAVE_HEIGHT
 from fftocean.physics.moments import mean_direction_and_spread
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import TabulatedSpectrum
-from fftocean.physics.spreading import Spreading
-from fftocean.physics.tabulated import TabulatedSpreading, bin_widths
+from fftocean.physics.spreading import Spreading, TabulatedSpreading
+from fftocean.physics.spreading.tabulated import bin_widths
 from fftocean.readers import bands
 from fftocean.readers.dataset_layout import warn_of_notes
 from fftocean.readers.netcdf import to_layout

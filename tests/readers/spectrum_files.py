@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from builders import lazy
+
+xr = lazy("xarray")
 
 DATA = Path(__file__).parent.parent / "data" / "spectra"
 
@@ -64,7 +66,7 @@ def write_wavespectra(path: Path, specified: SpecifiedSpectrum) -> Path:
     return path
 
 
-def ww3(specified: SpecifiedSpectrum) -> xr.Dataset:
+def ww3(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """
     Return efth(time, station, frequency, direction) per radian, direction TO and descending from
     north, depth 30 m.
@@ -111,7 +113,7 @@ def write_ww3(path: Path, specified: SpecifiedSpectrum) -> Path:
     return path
 
 
-def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> xr.Dataset:
+def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> "xr.Dataset":
     """
     Return d2fd, log10 of m2/Hz/radian, NaN for no energy, direction before frequency, on a grid of
     2 by 1 (the sea is in the second).

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import DATA, FREQUENCY, TIMES, TO, era5, sea, write_ndbc, ww3
 
 from fftocean import readers
@@ -14,6 +14,8 @@ from fftocean.physics import moments
 from fftocean.physics.spectra import JONSWAP
 from fftocean.physics.spreading import CosinePower
 from fftocean.readers import Realised, sea_from_spectrum
+
+xr = lazy("xarray")
 
 
 def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
