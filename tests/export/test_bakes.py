@@ -1,7 +1,4 @@
-"""
-Bakes for engines from end to end: what is refused before anything is written, encodings of normals,
-the text beside the data.
-"""
+"""Bakes for engines from end to end: refusals, encodings of normals, text beside the data."""
 
 import json
 
@@ -24,7 +21,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """No integrals over the sea."""
+    """Avoid integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     monkeypatch.setattr(baker, "measure", lambda _: still)
 

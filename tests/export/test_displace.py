@@ -1,7 +1,4 @@
-"""
-The Blender example refuses every bake that it would show wrongly, before Blender is needed; the
-rest it understands.
-"""
+"""The Blender example reads bakes for Blender, and refuses every other before Blender is needed."""
 
 import importlib.util
 import json
@@ -31,7 +28,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """No integrals over the sea."""
+    """Avoid integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     monkeypatch.setattr(baker, "measure", lambda _: still)
 

@@ -1,4 +1,4 @@
-"""Real files, against the wavespectra package: an independent reader of the same formats."""
+"""Real files, against the wavespectra package, an independent reader of the same formats."""
 
 import gzip
 
