@@ -18,7 +18,8 @@ from fftocean.baking.previews.render import Water
 from fftocean.baking.previews.whitecaps import Whitecaps
 from fftocean.cascade import Cascade
 from fftocean.errors import OutputError
-from fftocean.foam import SQUEEZE, Foam
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import Foam
 from fftocean.grid import Grid
 from fftocean.ocean import Frame, Ocean
 
@@ -190,7 +191,7 @@ class _Frames:
         caps.add(whitecaps.smallest_eigenvalue(fields), step)
 
     def _smallest_eigenvalue(self, t: float) -> Real:
-        return whitecaps.smallest_eigenvalue(self.ocean.frame(t, SQUEEZE))
+        return whitecaps.smallest_eigenvalue(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
 
 
 def _oceans(ocean: Sea) -> tuple[Ocean, ...]:
