@@ -19,6 +19,7 @@ import sys
 import time
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 from PIL import Image
@@ -37,7 +38,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 def job(**changes):
     """A small job of the default sea; keys with __ for the dot."""
-    return fo.Job.default().replaced(
+    return builders.job(
         {
             "ocean.n": 8,
             "bake.frames": 2,
@@ -454,7 +455,9 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
     """
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
-    with pytest.raises(OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"):
+    with pytest.raises(
+        OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"
+    ):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
     with pytest.raises(
@@ -599,9 +602,7 @@ def test_a_link_in_a_map_folder_s_place_leads_nowhere(tmp_path, outside, name, a
     if name == "jacobian":
         fo.bake(job(), out, overwrite=overwrite)
     else:
-        with pytest.raises(
-            OutputError, match=rf"{name} must be a folder, and is a link"
-        ):
+        with pytest.raises(OutputError, match=rf"{name} must be a folder, and is a link"):
             fo.bake(job(), out, overwrite=overwrite)
         assert not (out / "manifest.json").exists()
     assert tree(outside) == before

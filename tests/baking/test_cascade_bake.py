@@ -13,6 +13,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -31,7 +32,7 @@ from fftocean.files import as_json
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 TILES = [(32, 200.0), (32, 29.0), (16, 4.1)]
 SMALL = [(16, 100.0), (16, 15.0)]
-JOB = fo.Job.default().replaced(
+JOB = builders.job(
     {
         "bake.frames": 3,
         "bake.maps": ["height", "stretch"],
@@ -206,7 +207,7 @@ def test_other_refusals(tmp_path):
 
 
 def test_maps_that_are_not_named_are_the_ingredients(tmp_path):
-    job = fo.Job.default().replaced({"bake.frames": 1, "bake.pictures": []})
+    job = builders.job({"bake.frames": 1, "bake.pictures": []})
     with pytest.warns(fo.SeaWarning, match="displacement, derivative, stretch in place of"):
         listed = bake(tmp_path / "sea", job)
     assert [tile["maps"] for tile in listed["tiles"]] == 2 * [
@@ -460,7 +461,9 @@ def test_a_tile_of_another_sea_is_found(copy, tmp_path):
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
     (copy / "cascade.json").unlink()
     flip(copy / "cascade-job.json")
-    with pytest.raises(fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"):
+    with pytest.raises(
+        fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"
+    ):
         fo.repair(copy, executor="serial")
 
 

@@ -11,6 +11,7 @@ import random
 import shutil
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -37,9 +38,7 @@ def job(**changes):
         "bake.maps": ["height", "displacement", "normal"],
         "bake.pictures": ["tiling"],
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 def tree(folder):
@@ -325,7 +324,9 @@ def test_an_unfinished_bake_is_said_to_be_one(exr, tmp_path):
 @pytest.mark.parametrize("name", ["none", "file"])
 def test_what_is_no_folder_is_an_output_error(tmp_path, name):
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"):
+    with pytest.raises(
+        OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"
+    ):
         check(tmp_path / name)
 
 

@@ -5,6 +5,7 @@ is what was written.
 
 import shutil
 
+import builders
 import numpy as np
 import pytest
 
@@ -30,9 +31,7 @@ def job(**changes):
         "bake.pictures": ["tiling"],
         "ocean.choppiness": 1.3,
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 @pytest.fixture(autouse=True)
@@ -199,7 +198,8 @@ def test_what_is_not_what_was_written_is_refused(name, tmp_path):
     data[len(data) // 2] ^= 8
     path.write_bytes(data)
     with pytest.raises(
-        IntegrityError, match=r"frame 2: the file was changed after it was written; `fftocean check`"
+        IntegrityError,
+        match=r"frame 2: the file was changed after it was written; `fftocean check`",
     ):
         load(tmp_path / "out")
     if name == "zarr":  # has a checksum of its own; an EXR tells most changes, bare numbers none

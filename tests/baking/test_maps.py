@@ -5,6 +5,7 @@ smaller levels.
 
 from typing import get_args
 
+import builders
 import numpy as np
 import pytest
 
@@ -200,7 +201,7 @@ def test_a_map_that_no_height_field_shows_is_refused(tmp_path):
     reason = "the map 'stretch' cannot be baked with the lookup 'eulerian', as it shows stretch_xx: a height field"
     with pytest.raises(fo.ParameterError, match=reason):
         maps.needed(["height", "stretch"], eulerian=True)
-    job = fo.Job.default().replaced(
+    job = builders.job(
         {"bake.lookup": "eulerian", "bake.maps": ["height", "stretch"], "ocean.n": 8}
     )
     with pytest.raises(fo.JobError, match=reason):
