@@ -47,6 +47,9 @@ FIELDS: dict[str, Field] = {
     "velocity_z":  Field("height",    0, 0, 1, "m/s", "d height / dt of the surface particle"),
 }  # fmt: skip
 
+DISPLACEMENT_GRADIENT = ("stretch_xx", "stretch_xy", "stretch_yy")
+"""The gradient of the horizontal displacement, before choppiness [-]."""
+
 EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
 """The eight fields of one moment, which `Ocean.frame` returns by default."""
 
@@ -55,9 +58,6 @@ GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 
 POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
 """The fields that are not linear, and the linear ones that they are computed from."""
-
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
-"""The gradients of height and displacement, in the order that the kernels of `surface` take."""
 
 
 def potential_factor(k: Real, depth: float) -> Real:

@@ -1,4 +1,4 @@
-"""Foam on the water, one step of time: what is there decays, what breaks meanwhile is added."""
+"""One time step of foam: decay, and growth where water breaks."""
 
 import numpy as np
 
@@ -19,11 +19,11 @@ def advance(
     state: Real,
 ) -> None:
     """
-    state = decay state + sum over i of weights[i] max(threshold - squeeze(u_i), 0).
+    state = decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
 
-    `squeeze` runs through the four given moments as a cubic, and u_i are moments from `now` to
-    `then`: squeeze(u_i) is the sum of cubic[i] times the four. So a crest that breaks between two
-        moments is not missed.
+    The smallest eigenvalue of the deformation gradient is a cubic through the four given times, and
+    u_i are times from `now` to `then`: eigenvalue(u_i) is the sum of cubic[i] times the four. So a
+    crest that breaks between two steps is not missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]

@@ -70,8 +70,9 @@ def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None
 @compiled
 def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     """
-    out = the smaller eigenvalue of [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]]: the stretch along the
-    most squeezed direction.
+    out = the smallest eigenvalue of the deformation gradient.
+
+    The deformation gradient is [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]].
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     half = xx.dtype.type(0.5)

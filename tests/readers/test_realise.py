@@ -247,9 +247,7 @@ def test_what_a_reader_masked_or_repaired_is_still_said_of_the_sea(tmp_path):
     made = Realised.from_spectrum(readers.open(path))
     limited = readers.open(path).attrs["limited_moments"]
     assert limited > 0
-    assert (
-        f"{limited} pairs of directional moments that no sea can have were drawn in" in made.notes
-    )
+    assert f"{limited} pairs of directional moments that no sea can have were limited" in made.notes
     assert "no depth is known: the water is taken as deep" in made.notes
     assert "the depth is the measurement's own, 30 m" in Realised.from_spectrum(ww3(sea())).notes
     assert not any("depth" in note for note in Realised.from_spectrum(ww3(sea()), depth=20.0).notes)
