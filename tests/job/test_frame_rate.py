@@ -1,8 +1,7 @@
 """Number of frames from a frame rate."""
 
-import pytest
-
 import builders
+import pytest
 
 import fftocean as fo
 from fftocean.job.frame_rate import with_frame_rate
