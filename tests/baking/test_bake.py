@@ -21,6 +21,7 @@ import sys
 import time
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 from PIL import Image
@@ -39,7 +40,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 def job(**changes):
     """A small job of the default sea; keys with __ for the dot."""
-    return fo.Job.default().replaced(
+    return builders.job(
         {
             "ocean.n": 8,
             "bake.frames": 2,
