@@ -59,9 +59,6 @@ GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
 """The fields that are not linear, and the linear ones that they are computed from."""
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
-"""The gradients of height and displacement, in the order that the kernels of `surface` take."""
-
 
 def potential_factor(k: Real, depth: float) -> Real:
     """

@@ -723,7 +723,12 @@ def test_with_amplitudes_shows_the_given_waves():
     halved = dataclasses.replace(a, forward=0.5 * a.forward, backward=0.5 * a.backward)
     other = original.with_amplitudes(halved)
     assert other.amplitudes is halved
-    assert (other.sea, other.seed, other.choppiness, other.dtype) == (original.sea, 3, 0.7, "float64")
+    assert (other.sea, other.seed, other.choppiness, other.dtype) == (
+        original.sea,
+        3,
+        0.7,
+        "float64",
+    )
     truth = original.frame(4.2, ALL)
     frame = other.frame(4.2, ALL)
     for name in FIELDS:

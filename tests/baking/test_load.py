@@ -199,7 +199,9 @@ def test_what_is_not_what_was_written_is_refused(name, tmp_path):
     data[len(data) // 2] ^= 8
     path.write_bytes(data)
     with pytest.raises(
-        IntegrityError, match=r"frame 2: the file was changed after it was written; `fftocean check`"
+        IntegrityError,
+        match=r"frame 2: the file was changed after it was written; `fftocean "
+        r"check`",
     ):
         load(tmp_path / "out")
     if name == "zarr":  # has a checksum of its own; an EXR tells most changes, bare numbers none

@@ -348,7 +348,8 @@ def test_broken_foam_covers_as_much_of_the_water_as_it_should():
 def test_the_threshold_is_found_for_a_cover(cover):
     sea = ocean(ocean__n=64)
     moments = [
-        whitecaps.squeeze(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT)) for i in reversed(range(40))
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(40))
     ]
     caps = whitecaps.Whitecaps.before(moments, 0.25, fo.Foam(), cover)
     assert np.mean(caps.coverage) == pytest.approx(cover, rel=0.05)  # all points were looked at
@@ -360,7 +361,8 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     foam = fo.Foam(threshold=0.8)
     truth = next(iter(foam.loop(sea, 64)))
     moments = [
-        whitecaps.squeeze(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT)) for i in reversed(range(64))
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(64))
     ]
     shown = whitecaps.Whitecaps.before(moments, 0.25, foam).coverage
     assert np.mean(truth) > 0.01
@@ -376,8 +378,8 @@ def test_squeeze_of_summed_tiles_is_that_of_the_sum():
         fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, DISPLACEMENT_GRADIENT)
         for some in (waves, waves[:1], waves[1:])
     )
-    one = whitecaps.squeeze(both)
-    two = whitecaps.squeeze(each)[::6, ::6]  # 384 to 64
+    one = whitecaps.smallest_eigenvalue(both)
+    two = whitecaps.smallest_eigenvalue(each)[::6, ::6]  # 384 to 64
     assert np.allclose(one, two, atol=1e-6)  # float32
 
 

@@ -337,8 +337,8 @@ def test_a_bake_says_how_its_files_are_loaded_into_the_engine(run, engine, form,
         (
             ["--n", "8", "--dry-run"],
             ["--n", "8"],
-            ["--tiles", "8:60,8:20", "--dry-run"],
-            ["--tiles", "8:60,8:20"],
+            ["--tiles", "8:60,8:15", "--dry-run"],
+            ["--tiles", "8:60,8:15"],
         )
     ):
         code, out, _ = run("bake", "-o", f"out{number}", *flags, "--executor", "serial", *more)
