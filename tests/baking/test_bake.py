@@ -225,7 +225,7 @@ def test_the_last_frame_leads_to_the_first(whole):
     assert manifest["frames"][-1]["t"] < manifest["ocean"]["loop"]
 
 
-def test_the_manifest_says_what_was_ordered_and_delivered(whole):
+def test_the_manifest_has_the_specified_and_the_realised_statistics(whole):
     order, _, manifest = whole
     assert manifest["job"] == order.describe()
     assert manifest["units"]["sea.wind.speed"] == "m/s"
@@ -234,7 +234,7 @@ def test_the_manifest_says_what_was_ordered_and_delivered(whole):
     assert manifest["ocean"]["depth"] == 5.0
     measured = fo.measure(order.ocean())
     assert manifest["statistics"]["hs"] == measured.hs
-    assert manifest["statistics"]["ordered"]["hs"] == measured.ordered.hs
+    assert manifest["statistics"]["ordered"]["hs"] == measured.specified.hs
     assert manifest["statistics"]["loop"]["period"] == 16.0
 
 

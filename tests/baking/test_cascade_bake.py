@@ -66,7 +66,7 @@ def remembered():
     all, too.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for name in ("outside_band", "ordered"):
+        for name in ("outside_band", "specified"):
             integrate, known = getattr(statistics, name), {}
 
             def look_up(*arguments, integrate=integrate, known=known):

@@ -35,7 +35,7 @@ def whitecap_cover(wind: float) -> float:
     return 0.0 if wind < 3.7 else 2.95e-6 * min(wind, 20.0) ** 3.52
 
 
-def smallest_eigenvalue(frames: Frame | Sequence[Frame]) -> Real:
+def minimum_eigenvalue(frames: Frame | Sequence[Frame]) -> Real:
     """
     Return the smallest eigenvalue of the deformation gradient of summed tiles, over the first one.
     """
@@ -72,7 +72,7 @@ class Whitecaps:
         Return the foam that has accumulated over some moments.
 
         Args:
-            moments: the `smallest_eigenvalue` at equal steps of time.
+            moments: the `minimum_eigenvalue` at equal steps of time.
             step: from one to the next [s].
             foam: parameters of foam.
             cover: share of the surface to cover; the threshold is found for it. None keeps the
