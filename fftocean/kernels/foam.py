@@ -1,4 +1,4 @@
-"""Foam on the water, one step of time: what is there decays, what breaks meanwhile is added."""
+"""One step of the foam equation."""
 
 import numpy as np
 
@@ -19,11 +19,11 @@ def advance(
     state: Real,
 ) -> None:
     """
-    state = decay state + sum over i of weights[i] max(threshold - squeeze(u_i), 0).
+    Set state = decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
 
-    `squeeze` runs through the four given moments as a cubic, and u_i are moments from `now` to
-    `then`: squeeze(u_i) is the sum of cubic[i] times the four. So a crest that breaks between two
-        moments is not missed.
+    The eigenvalue at time u_i, from `now` to `then`, is interpolated by a cubic through the four
+    given times: the sum of cubic[i] times the four. So a crest that breaks between two times is not
+    missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]
@@ -44,7 +44,7 @@ def advance(
 
 @compiled
 def coverage(state: Real, out: Real) -> None:
-    """out = 1 - e^{-state}, in 0..1."""
+    """Set out = 1 - e^{-state}, in 0..1."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             out[j, i] = -np.expm1(-state[j, i])

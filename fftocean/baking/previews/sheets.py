@@ -18,7 +18,7 @@ from fftocean.baking.previews.render import Water
 from fftocean.baking.previews.whitecaps import Whitecaps
 from fftocean.cascade import Cascade
 from fftocean.errors import OutputError
-from fftocean.foam import SQUEEZE, Foam
+from fftocean.foam import DISPLACEMENT_GRADIENT, Foam
 from fftocean.grid import Grid
 from fftocean.ocean import Frame, Ocean
 
@@ -188,7 +188,7 @@ class _Moments:
         caps.add(whitecaps.squeeze(fields), step)
 
     def _squeeze(self, t: float) -> Real:
-        return whitecaps.squeeze(self.ocean.frame(t, SQUEEZE))
+        return whitecaps.squeeze(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
 
 
 def _oceans(ocean: Sea) -> tuple[Ocean, ...]:

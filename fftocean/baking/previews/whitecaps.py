@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.foam import SQUEEZE, Foam
+from fftocean.foam import DISPLACEMENT_GRADIENT, Foam
 from fftocean.kernels import interpolate, surface
 from fftocean.ocean import Frame
 
@@ -45,10 +45,10 @@ def squeeze(frames: Frame | Sequence[Frame]) -> Real:
         nx = ny = SIDE_OF_SUM
     x = np.broadcast_to(np.arange(nx) * (grid.lx / nx), (ny, nx)).ravel()
     y = np.broadcast_to((np.arange(ny) * (grid.ly / ny))[:, None], (ny, nx)).ravel()
-    total = np.zeros((ny * nx, len(SQUEEZE)))
+    total = np.zeros((ny * nx, len(DISPLACEMENT_GRADIENT)))
     for tile in tiles:
         g = tile.grid
-        texels = np.stack([tile[name] for name in SQUEEZE], axis=-1)
+        texels = np.stack([tile[name] for name in DISPLACEMENT_GRADIENT], axis=-1)
         interpolate.bilinear(texels, x * (g.nx / g.lx), y * (g.ny / g.ly), total)
     xx, xy, yy = (np.ascontiguousarray(total[:, i].reshape(ny, nx)) for i in range(3))
     out = np.empty((ny, nx))
