@@ -1,31 +1,53 @@
 """
-What each physical quantity may be: its unit, its range, and the words for it.
+Units and ranges of physical quantities, and the checks of arguments against them.
 
-The ranges are generous: they admit every sea on Earth and most laboratory tanks, and they shut out
-what can only be a mistake (a wind in knots times a thousand, a depth of 1e-308 m). Inside them,
-every field is finite.
+The ranges are generous: they admit every sea on Earth and most laboratory tanks, and they exclude
+values that can only be mistakes (a wind in knots times a thousand, a depth of 1e-308 m). Inside
+them, every field is finite.
 """
 
 import math
 import numbers
+import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from itertools import islice
+from typing import Any, ClassVar
 
+import numpy as np
+
+from fftocean.arrays import Real
 from fftocean.errors import ParameterError
+
+LARGEST_FINITE = sys.float_info.max
+SMALLEST_POSITIVE = math.ulp(0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A kind of number: `check` lets a value through as a float, or says which rule it breaks."""
+    """
+    A kind of number: its unit and its range.
+
+    `check` is for one number and `check_array` for an array of them. A truth value, a text of
+    digits, a complex number and NaN are no numbers here, although NumPy would convert them.
+    """
 
     unit: str
     low: float
     high: float
 
+    _noun: ClassVar[str] = "number"
+    _kinds: ClassVar[str] = "iuf"  # NumPy's letters for the types of array that hold such numbers
+
     @property
     def rule(self) -> str:
-        """The rule in words, as it stands in error messages and in the documentation."""
+        """The range in words, for error messages and the documentation."""
         unit = f" {self.unit}" if self.unit else ""
+        if self.high == LARGEST_FINITE:
+            if self.low == -LARGEST_FINITE:
+                return "finite"
+            least = "positive" if self.low == SMALLEST_POSITIVE else f"at least {self.low:g}{unit}"
+            return f"{least} and finite"
         if math.isinf(self.high):
             return f"at least {self.low:g}{unit} (inf is allowed)"
         return f"between {self.low:g} and {self.high:g}{unit}"
@@ -35,15 +57,11 @@ class Quantity:
         Return `value` as a float.
 
         Raises:
-            ParameterError: `value` is not a real number (bool and str are not), is NaN, or is out
-                of range.
+            ParameterError: `value` is not a real number, is NaN, or is out of range.
         """
-        if isinstance(value, bool) or not isinstance(
-            value, numbers.Real
-        ):  # numpy's bool is no Real
-            raise ParameterError(
-                f"{name} must be a number {self.rule}, got {value!r:.60} ({type(value).__name__})"
-            )
+        # numpy's bool is not a Real
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise ParameterError(f"{name} must be a number {self.rule}, got {_with_type(value)}")
         try:
             number = float(value)
         except OverflowError:
@@ -52,12 +70,111 @@ class Quantity:
             raise ParameterError(f"{name} must be {self.rule}, got {number!r}")
         return number
 
+    def check_array(
+        self,
+        name: str,
+        values: Any,
+        *,
+        ndim: int | None = None,
+        least: int = 0,
+        most: int | None = None,
+        ascending: bool = False,
+        missing: bool = False,
+    ) -> Real:
+        """
+        Return `values` as a float64 array, every entry of which is in range.
+
+        Args:
+            name: of the argument, for messages.
+            values: an array, a number, or numbers in (nested) lists or another iterable.
+            ndim: the number of dimensions that it must have.
+            least: the smallest number of entries.
+            most: the largest number of entries; an endless iterable is read no further.
+            ascending: each entry along the last dimension must be more than the one before.
+            missing: let NaN through, and masked entries as NaN.
+
+        Raises:
+            ParameterError: a rule is broken; the message names the entry, the rule and the value.
+        """
+        array = self._converted(name, values, most, missing)
+        if ndim is not None and array.ndim != ndim:
+            form = {0: "a number", 1: "a list of numbers", 2: "a table of numbers"}.get(
+                ndim, f"a {ndim}-dimensional array of numbers"
+            )
+            shape = f" of shape {array.shape}" if array.ndim else ""
+            raise ParameterError(f"{name} must be {form} {self.rule}, got {values!r:.60}{shape}")
+        if array.size < least or (most is not None and array.size > most):
+            size = str(array.size) if most is None or array.size <= most else "more"
+            limit = f"at least {least}" if most is None else f"{least} to {most}"
+            raise ParameterError(f"{name} must be {limit} numbers, got {size}")
+        good = (array >= self.low) & (array <= self.high)
+        if missing:
+            good |= np.isnan(array)
+        if not np.all(good):
+            place = tuple(int(i) for i in np.argwhere(~good)[0])
+            raise ParameterError(
+                f"{_entry(name, place)} must be {self._article}{self.rule}, got {array[place]}"
+            )
+        if ascending and array.ndim:
+            falls = np.argwhere(~(np.diff(array, axis=-1) > 0.0))
+            if falls.size:
+                i = tuple(int(j) for j in falls[0])
+                unit = f" {self.unit}" if self.unit else ""
+                raise ParameterError(
+                    f"{name} must be strictly ascending, got {array[i]}{unit} before "
+                    f"{array[(*i[:-1], i[-1] + 1)]}{unit}"
+                )
+        return array
+
+    @property
+    def _article(self) -> str:
+        """The words before the range in the message of an array's entry."""
+        return "" if self._noun == "number" else f"a {self._noun} "
+
+    def _converted(self, name: str, values: Any, most: int | None, missing: bool) -> Real:
+        """Return `values` as float64; entries of arrays are not yet checked against the range."""
+        if np.ma.is_masked(values):
+            if not missing:
+                raise ParameterError(f"{name} must have no masked entries, got {values!r:.60}")
+            values = np.ma.filled(values.astype(np.float64), np.nan)
+        if hasattr(values, "__array__"):
+            array = np.asarray(values)
+            if array.dtype.kind in self._kinds:
+                with np.errstate(over="ignore"):  # an extended double out of range becomes inf
+                    return array.astype(np.float64, copy=False)
+            if array.dtype.kind != "O":
+                raise ParameterError(
+                    f"{name} must be {self._noun}s {self.rule}, got {values!r:.60} ({array.dtype})"
+                )
+            values = array.tolist()
+        listed = self._listed(name, values, most, missing)
+        try:
+            return np.array(listed, dtype=np.float64)
+        except ValueError:  # rows of different lengths
+            raise ParameterError(
+                f"{name} must be {self._noun}s in a regular array, got {values!r:.60}"
+            ) from None
+
+    def _listed(self, name: str, values: Any, most: int | None, missing: bool) -> Any:
+        """Return the checked numbers in lists nested like `values`."""
+        if isinstance(values, np.ndarray) and values.ndim:  # a row of a list of arrays
+            return self._converted(name, values, most, missing).tolist()
+        if not isinstance(values, Iterable) or isinstance(values, (str, bytes, np.ndarray, dict)):
+            if missing and isinstance(values, numbers.Real) and math.isnan(values):
+                return math.nan
+            return self.check(name, values)
+        items = islice(values, None if most is None else most + 1)
+        return [self._listed(f"{name}[{i}]", v, most, missing) for i, v in enumerate(items)]
+
 
 @dataclass(frozen=True, slots=True)
 class Count(Quantity):
-    """A whole number of things."""
+    """A kind of whole number: `check` returns an int and refuses 7.0."""
 
-    def check_whole(self, name: str, value: Any) -> int:
+    _noun: ClassVar[str] = "whole number"
+    _kinds: ClassVar[str] = "iu"
+
+    def check(self, name: str, value: Any) -> int:
         """
         Return `value` as an int.
 
@@ -66,28 +183,39 @@ class Count(Quantity):
         """
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise ParameterError(
-                f"{name} must be a whole number {self.rule}, got {value!r:.60} ({type(value).__name__})"
+                f"{name} must be a whole number {self.rule}, got {_with_type(value)}"
             )
         if not self.low <= int(value) <= self.high:
             raise ParameterError(f"{name} must be a whole number {self.rule}, got {int(value)}")
         return int(value)
 
+    check_whole = check  # the name of earlier versions
+
+
+def _with_type(value: Any) -> str:
+    """Return a value that is no number as a message shows it."""
+    return f"{value!r:.60} ({type(value).__name__})"
+
+
+def _entry(name: str, place: tuple[int, ...]) -> str:
+    """Return the name of one entry of an array, such as density[2][0]."""
+    return name + "".join(f"[{i}]" for i in place)
+
 
 def keep_checked(model: object, **quantities: Quantity) -> None:
     """
-    Check the named fields of a frozen value, and keep them as plain floats.
+    Check the named fields of a frozen value, and store them as plain floats.
 
     Raises:
-        ParameterError: one of them breaks its rule.
+        ParameterError: a field breaks its rule.
     """
     for name, quantity in quantities.items():
         object.__setattr__(model, name, quantity.check(name, getattr(model, name)))
 
 
-WIND_SPEED = Quantity(
-    "m/s", 0.0, 150.0
-)  # the fastest gust on record is 113 m/s (Barrow Island 1996)
-FETCH = Quantity("m", 1.0, 5e7)  # the Earth's girth is 4e7 m
+# the fastest gust on record is 113 m/s (Barrow Island 1996)
+WIND_SPEED = Quantity("m/s", 0.0, 150.0)
+FETCH = Quantity("m", 1.0, 5e7)  # the Earth's circumference is 4e7 m
 DEPTH = Quantity("m", 1e-6, math.inf)
 SIGNIFICANT_WAVE_HEIGHT = Quantity("m", 0.0, 100.0)
 PERIOD = Quantity("s", 1e-2, 1e3)

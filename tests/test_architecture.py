@@ -31,7 +31,7 @@ FLOOR = {room: floor for floor, rooms in FLOORS.items() for room in rooms}
 # The stairs within a floor, lowest step first. Elsewhere the rooms of a floor do not know each
 # other, and the modules of one room may.
 STAIRS = [
-    [["constants", "errors"], ["arrays", "limits", "files"]],
+    [["constants", "errors"], ["arrays", "files"], ["limits"]],
     [
         ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
         ["physics.spectra", "physics.spreading", "physics.tabulated"],

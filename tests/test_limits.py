@@ -1,10 +1,9 @@
-"""
-What each quantity may be, what is said when it is not, and that no constructor of the sea lets
-anything else through.
-"""
+"""The ranges of quantities, the messages of their checks, and the constructors that use them."""
 
+import itertools
 import math
 import re
+import sys
 import warnings
 from decimal import Decimal
 from fractions import Fraction
@@ -69,18 +68,19 @@ def test_what_is_no_number_is_refused(bad):
     alike in a job file.
     """
     for q in QUANTITIES.values():
+        noun = "whole number" if isinstance(q, Count) else "number"
         with pytest.raises(ParameterError) as error:
             q.check("thing", bad)
         assert (
             str(error.value)
-            == f"thing must be a number {q.rule}, got {bad!r:.60} ({type(bad).__name__})"
+            == f"thing must be a {noun} {q.rule}, got {bad!r:.60} ({type(bad).__name__})"
         )
 
 
 @pytest.mark.parametrize("name", sorted(QUANTITIES))
 def test_nan_is_nowhere_inside(name):
     for nan in (math.nan, np.float64("nan"), np.float32("nan")):
-        with pytest.raises(ParameterError, match=r"^x must be .*, got nan$"):
+        with pytest.raises(ParameterError, match=r"^x must be .*, got .*nan"):
             QUANTITIES[name].check("x", nan)
 
 
@@ -116,6 +116,10 @@ def test_rules_in_words():
     assert limits.FETCH.rule == "between 1 and 5e+07 m"
     assert limits.DEPTH.rule == "at least 1e-06 m (inf is allowed)"
     assert limits.FRACTION.rule == "between 0 and 1"
+    largest, smallest = sys.float_info.max, math.nextafter(0.0, 1.0)
+    assert Quantity("m", 0.0, largest).rule == "at least 0 m and finite"
+    assert Quantity("m", smallest, largest).rule == "positive and finite"
+    assert Quantity("m", -largest, largest).rule == "finite"
 
 
 def test_a_long_value_is_cut_short():
@@ -128,9 +132,9 @@ def test_a_long_value_is_cut_short():
 @pytest.mark.parametrize("name", sorted(COUNTS))
 def test_counts_are_whole(name):
     q = COUNTS[name]
-    assert q.check_whole("n", q.high) == q.high
-    assert q.check_whole("n", np.int64(7)) == 7
-    assert type(q.check_whole("n", np.uint8(7))) is int
+    assert q.check("n", q.high) == q.high
+    assert q.check("n", np.int64(7)) == 7
+    assert type(q.check("n", np.uint8(7))) is int
     for bad in (
         7.0,
         7.5,
@@ -144,22 +148,158 @@ def test_counts_are_whole(name):
         Fraction(7),
     ):
         with pytest.raises(ParameterError) as error:
-            q.check_whole("n", bad)
+            q.check("n", bad)
         assert (
             str(error.value)
             == f"n must be a whole number {q.rule}, got {bad!r} ({type(bad).__name__})"
         )
     for bad in (q.low - 1, q.high + 1, 10**400, -(10**400)):
         with pytest.raises(ParameterError) as error:
-            q.check_whole("n", bad)
+            q.check("n", bad)
         assert str(error.value) == f"n must be a whole number {q.rule}, got {bad}"
 
 
 def test_the_last_seed_is_told_from_the_next():
     """2^64 - 1 and 2^64 are one float: counts are compared as integers."""
-    assert limits.SEED.check_whole("seed", 2**64 - 1) == 2**64 - 1
+    assert limits.SEED.check("seed", 2**64 - 1) == 2**64 - 1
     with pytest.raises(ParameterError, match="seed must be a whole number"):
-        limits.SEED.check_whole("seed", 2**64)
+        limits.SEED.check("seed", 2**64)
+
+
+# An array of them
+
+
+def refusal(values, quantity=limits.FETCH, **rules) -> str:
+    """Return the message with which an array is refused."""
+    with pytest.raises(ParameterError) as error:
+        quantity.check_array("x", values, **rules)
+    return str(error.value)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        [1.0, 2.0, 4.0],
+        (1, 2.0, np.float32(4.0)),
+        range(1, 8, 3),
+        iter([1, 2, 4]),
+        [Fraction(1), Fraction(2), 4],
+        np.array([1, 2, 4], np.uint8),
+        np.array([1, 2, 4], np.float16),
+        np.array([1, 2, 4], np.longdouble),
+        np.array([Fraction(1), 2, 4.0], object),
+        np.array([1.0, 0.0, 2.0, 0.0, 4.0])[::2],
+        np.ma.masked_array([1.0, 2.0, 4.0], mask=False),
+    ],
+    ids=repr,
+)
+def test_numbers_in_any_container_become_a_float64_array(values):
+    expected = [1.0, 4.0, 7.0] if isinstance(values, range) else [1.0, 2.0, 4.0]
+    array = limits.FETCH.check_array("x", values)
+    assert type(array) is np.ndarray
+    assert array.dtype == np.float64
+    assert array.tolist() == expected
+
+
+def test_arrays_of_every_dimension_keep_their_shape():
+    for shape in ((), (3,), (2, 3), (0,), (2, 0, 3)):
+        assert limits.FETCH.check_array("x", np.ones(shape)).shape == shape
+        if 0 not in shape:
+            assert limits.FETCH.check_array("x", np.ones(shape).tolist()).shape == shape
+    assert limits.FETCH.check_array("x", [np.ones(3), np.ones(3)]).shape == (2, 3)
+
+
+def test_a_float64_array_is_not_copied():
+    given = np.array([1.0, 2.0])
+    assert limits.FETCH.check_array("x", given) is given
+
+
+@pytest.mark.parametrize("bad", [0.5, math.nan, -math.inf, 1e308])
+def test_an_entry_out_of_range_is_named(bad):
+    table = [[1.0, 2.0], [3.0, bad]]
+    message = f"x[1][1] must be between 1 and 5e+07 m, got {bad}"
+    assert refusal(table) == message
+    assert refusal(np.array(table)) == message
+    assert refusal(np.array(bad)) == f"x must be between 1 and 5e+07 m, got {bad}"
+
+
+@pytest.mark.parametrize("bad", ["5", b"5", True, np.True_, None, 1j, Decimal(5), {5: 5}, object])
+def test_an_entry_that_is_no_number_is_named(bad):
+    """NumPy would make numbers of most of these, and some of them silently."""
+    got = f"must be a number between 1 and 5e+07 m, got {bad!r:.60} ({type(bad).__name__})"
+    assert refusal([1.0, bad]) == f"x[1] {got}"
+    assert refusal(np.array([1.0, bad], object)) == f"x[1] {got}"
+    if not isinstance(bad, np.bool_):
+        assert refusal(bad) == f"x {got}"
+
+
+@pytest.mark.parametrize("kind", ["bool", "complex128", "U3", "S3", "datetime64[s]"])
+def test_arrays_of_other_types_are_refused(kind):
+    array = np.ones(2).astype("int64").astype(kind)
+    message = f"x must be numbers between 1 and 5e+07 m, got {array!r:.60} ({array.dtype})"
+    assert refusal(array) == message
+
+
+def test_rows_of_different_lengths_are_refused():
+    assert refusal([[1.0], [1.0, 2.0]]) == (
+        "x must be numbers in a regular array, got [[1.0], [1.0, 2.0]]"
+    )
+
+
+def test_masked_entries_are_refused_or_become_nan():
+    """A masked entry holds a number, but one that stands for nothing."""
+    masked = np.ma.masked_array([1, 2], mask=[False, True])
+    assert refusal(masked).startswith("x must have no masked entries, got masked_array(")
+    assert np.array_equal(
+        limits.FETCH.check_array("x", masked, missing=True), [1.0, math.nan], equal_nan=True
+    )
+
+
+def test_missing_values_pass_where_they_may():
+    for values in ([1.0, math.nan], np.array([1.0, math.nan])):
+        array = limits.FETCH.check_array("x", values, missing=True)
+        assert np.array_equal(array, [1.0, math.nan], equal_nan=True)
+    assert refusal([math.nan, 0.0], missing=True) == "x[1] must be between 1 and 5e+07 m, got 0.0"
+
+
+def test_the_number_of_dimensions_is_held():
+    list_of, table_of = "x must be a list of numbers", "x must be a table of numbers"
+    assert refusal(3.0, ndim=1) == f"{list_of} between 1 and 5e+07 m, got 3.0"
+    assert (
+        refusal([[3.0]], ndim=1) == f"{list_of} between 1 and 5e+07 m, got [[3.0]] of shape (1, 1)"
+    )
+    assert refusal([3.0], ndim=2) == f"{table_of} between 1 and 5e+07 m, got [3.0] of shape (1,)"
+    assert limits.FETCH.check_array("x", [[3.0]], ndim=2).shape == (1, 1)
+
+
+def test_the_number_of_entries_is_held():
+    assert refusal([1.0], least=2) == "x must be at least 2 numbers, got 1"
+    assert refusal([1.0] * 5, least=2, most=4) == "x must be 2 to 4 numbers, got more"
+    assert refusal([1.0], least=2, most=4) == "x must be 2 to 4 numbers, got 1"
+    assert refusal(np.ones(5), most=4) == "x must be 0 to 4 numbers, got more"
+    assert refusal(itertools.repeat(1.0), most=4) == "x must be 0 to 4 numbers, got more"
+    assert limits.FETCH.check_array("x", [1.0] * 4, least=4, most=4).size == 4
+
+
+def test_entries_ascend_strictly_along_the_last_dimension():
+    for values in ([1.0, 3.0, 2.0], np.array([[1.0, 2.0, 3.0], [1.0, 3.0, 2.0]])):
+        assert refusal(values, ascending=True) == (
+            "x must be strictly ascending, got 3.0 m before 2.0 m"
+        )
+    assert refusal([2.0, 2.0], ascending=True).endswith("got 2.0 m before 2.0 m")
+    for values in (5.0, [], [5.0], [[4.0, 5.0], [1.0, 2.0]]):
+        limits.FETCH.check_array("x", values, ascending=True)
+
+
+def test_arrays_of_counts_are_whole():
+    assert limits.SAMPLES.check_array("n", np.array([1, 2], np.int16)).tolist() == [1.0, 2.0]
+    assert refusal([1, 2.0], limits.SAMPLES) == (
+        "x[1] must be a whole number between 1 and 65536, got 2.0 (float)"
+    )
+    assert refusal(np.array([1.0]), limits.SAMPLES) == (
+        "x must be whole numbers between 1 and 65536, got array([1.]) (float64)"
+    )
+    assert refusal(np.array([0]), limits.SAMPLES).startswith("x[0] must be a whole number between")
 
 
 # Every physical key of every constructor

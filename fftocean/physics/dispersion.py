@@ -10,7 +10,7 @@ import numpy as np
 from fftocean.arrays import Integer, Real, RealLike
 from fftocean.constants import GRAVITY, WATER_DENSITY
 from fftocean.errors import ParameterError
-from fftocean.limits import DEPTH, LOOP, SURFACE_TENSION
+from fftocean.limits import DEPTH, LOOP, SURFACE_TENSION, Quantity
 
 LARGEST = 1e48
 """
@@ -19,22 +19,8 @@ within double precision.
 """
 
 
-def _argument(name: str, values: RealLike, unit: str) -> Real:
-    """Return `values` as a float64 array of numbers from 0 to `LARGEST`."""
-    array = np.asarray(values)
-    if (
-        array.dtype.kind not in "iuf"
-    ):  # a string of digits would convert, and so would a truth value
-        raise ParameterError(
-            f"{name} must be numbers between 0 and {LARGEST:g} {unit}, got {values!r:.60} ({array.dtype})"
-        )
-    array = array.astype(np.float64, copy=False)
-    good = (array >= 0.0) & (array <= LARGEST)
-    if not np.all(good):
-        raise ParameterError(
-            f"{name} must be between 0 and {LARGEST:g} {unit}, got {array[~good].flat[0]}"
-        )
-    return array
+WAVENUMBER = Quantity("rad/m", 0.0, LARGEST)
+FREQUENCY = Quantity("rad/s", 0.0, LARGEST)
 
 
 def _water(depth: float, surface_tension: float) -> float:
@@ -105,7 +91,7 @@ def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: flo
     `wavenumber`.
     """
     kinematic_tension = _water(depth, surface_tension)
-    return _frequency(_argument("k", k, "rad/m"), depth, kinematic_tension)
+    return _frequency(WAVENUMBER.check_array("k", k), depth, kinematic_tension)
 
 
 def group_to_phase_speed(
@@ -118,7 +104,7 @@ def group_to_phase_speed(
     With x = k h and s = (sigma/rho) k^2:  1/2 ((g + 3 s)/(g + s) + 2x / sinh 2x).
     """
     kinematic_tension = _water(depth, surface_tension)
-    return _speed_ratio(_argument("k", k, "rad/m"), depth, kinematic_tension)
+    return _speed_ratio(WAVENUMBER.check_array("k", k), depth, kinematic_tension)
 
 
 def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
@@ -140,7 +126,7 @@ def group_velocity(k: RealLike, depth: float = math.inf, surface_tension: float 
     Source: Lamb, Hydrodynamics (1932), art. 236.
     Pinned by tests/physics/test_dispersion.py, against a central difference of `angular_frequency`.
     """
-    k = _argument("k", k, "rad/m")
+    k = WAVENUMBER.check_array("k", k)
     if np.any(k == 0.0):
         raise ParameterError("k must be more than 0 rad/m for a group velocity, got 0.0")
     return (
@@ -173,7 +159,7 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     Pinned by tests/physics/test_dispersion.py, against 40-digit arithmetic, to 4 eps.
     """
     kinematic_tension = _water(depth, surface_tension)
-    omega = _argument("omega", omega, "rad/s")
+    omega = FREQUENCY.check_array("omega", omega)
     deep = omega**2 / GRAVITY
     if math.isinf(depth) and kinematic_tension == 0.0:
         return deep
@@ -211,7 +197,7 @@ def loop_cycles(omega: RealLike, period: float) -> Integer:
     Source: Tessendorf 2001, section 4.4 (who truncates; rounding halves the error).
     """
     period = LOOP.check("period", period)
-    turns = np.rint(_argument("omega", omega, "rad/s") * (period / (2.0 * np.pi)))
+    turns = np.rint(FREQUENCY.check_array("omega", omega) * (period / (2.0 * np.pi)))
     if np.any(turns >= 2.0**63):
         raise ParameterError(
             f"omega must make fewer than 2^63 turns in a loop, got {np.max(turns):g} in {period:g} s"

@@ -23,7 +23,6 @@ from fftocean.limits import (
     PHILLIPS_CONSTANT,
     SIGNIFICANT_WAVE_HEIGHT,
     WIND_SPEED,
-    Quantity,
     keep_checked,
 )
 from fftocean.physics.dispersion import group_to_phase_speed, wavenumber
@@ -379,16 +378,12 @@ class TabulatedSpectrum:
     _s: Real = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        f = _column("frequency", self.frequency, FREQUENCY)
-        s = _column("density", self.density, DENSITY)
+        f = FREQUENCY.check_array("frequency", self.frequency, ndim=1, ascending=True)
+        s = DENSITY.check_array("density", self.density, ndim=1)
         if f.size < 2 or f.size != s.size:
             raise ParameterError(
-                f"frequency and density must have the same length, at least 2, got {f.size} and {s.size}"
-            )
-        if not np.all(np.diff(f) > 0.0):
-            fall = int(np.argmax(np.diff(f) <= 0.0))
-            raise ParameterError(
-                f"frequency must be strictly ascending, got {f[fall]} Hz before {f[fall + 1]} Hz"
+                "frequency and density must have the same length, at least 2, "
+                f"got {f.size} and {s.size}"
             )
         if self.depth is not None:
             keep_checked(self, depth=DEPTH)
@@ -417,19 +412,6 @@ class TabulatedSpectrum:
         return np.interp(
             np.asarray(omega, dtype=np.float64), self._omega, self._s, left=0.0, right=0.0
         )
-
-
-def _column(name: str, values: Sequence[float], quantity: Quantity) -> Real:
-    """A one-dimensional float64 column, each of its numbers checked."""
-    try:
-        items = list(np.asarray(values).tolist() if hasattr(values, "__array__") else values)
-    except TypeError as error:
-        raise ParameterError(
-            f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}"
-        ) from error
-    return np.array(
-        [quantity.check(f"{name}[{i}]", item) for i, item in enumerate(items)], dtype=np.float64
-    )
 
 
 def checked_wind(speed: float) -> float:

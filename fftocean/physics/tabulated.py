@@ -7,6 +7,12 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
+from fftocean.limits import LARGEST_FINITE, SMALLEST_POSITIVE, Quantity
+
+# wide ranges: a table in any unit is brought to integral 1
+_FREQUENCY = Quantity("Hz", SMALLEST_POSITIVE, LARGEST_FINITE)
+_DIRECTION = Quantity("degrees", -LARGEST_FINITE, LARGEST_FINITE)
+_DENSITY = Quantity("", 0.0, LARGEST_FINITE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,23 +38,13 @@ class TabulatedSpreading:
     _d: Real = field(init=False, repr=False, compare=False)  # (f, theta) [1/rad]
 
     def __post_init__(self) -> None:
-        f, angle, table = (
-            _numbers(name, getattr(self, name)) for name in ("frequency", "direction", "density")
-        )
-        if f.ndim != 1 or f.size < 2 or not (f[0] > 0.0 and np.all(np.diff(f) > 0.0)):
-            raise ParameterError(
-                f"frequency must be at least 2 positive numbers, strictly ascending [Hz], got {self.frequency!r:.60}"
-            )
-        if angle.ndim != 1 or angle.size < 3:
-            raise ParameterError(
-                f"direction must be at least 3 angles [degrees], got {self.direction!r:.60}"
-            )
+        f = _FREQUENCY.check_array("frequency", self.frequency, ndim=1, least=2, ascending=True)
+        angle = _DIRECTION.check_array("direction", self.direction, ndim=1, least=3)
+        table = _DENSITY.check_array("density", self.density)
         if table.shape != (f.size, angle.size):
             raise ParameterError(
                 f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
             )
-        if np.any(table < 0.0):
-            raise ParameterError(f"density must be at least 0, got {table[table < 0.0][0]}")
         order = np.argsort(np.mod(angle, 360.0))
         turned = np.mod(angle, 360.0)[order]
         if np.any(np.diff(turned, append=turned[0] + 360.0) <= 0.0):
@@ -111,14 +107,3 @@ def _between(nodes: Real, x: Real) -> tuple[np.typing.NDArray[np.intp], Real]:
     """
     i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)
-
-
-def _numbers(name: str, values: object) -> Real:
-    """Finite float64 numbers."""
-    try:
-        array = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ParameterError(f"{name} must be numbers, got {values!r:.60}") from error
-    if not np.all(np.isfinite(array)):
-        raise ParameterError(f"{name} must be finite, got {array[~np.isfinite(array)].flat[0]}")
-    return array

@@ -421,7 +421,8 @@ def test_flat_table_is_a_flat_sea():
         (
             [[0.1, 0.2]],
             [1.0, 1.0],
-            "frequency[0] must be a number between 1e-06 and 100000 Hz, got [0.1, 0.2] (list)",
+            "frequency must be a list of numbers between 1e-06 and 100000 Hz, got [[0.1, 0.2]] of "
+            "shape (1, 2)",
         ),
         (
             0.1,
