@@ -24,7 +24,6 @@ from pathlib import Path
 import script
 
 from fftocean import host
-from fftocean.arrays import available_memory
 from fftocean.bench import machine
 from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
 from fftocean.bench.pictures import COLOURS, Line, bars, curves, duration, plain, sheet
@@ -32,6 +31,7 @@ from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT
+from fftocean.host import available_memory
 from fftocean.plots.theme import BLUE
 
 ASKS = "What does a frame cost, and against what?"

@@ -1,14 +1,15 @@
 """
 fftocean: seamlessly tiling, looping ocean surfaces with the statistics of a specified sea state.
 
-Names are loaded when first used, so that `import fftocean` does not wait for compilers and FFT
-libraries.
+Public names are imported on first use, so that `import fftocean` loads no compiler and no FFT
+library.
 """
 
 import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fftocean import foam as foam
     from fftocean import gerstner as gerstner
     from fftocean import kinematics as kinematics
     from fftocean import plots as plots
@@ -83,7 +84,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-_ROOMS = {
+_NAMES_BY_MODULE = {
     "fftocean.baking.bake": ("bake",),
     "fftocean.baking.finished.check": ("Finding", "check"),
     "fftocean.job.job": ("Job",),
@@ -139,7 +140,7 @@ _ROOMS = {
     "fftocean.statistics": ("Statistics", "measure"),
     "fftocean.window": ("Window",),
 }
-_MODULES = {
+_PUBLIC_MODULES = {
     "dispersion": "fftocean.physics.dispersion",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
@@ -151,17 +152,17 @@ _MODULES = {
     "science": "fftocean.science",
     "units": "fftocean.physics.units",
 }
-_HOME = {name: room for room, names in _ROOMS.items() for name in names}
+_MODULE_OF = {name: module for module, names in _NAMES_BY_MODULE.items() for name in names}
 
-__all__ = sorted([*_HOME, *_MODULES])
+__all__ = sorted([*_MODULE_OF, *_PUBLIC_MODULES])
 
 
 def __getattr__(name: str) -> Any:
-    """Load a public name from the room it lives in."""
-    if name in _MODULES:
-        value = importlib.import_module(_MODULES[name])
-    elif name in _HOME:
-        value = getattr(importlib.import_module(_HOME[name]), name)
+    """Import a public name from its module."""
+    if name in _PUBLIC_MODULES:
+        value = importlib.import_module(_PUBLIC_MODULES[name])
+    elif name in _MODULE_OF:
+        value = getattr(importlib.import_module(_MODULE_OF[name]), name)
     else:
         raise AttributeError(f"module 'fftocean' has no attribute {name!r}")
     globals()[name] = value
@@ -169,4 +170,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
+    """Return the public names and the module's own dunder names."""
     return sorted([*__all__, *(name for name in globals() if name.startswith("__"))])

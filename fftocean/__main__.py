@@ -1,4 +1,4 @@
-"""`python -m fftocean`: the command line without its script."""
+"""Command line as a module: `python -m fftocean`."""
 
 import sys
 

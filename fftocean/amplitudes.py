@@ -155,7 +155,7 @@ def seed_amplitudes(
         ParameterError: a value out of range, a sea whose density is not finite and >= 0, or waves
             that do not hold the variance that the sea has at their wavenumbers.
 
-    Source: Tessendorf 2001, with the factor of DESIGN: E[a^2/2] = 2 E|h0|^2 = E_k.
+    Source: Tessendorf 2001, with a factor such that E[a^2/2] = 2 E|h0|^2 = E_k.
     """
     seed = SEED.check_whole("seed", seed)
     if draw not in ("gaussian", "fixed"):

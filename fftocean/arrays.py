@@ -1,8 +1,6 @@
-"""Array types by name, and the memory there is for them."""
+"""Array types."""
 
-import os
 from dataclasses import fields, is_dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -40,45 +38,6 @@ def precision_of(dtype: Any) -> str:
     if name not in COMPLEX_OF:
         raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
     return name
-
-
-def available_memory() -> float:
-    """
-    Bytes that this process could still get: the machine's free memory or the control group's,
-    whichever is less; inf if unknown.
-    """
-    candidates = [float("inf")]
-    try:
-        for line in Path("/proc/meminfo").read_text().splitlines():
-            if line.startswith("MemAvailable:"):
-                candidates.append(1024.0 * int(line.split()[1]))
-    except (OSError, ValueError):
-        if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
-            candidates.append(float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE"))
-    try:
-        limit = Path("/sys/fs/cgroup/memory.max").read_text().strip()
-        if limit != "max":
-            candidates.append(
-                float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text())
-            )
-    except (OSError, ValueError):
-        pass
-    return min(candidates)
-
-
-def require_memory(what: str, needed: float) -> None:
-    """
-    Refuse, before anything is allocated, what cannot fit.
-
-    Raises:
-        ParameterError: `needed` bytes are more than `available_memory()`.
-    """
-    available = available_memory()
-    if needed > available:
-        free = max(available, 0.0) / 2**30
-        raise ParameterError(
-            f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free"
-        )
 
 
 SHOWN = 280

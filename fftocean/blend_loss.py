@@ -1,5 +1,5 @@
 """
-What is lost between two frames when they are blended linearly, as most players of textures do.
+Loss of amplitude between two frames that are blended linearly, as most players of textures do.
 
 Halfway between two frames dt apart, the mean of a wave's two phases is the wave itself times
 cos(omega dt/2): the amplitude that is left at the worst moment. From omega dt = pi on, a wave turns
@@ -21,12 +21,12 @@ from fftocean.limits import FRAMES
 from fftocean.ocean import Ocean
 
 ENOUGH = 0.97
-"""Of the amplitude, root mean square: 3 % less is not seen."""
+"""Share of the root mean square amplitude to keep: a loss of 3 % is not visible."""
 
 
 @dataclass(frozen=True, slots=True)
 class Blend:
-    """What linear blending between the frames of a loop keeps, and how many frames keep enough."""
+    """Amplitude left by linear blending between frames, and numbers of frames that keep enough."""
 
     rate: float  # frames a second [1/s]
     # of the height of all waves of the tile, root mean square, halfway between two frames [-]
@@ -41,7 +41,7 @@ class Blend:
 
 def loss(ocean: Ocean | Cascade, frames: int) -> Blend:
     """
-    Return what blending keeps between the frames of a loop; of a cascade, of all tiles together.
+    Return the amplitude left between the frames of a loop; of a cascade, that of all tiles together.
 
     Raises:
         ParameterError: the ocean does not loop, or `frames` is out of range.
@@ -68,7 +68,7 @@ def loss(ocean: Ocean | Cascade, frames: int) -> Blend:
 
 
 def describe(ocean: Ocean | Cascade, frames: int) -> dict[str, Any]:
-    """`loss` as plain data for the manifest."""
+    """Return `loss` as plain data for the manifest."""
     b = loss(ocean, frames)
     return {
         "what": "amplitude left halfway between two frames that are blended linearly: root mean square of cos(omega dt/2) over the waves",
@@ -85,7 +85,7 @@ def describe(ocean: Ocean | Cascade, frames: int) -> dict[str, Any]:
 
 
 def sentence(b: Blend) -> str:
-    """One line for the summary of a bake."""
+    """Return one line for the summary of a bake."""
     both = (
         f"{100 * b.kept:.1f} % of the waves' height and {100 * b.kept_slopes:.1f} % of their slopes"
     )
@@ -117,19 +117,19 @@ def _waves(ocean: Ocean | Cascade) -> tuple[Real, Real, Real]:
 
 
 def _frames(rate: float, loop: float) -> int:
-    """Whole frames in a loop that are at least as many a second."""
+    """Return the least number of frames in a loop that gives a rate."""
     return max(1, math.ceil(rate * loop - 1e-9))
 
 
 def _peak(ocean: Ocean | Cascade, energy: Real, omega: Real) -> float:
-    """The peak frequency: the sea's, or the strongest wave's where waves were given [rad/s]."""
+    """Return the peak frequency: the sea's, or the strongest wave's without a sea [rad/s]."""
     if ocean.sea is not None and (tp := ocean.sea.tp) > 0.0:
         return 2.0 * math.pi / tp
     return float(omega[np.argmax(energy)]) if energy.size else 0.0
 
 
 def _kept(energy: Real, omega: Real, step: float) -> float:
-    """The root mean square of max(cos(omega step/2), 0) over the energy; 1 where there is none."""
+    """Return the root mean square of max(cos(omega step/2), 0) over the energy; 1 without waves."""
     if not energy.size:
         return 1.0
     left = np.cos(np.minimum(0.5 * step * omega, 0.5 * math.pi))

@@ -13,16 +13,23 @@ from typing import Any
 import numpy as np
 
 from fftocean.amplitudes import Draw, Modes, seed_amplitudes
-from fftocean.arrays import precision_of, require_memory
 from fftocean.cells import WHOLE, Band
+from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
-from fftocean.fields import EIGHT
+from fftocean.fields import EIGHT, POINTWISE
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
-from fftocean.ocean import Frame, Ocean, longest_period, memory_needed, named, remade
+from fftocean.ocean import (
+    Frame,
+    Ocean,
+    check_fields,
+    from_amplitudes,
+    longest_period,
+    memory_needed,
+)
 from fftocean.physics.sea import Sea
-from fftocean.synthesis import POINTWISE
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
 """n, or (nx, ny), and size, or (lx, ly) [m]."""
@@ -84,17 +91,18 @@ class Cascade:
         shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
         loops = _loops(loop, len(grids))
         seed = SEED.check_whole("seed", seed)
-        name = precision_of(dtype)
+        computation = Computation(dtype, backend, planning, threads)
         require_memory(
-            f"a cascade of {len(grids)} tiles", sum(memory_needed(grid, name) for grid in grids)
+            f"a cascade of {len(grids)} tiles",
+            sum(memory_needed(grid, computation.dtype) for grid in grids),
         )
         _warn_of_short_loops(sea, shared, loops)
         oceans = []
         for grid, own, band, period in zip(
             grids, tile_seeds(seed, grids), shared, loops, strict=True
         ):
-            drawn = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
-            oceans.append(remade(sea, own, drawn, choppiness, name, backend, planning, threads))
+            waves = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
+            oceans.append(from_amplitudes(sea, own, waves, choppiness, computation))
         self._set_up(sea, seed, tuple(oceans))
 
     def _set_up(self, sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> None:
@@ -109,7 +117,7 @@ class Cascade:
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         """Pickle and copy as the tiles that it has."""
-        return assembled, self._recipe
+        return from_oceans, self._recipe
 
     def __len__(self) -> int:
         """How many tiles there are."""
@@ -193,7 +201,7 @@ class Cascade:
 
 def _summable(fields: Sequence[str]) -> tuple[str, ...]:
     """Return the names of fields, all of which add up over tiles."""
-    names = named(fields)
+    names = check_fields(fields)
     for name in names:
         if name in POINTWISE:
             raise ParameterError(
@@ -203,7 +211,7 @@ def _summable(fields: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def assembled(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
+def from_oceans(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
     """Return the cascade of given tiles, the largest first, without seeding them again."""
     cascade = Cascade.__new__(Cascade)
     cascade._set_up(sea, seed, oceans)

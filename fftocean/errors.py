@@ -1,27 +1,27 @@
 """
-What can go wrong, in one tree.
+Exceptions and warnings of the package, in one tree.
 
     FFTOceanError
-      ParameterError (ValueError)      a value that no sea can have                       exit 2
+      ParameterError (ValueError)      a parameter out of range                           exit 2
         JobError                       a job file or a flag that cannot be carried out    exit 2
         ReaderError                    an input file that is not what it should be        exit 3
       FieldError (AttributeError)      a field that was not computed for this frame
-      OutputError (OSError)            a file that could not be written, whole            exit 4
-        FolderInUseError               another process is writing there                   exit 6
-      IntegrityError                   a result that is not what it claims to be          exit 5
+      OutputError (OSError)            a file that could not be written completely        exit 4
+        FolderInUseError               a folder that another process writes to            exit 6
+      IntegrityError                   a file that was changed after it was written       exit 5
 
-A message names the thing, the rule, and what came: `fetch must be between 1 and 5e+07 m, got -3.0`.
+A message names the parameter, the rule and the value: `fetch must be between 1 and 5e+07 m, got -3.0`.
 """
 
 
 class FFTOceanError(Exception):
-    """Everything this package raises on purpose."""
+    """Base class of all exceptions that the package raises on purpose."""
 
     exit_code = 2
 
 
 class ParameterError(FFTOceanError, ValueError):
-    """A value that no sea can have."""
+    """A parameter out of range."""
 
 
 class JobError(ParameterError):
@@ -39,34 +39,34 @@ class FieldError(FFTOceanError, AttributeError):
 
 
 class OutputError(FFTOceanError, OSError):
-    """A file that could not be written, whole."""
+    """A file that could not be written completely, or not be read back."""
 
     exit_code = 4
 
 
 class FolderInUseError(OutputError):
-    """Another process is writing there."""
+    """A folder that another process writes to."""
 
     exit_code = 6
 
 
 class IntegrityError(FFTOceanError):
-    """A result that is not what it claims to be."""
+    """A file that was changed after it was written, or is not what it should be."""
 
     exit_code = 5
 
 
 class SeaWarning(UserWarning):
-    """The sea can be had, but perhaps it is not what was meant."""
+    """A sea that is possible, but perhaps not the intended one."""
 
 
 class CacheWarning(UserWarning):
-    """Something in the user's cache is of no use, and is done without."""
+    """A file in the user's cache that cannot be used, and is ignored."""
 
 
 def described(value: object) -> str:
     """
-    Return what a wrong argument is, for a message: its type, and its value where that is short.
+    Return a wrong argument in words, for a message: its type, and its value if that is short.
     """
     if isinstance(value, type):
         return f"the class {value.__name__}"

@@ -21,13 +21,14 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
-from fftocean.fields import EIGHT
+from fftocean.fields import EIGHT, GEOMETRY
 from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate, resample, surface
-from fftocean.ocean import Ocean, memory_needed, named, remade
+from fftocean.ocean import Ocean, check_fields, memory_needed
 
 EXACT = 5e-6
 """
@@ -39,7 +40,6 @@ FINEST = 8
 STEEPEST = 1e3
 """The largest slope that is returned; only the rim of a fold is steeper."""
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 DEFAULT = ("height", "slope_x", "slope_y")
 """The fields that are returned by default."""
 
@@ -246,7 +246,7 @@ def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     for name in fields if isinstance(fields, tuple) else ():
         if name in EIGHT and name not in BY_PLACE:
             raise ParameterError(f"an eulerian frame cannot have {name}: {NOT_BY_PLACE}")
-    fields = named(fields, BY_PLACE)
+    fields = check_fields(fields, BY_PLACE)
     made_of = (need for name in fields for need in _MADE_OF[name])
     return fields, tuple(dict.fromkeys(["height", "displace_x", "displace_y", *made_of]))
 
@@ -294,8 +294,7 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
         variance_forward=spread(a.variance_forward, response**2),
         variance_backward=spread(a.variance_backward, response**2),
     )
-    _, (sea, seed, _, choppiness, *made) = ocean.__reduce__()
-    return remade(sea, seed, stretched, choppiness, *made)
+    return ocean.with_amplitudes(stretched)
 
 
 def _response(cycles: Real) -> Real:

@@ -1,15 +1,15 @@
 """
-Every linear field of the sea, as one line of signs.
+The fields of the sea, one line of signs each.
 
-All of them are derivatives of two functions of (x, y, t): the height h, and the displacement
-potential chi, whose gradient is the horizontal displacement D of the water at the surface. In
-wavenumber space
+Every linear field is a derivative of one of two functions of (x, y, t): the height h, and the
+displacement potential chi, whose gradient is the horizontal displacement D of the water at the
+surface. In wavenumber space
 
     chi(k) = h(k) / (|k| tanh(|k| depth)),      d/dx = i kx,      d/dy = i ky,
 
-so D = grad chi = sum (+i k/|k|) / tanh(|k| depth) h(k) e^{i k.x}: +i draws water toward the crests
-and sharpens them. The time derivative turns h(k) = forward e^{-i omega t} + backward e^{+i omega t}
-by -i omega and +i omega.
+so D = grad chi = sum (+i k/|k|) / tanh(|k| depth) h(k) e^{i k.x}: +i moves water toward the crests
+and sharpens them. The time derivative multiplies the two terms of h(k) = forward e^{-i omega t} +
+backward e^{+i omega t} by -i omega and +i omega.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from fftocean.arrays import Complex, Real
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """The derivative that a field is: of what, how often along x, y and t."""
+    """A field as a derivative: its function, and the orders along x, y and t."""
 
     of: Literal["height", "potential"]
     dx: int
@@ -48,13 +48,27 @@ FIELDS: dict[str, Field] = {
 }  # fmt: skip
 
 EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
-"""The eight fields of a still: what `Ocean.frame` returns unless told otherwise."""
+"""The eight fields of one moment, which `Ocean.frame` returns by default."""
+
+GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+"""The gradients of height and displacement, in the order that the kernels of `surface` take."""
+
+POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
+"""The fields that are not linear, and the linear ones that they are computed from."""
+
+GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
+"""The gradients of height and displacement, in the order that the kernels of `surface` take."""
 
 
 def potential_factor(k: Real, depth: float) -> Real:
     """
-    1 / (k tanh(k h)) [m], the factor from height to displacement potential; 0 at k = 0, where there
-    is no wave.
+    Return 1 / (k tanh(k h)) [m], the factor from height to displacement potential.
+
+    It is 0 at k = 0, where there is no wave.
+
+    Args:
+        k: wavenumber [rad/m], any shape.
+        depth: still-water depth h [m].
     """
     k = np.asarray(k, dtype=np.float64)
     with np.errstate(over="ignore"):
@@ -64,7 +78,7 @@ def potential_factor(k: Real, depth: float) -> Real:
 
 def multiplier(field: Field, kx: Real, ky: Real, depth: float) -> Complex:
     """
-    Return what h(k), or dh/dt(k), is multiplied with to give a field's spectrum.
+    Return the factor from h(k), or from dh/dt(k), to the spectrum of a field.
 
     Args:
         field: a row of `FIELDS`.

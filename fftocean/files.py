@@ -1,6 +1,7 @@
 """
-Files that are whole or not there: encoded in memory, written beside their name, flushed to the
-disk, then renamed.
+Files that are complete or absent: written under a temporary name, flushed to the disk, then renamed.
+
+All files of the package are written here, and canonical JSON is made here.
 """
 
 import contextlib
@@ -14,16 +15,16 @@ from typing import Any
 
 from fftocean.errors import JobError, OutputError, described
 
-MAX_JSON = 4 * 2**20  # what a job of the largest file can come to, several times over
+MAX_JSON = 4 * 2**20  # bytes: several times the description of the largest job file
 MAX_FILE = 2**37  # bytes: a container of a long sequence
 
 
 def path_of(name: str, value: Any) -> Path:
     """
-    Return what names a file or folder as a path.
+    Return a string or path as a path.
 
     Raises:
-        JobError: it is no path.
+        JobError: the value is neither.
     """
     if not isinstance(value, (str, os.PathLike)):
         raise JobError(
@@ -34,16 +35,16 @@ def path_of(name: str, value: Any) -> Path:
 
 def write_whole(path: Path, data: bytes | memoryview) -> str:
     """
-    Write a file so that it is either whole or absent, and return its SHA-256.
+    Write a file so that it is either complete or absent; return its SHA-256.
 
     Raises:
-        OutputError: the file could not be written; nothing is left behind.
+        OutputError: the file could not be written; no temporary file is left.
     """
     temporary = path.with_name(
         f".{path.name}.{os.getpid()}-{os.urandom(4).hex()}.tmp"
     )  # two hosts may have one process number
     try:
-        try:  # from before it is there: a signal may come between any two lines
+        try:  # begins before the file exists: a signal may arrive between any two lines
             descriptor = os.open(
                 temporary,
                 os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0),
@@ -65,35 +66,33 @@ def write_whole(path: Path, data: bytes | memoryview) -> str:
 
 
 def digest(data: bytes | memoryview) -> str:
-    """The SHA-256 of some bytes."""
+    """Return the SHA-256 of some bytes."""
     return hashlib.sha256(data).hexdigest()
 
 
-def sweep(folder: Path) -> None:
+def remove_temporary_files(folder: Path) -> None:
     """
-    Remove the temporary files of whoever was stopped while writing into a folder; not through a
-    link.
+    Remove the temporary files that a stopped process left in a folder; do nothing through a link.
 
     Raises:
-        OutputError: one is there and cannot be removed.
+        OutputError: one cannot be removed.
     """
     if not folder.is_symlink():
-        for torn in folder.glob(".*.[0-9]*.tmp"):
-            remove(torn)
+        for temporary in folder.glob(".*.[0-9]*.tmp"):
+            remove(temporary)
 
 
 def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
     """
-    Read a file of ours; None where there is no file of that name: a link, a folder or a device is
-    none.
+    Return the bytes of a file, or None where there is none: links, folders and devices do not count.
 
     Raises:
-        OutputError: it is there and cannot be read, or is larger than `most` bytes.
+        OutputError: the file exists and cannot be read, or is larger than `most` bytes.
     """
     try:
         descriptor = os.open(
             path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-        )  # nor wait for a pipe
+        )  # does not wait for a pipe
     except OSError as error:
         if error.errno in (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO):
             return None
@@ -116,11 +115,10 @@ def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
 
 def make_folder(path: Path) -> None:
     """
-    Make a folder where there is none; refuse a link in its place, which would lead the files
-    elsewhere.
+    Make a folder if it does not exist; refuse a link, which would lead the files elsewhere.
 
     Raises:
-        OutputError: it cannot be made, or something else has its name.
+        OutputError: the folder cannot be made, or its name is that of something else.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -129,16 +127,15 @@ def make_folder(path: Path) -> None:
             f"{path} could not be made a folder: {error.strerror or error}"
         ) from error
     if path.is_symlink():
-        raise OutputError(f"{path} must be a folder of its own, and is a link to {path.resolve()}")
+        raise OutputError(f"{path} must be a folder, and is a link to {path.resolve()}")
 
 
-def make_rooms(folder: Path, file: str) -> Path:
+def make_parents(folder: Path, file: str) -> Path:
     """
-    Make the folders between a folder and a file in it, and return the file's path; no link on the
-    way is followed.
+    Make the folders between a folder and a file in it; return the file's path. Links are refused.
 
     Raises:
-        OutputError: one cannot be made, or something else has its name.
+        OutputError: one cannot be made, or its name is that of something else.
     """
     *names, last = file.split("/")
     for name in names:
@@ -149,10 +146,10 @@ def make_rooms(folder: Path, file: str) -> Path:
 
 def remove(path: Path) -> None:
     """
-    Remove a file, or a link and not what it leads to, where there is one.
+    Remove a file if it exists; of a link, the link itself.
 
     Raises:
-        OutputError: it is there and cannot be removed.
+        OutputError: it exists and cannot be removed.
     """
     try:
         path.unlink(missing_ok=True)
@@ -162,7 +159,7 @@ def remove(path: Path) -> None:
 
 def as_json(tree: Any) -> bytes:
     """
-    Readable JSON, the same bytes for the same tree; no NaN and no Infinity, which are not JSON.
+    Return readable JSON, the same bytes for the same tree, without NaN and Infinity.
     """
     return (json.dumps(tree, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
@@ -172,7 +169,7 @@ def read_json(path: Path) -> Any:
     Read a JSON file.
 
     Raises:
-        OutputError: it is there and cannot be read as JSON, or is larger than any of ours.
+        OutputError: the file does not exist, is no JSON, or is larger than `MAX_JSON` bytes.
     """
     if not path.is_file():
         raise OutputError(f"{path} must be a file, and is not")

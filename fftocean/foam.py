@@ -76,7 +76,7 @@ class Foam:
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
-        ocean = _ocean_or_window(ocean)
+        ocean, count = _ocean_or_window(ocean), FRAMES.check("count", count)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
@@ -98,6 +98,7 @@ class Foam:
         Returns:
             (ny, nx), float64.
         """
+        _require_looping(ocean)
         state = np.zeros(ocean.grid.shape)
         for _ in self._run(ocean, count, state, first, stop):
             pass
@@ -112,16 +113,15 @@ class Foam:
             ocean: the ocean or window that the responses were computed for.
             count: the number of frames of the loop.
         """
-        assert ocean.loop is not None  # else there were no responses
+        loop = _require_looping(ocean)
         kept = [
-            math.exp(-(stop - first) * ocean.loop / count / self.tau)
-            for first, stop in spans_of(count)
+            math.exp(-(stop - first) * loop / count / self.tau) for first, stop in spans_of(count)
         ]
         one_loop = np.zeros(ocean.grid.shape)
         for decay, new in zip(kept, made, strict=True):
             one_loop = decay * one_loop + new
         states = np.empty((len(made), *ocean.grid.shape))
-        states[0] = one_loop / -math.expm1(-ocean.loop / self.tau)
+        states[0] = one_loop / -math.expm1(-loop / self.tau)
         for i in range(1, len(made)):
             states[i] = kept[i - 1] * states[i - 1] + made[i - 1]
         return states
@@ -144,14 +144,10 @@ class Foam:
         self, ocean: Ocean | Window, count: int, state: Real, first: int, last: int
     ) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
-        if ocean.loop is None:
-            raise ParameterError(
-                "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); "
-                "`live` works without a loop"
-            )
-        count = FRAMES.check_whole("count", count)
-        parts = max(1, math.ceil(ocean.loop / count / longest_step(ocean)))
-        stepper = _Stepper(self, ocean.loop / (count * parts))
+        loop = _require_looping(ocean)
+        count = FRAMES.check("count", count)
+        parts = max(1, math.ceil(loop / count / longest_step(ocean)))
+        stepper = _Stepper(self, loop / (count * parts))
         eigenvalues = _Eigenvalues(ocean)
         window = (
             [eigenvalues.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)]
@@ -260,6 +256,23 @@ def _ocean_or_window(source: Any) -> Ocean | Window:
     if not isinstance(source, (Ocean, Window)):
         raise ParameterError(f"foam needs an Ocean, a Cascade or a Window, got {source!r:.80}")
     return source
+
+
+def _require_looping(source: Any) -> float:
+    """
+    Return the period of an ocean or window on whose grid a state of foam lives [s].
+
+    Raises:
+        ParameterError: `source` is neither, or does not loop.
+    """
+    if not isinstance(source, (Ocean, Window)):
+        raise ParameterError(f"a state of foam needs an Ocean or a Window, got {source!r:.80}")
+    if source.loop is None:
+        raise ParameterError(
+            "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); "
+            "`live` works without a loop"
+        )
+    return source.loop
 
 
 def longest_step(ocean: Ocean | Window) -> float:

@@ -160,7 +160,7 @@ NOT_BY_PLACE = "a height field over places has no displacement, nor the stretch 
 
 def _absent(name: str) -> property:
     """Return a property that raises the `FieldError` of a field which is never here."""
-    return property(lambda frame: frame[name])
+    return property(lambda frame: frame[name], doc=f"{name}: absent, raises `FieldError`.")
 
 
 class EulerianFrame(_Arrays):
@@ -169,7 +169,7 @@ class EulerianFrame(_Arrays):
     is now at x, y.
 
     The surface is at (x, y, height): height, slope_x, slope_y and normal are those of a height
-    field over world x and y. jacobian and velocity_* are those of the water that is there just now;
+    field over world x and y; SI. jacobian and velocity_* are those of the water that is there now;
     horizontal velocities are before `choppiness`, as ever. There are no displacements and no
     stretches, and nothing that is made of them.
     """

@@ -1,4 +1,4 @@
-"""The machine that this runs on: what processor it has, and how much of it is ours."""
+"""The machine: its processor, cores and free memory."""
 
 import contextlib
 import os
@@ -7,24 +7,27 @@ import subprocess
 import sys
 from pathlib import Path
 
+from fftocean.errors import ParameterError
+
 
 def cores() -> int:
     """
-    On how many cores this process may run: those it is bound to, and no more than its control group
-    pays for.
+    Return the number of cores that this process can use.
+
+    The smaller of its processor affinity and the quota of its control group.
     """
     count = (
         len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     )
-    quota, _, period = read("/sys/fs/cgroup/cpu.max").partition(" ")
+    quota, _, period = read_system_file("/sys/fs/cgroup/cpu.max").partition(" ")
     if quota.strip().isdigit() and period.strip().isdigit():
         count = min(count, max(1, int(quota) // int(period)))
     return count
 
 
 def processor() -> str:
-    """The processor by name."""
-    for line in read("/proc/cpuinfo").splitlines():
+    """Return the name of the processor."""
+    for line in read_system_file("/proc/cpuinfo").splitlines():
         if line.startswith("model name"):
             return line.partition(":")[2].strip()
     if sys.platform == "darwin":
@@ -40,8 +43,52 @@ def processor() -> str:
     return platform.processor() or platform.machine()
 
 
-def read(path: str | Path) -> str:
-    """What a system's file says; nothing where there is none."""
+def available_memory() -> float:
+    """
+    Return the memory that this process can still get, of the machine or of its control group [B].
+
+    The smaller of the two counts; inf if neither is known.
+    """
+    candidates = [float("inf")]
+    try:
+        for line in Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                candidates.append(1024.0 * int(line.split()[1]))
+    except (OSError, ValueError):
+        if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+            candidates.append(float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE"))
+    try:
+        limit = Path("/sys/fs/cgroup/memory.max").read_text().strip()
+        if limit != "max":
+            candidates.append(
+                float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text())
+            )
+    except (OSError, ValueError):
+        pass
+    return min(candidates)
+
+
+def require_memory(what: str, needed: float) -> None:
+    """
+    Raise if there is too little memory, before anything is allocated.
+
+    Args:
+        what: the object to be made, for the message.
+        needed: its memory [B].
+
+    Raises:
+        ParameterError: `needed` is more than `available_memory()`.
+    """
+    available = available_memory()
+    if needed > available:
+        free = max(available, 0.0) / 2**30
+        raise ParameterError(
+            f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free"
+        )
+
+
+def read_system_file(path: str | Path) -> str:
+    """Return the text of a system file; "" if it cannot be read."""
     try:
         return Path(path).read_text(encoding="utf-8", errors="replace")
     except OSError:

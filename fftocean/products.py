@@ -1,6 +1,7 @@
 """
-Pointwise products of a frame: normals, Jacobian, smallest eigenvalue, folds. Nothing by finite
-differences.
+Pointwise products of a frame: normals, Jacobian, smallest eigenvalue, folds.
+
+All are closed forms of the frame's slopes and displacement gradient, not finite differences.
 """
 
 import math
@@ -21,7 +22,7 @@ def normals(frame: Frame | EulerianFrame) -> Real:
     Return the unit normals of the displaced surface, (ny, nx, 3), z up.
 
     n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the
-    Jacobian. A frame of `Eulerian` is a height field, whose normals are (-sx, -sy, 1) brought to
+    Jacobian. A frame of `Eulerian` is a height field, whose normals are (-sx, -sy, 1) scaled to
     length 1.
 
     Raises:
@@ -44,11 +45,10 @@ def normals(frame: Frame | EulerianFrame) -> Real:
 
 def jacobian(frame: Frame | EulerianFrame) -> Real:
     """
-    Return (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2, (ny, nx): area of displaced over still surface; below
-    0 it is folded.
+    Return the area of the displaced over the still surface [-], (ny, nx); negative in a fold.
 
-    Of a frame of `Eulerian` it is that of the water which is now at each place, which the frame has
-    where it was asked for.
+    It is (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2. A frame of `Eulerian` has its own, if it was asked
+    for: that of the water which is now at each position.
 
     Raises:
         FieldError: the frame lacks stretches; a frame of `Eulerian`, its Jacobian.
@@ -64,11 +64,10 @@ def jacobian(frame: Frame | EulerianFrame) -> Real:
 
 def minimum_eigenvalue(frame: Frame) -> Real:
     """
-    Return the smaller eigenvalue of the deformation [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]], (ny,
-    nx).
+    Return the smallest eigenvalue of the deformation gradient [-], (ny, nx).
 
-    It passes through 0 where a crest folds, earlier than the Jacobian of a surface stretched along
-    the crest (Tessendorf 2001).
+    The deformation gradient is [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]]. Its smallest eigenvalue is
+    1 on still water and passes through 0 where a crest folds (Tessendorf 2001).
 
     Raises:
         FieldError: the frame lacks stretches, as any of `Eulerian` does.
@@ -84,17 +83,14 @@ def minimum_eigenvalue(frame: Frame) -> Real:
 
 @dataclass(frozen=True, slots=True)
 class Folding:
-    """
-    The folds of some samples of water: how many there are, and the choppiness below which there are
-    none.
-    """
+    """Folds in a set of samples, and the choppiness up to which there are none."""
 
-    # of the samples, those whose water is folded: the smaller eigenvalue of the deformation is
-    # below 0 [-]
+    # share of the samples that are folded: those whose deformation gradient has a negative
+    # eigenvalue [-]
     share: float
-    min_jacobian: float  # the smallest area of displaced over still surface [-]
-    largest_choppiness: float  # at which none of the samples is folded [-]; inf where none ever is
-    samples: int  # that were looked at
+    min_jacobian: float  # smallest area of displaced over still surface [-]
+    largest_choppiness: float  # without a folded sample [-]; inf if no choppiness folds one
+    samples: int  # number of samples
 
     def __str__(self) -> str:
         return folding_sentence(self.share, self.min_jacobian, self.largest_choppiness)
@@ -112,7 +108,7 @@ class Folding:
 
 def folding_sentence(share: float, min_jacobian: float, largest_choppiness: float | None) -> str:
     """
-    Return in words how much of the water is folded; None or inf is water that no choppiness folds.
+    Return the folds in words; a `largest_choppiness` of None or inf is water that never folds.
     """
     never = largest_choppiness is None or math.isinf(largest_choppiness)
     up_to = (
@@ -129,24 +125,23 @@ def folding_sentence(share: float, min_jacobian: float, largest_choppiness: floa
 
 
 def _cut(value: float) -> float:
-    """Three digits of a number, never above it."""
+    """Return a positive number rounded down to three digits."""
     step = 10.0 ** (math.floor(math.log10(value)) - 2) if value > 0.0 else 1.0
     return math.floor(value / step) * step
 
 
 def folding(frames: Frame | Iterable[Frame], choppiness: float | None = None) -> Folding:
     """
-    Return how much of the water is folded in a frame, or in several together, such as
-    `ocean.loop_frames(64)`.
+    Return the folds of one frame, or of several together, such as `ocean.loop_frames(64)`.
 
     With the eigenvalues a <= b of the displacement gradient [[Dxx, Dxy], [Dxy, Dyy]], those of the
-    deformation are 1 + c a and 1 + c b. A sample is folded where 1 + c a < 0, the Jacobian is (1 +
-    c a)(1 + c b), and the largest choppiness at which no sample is folded is -1 / min(a), in closed
+    deformation gradient are 1 + c a and 1 + c b. A sample is folded if 1 + c a < 0, the Jacobian is
+    (1 + c a)(1 + c b), and the largest choppiness without a folded sample is -1 / min(a), in closed
     form.
 
     Args:
-        frames: one or more, with their stretches.
-        choppiness: another c than that of the frames.
+        frames: one frame or more, with `stretch_xx`, `stretch_xy` and `stretch_yy`, (ny, nx) each.
+        choppiness: a value of c in place of the frames' own [-].
 
     Raises:
         FieldError: a frame lacks stretches, as any of `Eulerian` does.
@@ -170,18 +165,17 @@ def folding(frames: Frame | Iterable[Frame], choppiness: float | None = None) ->
 
 def folding_of(xx: Real, xy: Real, yy: Real, choppiness: float) -> Folding:
     """
-    Return the folds of samples by their displacement gradients, three arrays of one shape (rows,
-    columns).
+    Return the folds of samples from their displacement gradients, (rows, columns) each [-].
     """
     found = np.empty(3)
     surface.folds(xx, xy, yy, choppiness, found)
-    folded, min_jacobian, lowest = found.tolist()
+    folded, min_jacobian, lowest = found.tolist()  # the lowest eigenvalue of the gradients
     largest = -1.0 / lowest if lowest < 0.0 else math.inf
     return Folding(folded / xx.size, min_jacobian, largest, xx.size)
 
 
 def _require_frame(frame: object) -> None:
-    """Refuse what is not a frame by name."""
+    """Raise if the value is not a frame."""
     if not isinstance(frame, (Frame, EulerianFrame)):
         raise ParameterError(
             f"frame must be a Frame, such as ocean.frame(t), got {described(frame)}"

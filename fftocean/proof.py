@@ -1,8 +1,8 @@
 """
-Prove that a tile is the sea that was ordered: each check against something that shares no code with
-what it checks.
+Verification of a tile against its specified sea.
 
-The same checks that a user runs with `fftocean verify` stand in the test suite.
+Each check compares with a computation that shares no code with what it checks. `fftocean verify`
+and the test suite run the same checks.
 """
 
 import math
@@ -19,40 +19,52 @@ from fftocean.gerstner import Surface
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import Statistics, measure
 
-_POINTS = 256  # at which the direct sum is taken: a grid of them where the tile is larger
-_FRAMES = 48  # of the loop that is looked at
+_POINTS = 256
+"""Points of the direct sum: a grid of them on a larger tile."""
+_FRAMES = 48
+"""Frames of the loop that is verified."""
 
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """
-    One line of the proof: what was compared, how far apart they may be and why, and how far apart
-    they are.
-    """
+    """One comparison: an error, its tolerance, and the reason for that tolerance."""
 
-    name: str
-    against: str
-    figure: float
-    bound: float
+    name: str  # the quantity
+    against: str  # its independent value
+    error: float  # relative to the scale that `verify` documents [-], or a count
+    tolerance: float  # the largest error that passes
     reason: str
 
     @property
+    def figure(self) -> float:
+        """The error: the earlier name of `error`."""
+        return self.error
+
+    @property
+    def bound(self) -> float:
+        """The tolerance: the earlier name of `tolerance`."""
+        return self.tolerance
+
+    @property
     def passed(self) -> bool:
-        """Whether the figure is within the bound (NaN is not)."""
-        return self.figure <= self.bound
+        """True if the error is within the tolerance; NaN is not."""
+        return self.error <= self.tolerance
 
 
 def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
     """
-    Check an ocean: every field against the direct sum, Parseval, the seam, the loop, and its
-    energy.
+    Verify an ocean: all fields against the direct sum, seam, loop, Parseval, and energy.
+
+    Errors of fields are relative to the largest value of their kind in the frame (all
+    displacements are one kind, all slopes another); errors of energies are relative to the
+    expected energy; bits are counted.
 
     Args:
-        ocean: any ocean, of any precision.
-        t: a time at which to look [s].
+        ocean: an ocean of either precision.
+        t: time of the frame that is verified [s].
 
     Returns:
-        The checks in order; the ocean is proven if all `.passed`.
+        The checks; the ocean is right if all `.passed`.
 
     Raises:
         ParameterError: not an ocean.
@@ -70,10 +82,11 @@ def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
     ]
 
 
-def _allowed(ocean: Ocean, t: float) -> float:
+def _tolerance(ocean: Ocean, t: float) -> float:
     """
-    How far a field may be from the direct sum, over the largest value of its kind: some roundings,
-    and in the sum that of omega t.
+    Return the tolerance of a field, relative to the largest value of its kind.
+
+    It allows for some roundings, and for that of omega t in the direct sum.
     """
     omega = float(np.max(ocean.modes().omega, initial=0.0))
     roundings = 1e-6 if ocean.dtype == "float32" else 1e-12
@@ -81,43 +94,39 @@ def _allowed(ocean: Ocean, t: float) -> float:
 
 
 def _least(ocean: Ocean) -> float:
-    """The least value that the ocean's type holds with all its digits: waves below it are none."""
+    """Return the least value that the ocean's type holds with all digits: less counts as 0."""
     kind = np.finfo(ocean.dtype)
     return float(kind.tiny) / float(kind.eps)
 
 
 def _fields(ocean: Ocean, t: float) -> Iterator[Check]:
-    """FFT against the sum of waves, at points spread over the tile."""
+    """Compare the FFT with the sum of waves, at points spread over the tile."""
     frame = ocean.frame(t, fields=(*FIELDS, "normal", "jacobian"))
     ix, iy = _points(ocean)
     truth = gerstner.surface(ocean, ocean.grid.x[ix], ocean.grid.y[iy], t)
-    reason = (
-        "8 eps of float32" if ocean.dtype == "float32" else "4500 eps"
-    ) + ", and the rounding of omega t"
+    roundings = "8 eps of float32" if ocean.dtype == "float32" else "4500 eps"
+    reason = f"{roundings}, and the rounding of omega t"
     for name in (*FIELDS, "jacobian"):
-        yield Check(
-            name, "direct sum", _apart(ocean, frame, truth, name), _allowed(ocean, t), reason
-        )
+        error = _error(ocean, frame, truth, name)
+        yield Check(name, "direct sum", error, _tolerance(ocean, t), reason)
     area = _area(truth, ocean.choppiness)
-    turned = float(
-        np.max(np.linalg.norm(frame.normal[iy, ix] - truth.normal, axis=-1) * area)
-    ) / float(np.max(area))
+    difference = np.linalg.norm(frame.normal[iy, ix] - truth.normal, axis=-1)
     yield Check(
         "normal",
         "direct sum, times area",
-        turned,
-        _allowed(ocean, t),
-        "as above; where a fold has no area, a rounding turns it",
+        float(np.max(difference * area)) / float(np.max(area)),
+        _tolerance(ocean, t),
+        "as above; at the edge of a fold the area is 0, and a rounding turns the normal",
     )
 
 
-def _apart(ocean: Ocean, frame: Frame, truth: Surface, name: str) -> float:
+def _error(ocean: Ocean, frame: Frame, truth: Surface, name: str) -> float:
     """
-    The largest difference of a field from the direct sum at `_points`, over the largest value of
-    its kind.
+    Return the largest difference of a field from the direct sum at `_points`, relative to the
+    largest value of its kind.
 
-    A kind is all displacements, all slopes, ...: waves that run along y have slopes along x of
-    nothing but roundings.
+    A kind is all displacements, all slopes, ...: the slopes along x of waves that run along y are
+    roundings alone.
     """
     ix, iy = _points(ocean)
     kind = [f for f in frame.fields if f.partition("_")[0] == name.partition("_")[0]]
@@ -130,9 +139,7 @@ def _apart(ocean: Ocean, frame: Frame, truth: Surface, name: str) -> float:
 
 
 def _area(truth: Surface, choppiness: float) -> Real:
-    """
-    Area of the displaced surface over that of the still: the length of its tangents' cross product.
-    """
+    """Return the area of the displaced over the still surface: the tangents' cross product."""
     c, s = choppiness, truth
     along_x = np.stack([1.0 + c * s.stretch_xx, c * s.stretch_xy, s.slope_x], axis=-1)
     along_y = np.stack([c * s.stretch_xy, 1.0 + c * s.stretch_yy, s.slope_y], axis=-1)
@@ -140,7 +147,7 @@ def _area(truth: Surface, choppiness: float) -> Real:
 
 
 def _points(ocean: Ocean) -> tuple[Integer, Integer]:
-    """Sample indices (ix, iy) spread over the tile, corners included."""
+    """Return sample indices (ix, iy) spread over the tile, corners included; one axis each."""
     grid = ocean.grid
     side = math.isqrt(_POINTS)
     ix = np.unique(np.linspace(0, grid.nx - 1, min(side, grid.nx)).astype(int))
@@ -150,7 +157,7 @@ def _points(ocean: Ocean) -> tuple[Integer, Integer]:
 
 
 def _seam(ocean: Ocean, t: float) -> Iterator[Check]:
-    """The exact surface one tile further east and north against the edges of the frame."""
+    """Compare the direct sum one tile further east and north with the edges of the frame."""
     grid = ocean.grid
     frame = ocean.frame(t, fields=("height",))
     rows = np.unique(np.linspace(0, grid.ny - 1, min(64, grid.ny)).astype(int))
@@ -160,16 +167,22 @@ def _seam(ocean: Ocean, t: float) -> Iterator[Check]:
     worst = float(np.max(np.abs(np.concatenate([east, north])))) / max(
         float(np.max(np.abs(frame.height))), _least(ocean)
     )
-    bound = _allowed(ocean, t) + 1e-11 + 4.0 * np.finfo(np.float64).eps * max(grid.nx, grid.ny)
+    rounding = 1e-11 + 4.0 * np.finfo(np.float64).eps * max(grid.nx, grid.ny)
     yield Check(
-        "seam", "direct sum at x + L, y + L", worst, bound, "as the fields, and the rounding of k L"
+        "seam",
+        "direct sum at x + L, y + L",
+        worst,
+        _tolerance(ocean, t) + rounding,
+        "as the fields, and the rounding of k L",
     )
 
 
 def _loop(ocean: Ocean) -> Iterator[Check]:
     """
-    The loop's last frame leads to its first: to the bit on the clock of whole turns, to rounding
-    for the sum of waves.
+    Verify that the loop's last frame leads to its first.
+
+    Frames repeat to the bit, since phases are whole numbers of cycles in the loop; the sum of waves
+    repeats to rounding.
     """
     if ocean.loop is None:
         return
@@ -179,12 +192,12 @@ def _loop(ocean: Ocean) -> Iterator[Check]:
     t = ocean.loop * 5 / _FRAMES
     ix, iy = _points(ocean)
     truth = gerstner.surface(ocean, ocean.grid.x[ix], ocean.grid.y[iy], t)
-    apart = float(np.max([_apart(ocean, first, truth, name) for name in EIGHT]))
+    error = float(np.max([_error(ocean, first, truth, name) for name in EIGHT]))
     yield Check(
         "loop, frame j",
         "direct sum at t = j T/F",
-        apart,
-        _allowed(ocean, t),
+        error,
+        _tolerance(ocean, t),
         "the worst of the eight fields, as above",
     )
     start, end = ocean.frame(0.0), ocean.frame(ocean.loop)
@@ -196,80 +209,78 @@ def _loop(ocean: Ocean) -> Iterator[Check]:
     )
     scale = max(float(np.max(np.abs(start.height))), _least(ocean))
     omega = float(np.max(ocean.modes().omega, initial=0.0))
-    bound = 1e-12 + 4.0 * np.finfo(np.float64).eps * omega * ocean.loop
+    tolerance = 1e-12 + 4.0 * np.finfo(np.float64).eps * omega * ocean.loop
     yield Check(
         "loop of the waves",
         "direct sum at t = 0 and T",
         float(np.max(np.abs(change))) / scale,
-        bound,
+        tolerance,
         "the rounding of omega T",
     )
 
 
 def _parseval(ocean: Ocean, t: float) -> Iterator[Check]:
-    """
-    The variance of the height in space against the energies of the waves that make it, beats and
-    all.
-    """
+    """Compare the variance of the height in space with the energies of its waves, with beats."""
     height = ocean.frame(t, fields=("height",)).height.astype(np.float64)
     waves = ocean.modes()
-    mx, my = (
-        np.rint(waves.kx / ocean.grid.dkx).astype(int),
-        np.rint(waves.ky / ocean.grid.dky).astype(int),
-    )
+    mx = np.rint(waves.kx / ocean.grid.dkx).astype(int)
+    my = np.rint(waves.ky / ocean.grid.dky).astype(int)
     half = 0.5 * waves.amplitude * np.exp(-1j * (waves.omega * t + waves.phase))
     flip = (mx < 0) | ((mx == 0) & (my < 0))
     key = np.where(flip, -mx, mx) * (2 * ocean.grid.ny + 1) + np.where(flip, -my, my)
-    order, places = np.unique(key, return_inverse=True)
-    summed = np.zeros(order.size, dtype=np.complex128)
-    np.add.at(summed, places, np.where(flip, np.conj(half), half))
+    wavenumbers, which = np.unique(key, return_inverse=True)
+    summed = np.zeros(wavenumbers.size, dtype=np.complex128)
+    np.add.at(summed, which, np.where(flip, np.conj(half), half))
     expected = 2.0 * float(np.sum(np.abs(summed) ** 2))
-    bound = 2.0 * _allowed(ocean, t)  # a square doubles a relative error
-    figure = _relative(float(np.mean(height**2)), expected, _least(ocean) ** 2)
     yield Check(
         "Parseval",
         "energies of the waves",
-        figure,
-        bound,
+        _relative(float(np.mean(height**2)), expected, _least(ocean) ** 2),
+        2.0 * _tolerance(ocean, t),  # a square doubles a relative error
         "a mean of squares, at the fields' precision",
     )
     level = abs(float(np.mean(height))) / max(float(np.max(np.abs(height))), _least(ocean))
-    yield Check("mean level", "0", level, _allowed(ocean, t), "k = 0 carries nothing")
+    yield Check("mean level", "0", level, _tolerance(ocean, t), "k = 0 carries nothing")
 
 
 def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
     """
-    The sea's energy: what the tile holds and what it cannot add up; what this draw delivers is a
-    likely draw.
+    Compare energies: of the frame, of the sea's resolved and unresolved parts, of the realisation.
     """
-    delivered = 0.5 * float(np.sum(ocean.modes().amplitude ** 2))
-    bound = 2e-6 if ocean.dtype == "float32" else 1e-11
-    figure = _relative(statistics.m0, delivered, _least(ocean) ** 2)
-    yield Check("m0 of the frame", "sum of a^2/2", figure, bound, "forward FFT of what came out")
-    if ocean.sea is None or statistics.ordered is None or statistics.ordered.m0 == 0.0:
-        return
-    total = statistics.resolved + statistics.energy_below + statistics.energy_above
+    realised = 0.5 * float(np.sum(ocean.modes().amplitude ** 2))
     yield Check(
-        "energy held + lost",
-        "m0 ordered, by quadrature",
-        _relative(total, statistics.ordered.m0),
+        "m0 of the frame",
+        "sum of a^2/2",
+        _relative(statistics.m0, realised, _least(ocean) ** 2),
+        2e-6 if ocean.dtype == "float32" else 1e-11,
+        "a forward FFT of the frame",
+    )
+    specified = statistics.specified
+    if ocean.sea is None or specified is None or specified.m0 == 0.0:
+        return
+    yield Check(
+        "energy resolved + lost",
+        "specified m0, by quadrature",
+        _relative(
+            statistics.resolved + statistics.energy_below + statistics.energy_above, specified.m0
+        ),
         1e-3,
         "the sum over cells against integrals along rays",
     )
     if statistics.resolved > 0.0:
-        bound, reason = _likely(ocean)
+        tolerance, reason = _likely(ocean)
         yield Check(
-            "m0 of this draw",
-            "m0 held on average",
-            _relative(delivered, statistics.resolved),
-            bound,
+            "m0 of this realisation",
+            "resolved m0, averaged over seeds",
+            _relative(realised, statistics.resolved),
+            tolerance,
             reason,
         )
 
 
 def _likely(ocean: Ocean) -> tuple[float, str]:
     """
-    How far one draw's m0 may be from the mean, relative.
+    Return the tolerance of one realisation's m0, relative to the mean, and its reason.
 
     Gaussian waves have exponential energies, of mean E each. Their sum passes its mean by sqrt(2 u
     sum E^2) + u max(E) with a probability of at most e^-u (Laurent & Massart 2000, lemma 1); u = 8.
@@ -277,18 +288,16 @@ def _likely(ocean: Ocean) -> tuple[float, str]:
     a = ocean.amplitudes
     if a.draw != "gaussian":
         return 1e-9, "fixed amplitudes"
-    energy = (
-        np.concatenate([a.variance_forward.ravel(), a.variance_backward[:, 1:].ravel()])
-        / a.variance
-    )
-    return 4.0 * math.sqrt(float(np.sum(energy**2))) + 8.0 * float(
-        np.max(energy)
-    ), "at most 1 draw in 3000 is further off"
+    energy = np.concatenate([a.variance_forward.ravel(), a.variance_backward[:, 1:].ravel()])
+    energy /= a.variance
+    tolerance = 4.0 * math.sqrt(float(np.sum(energy**2))) + 8.0 * float(np.max(energy))
+    return tolerance, "at most 1 seed in 3000 is further off"
 
 
 def _relative(value: float, truth: float, least: float = 0.0) -> float:
     """
-    The difference over the truth, or over the least that counts; the value itself where both are
-    nothing.
+    Return the difference relative to the truth, or to the least value that counts.
+
+    If both are 0, return the difference itself.
     """
     return abs(value - truth) / (max(truth, least) or 1.0)

@@ -18,19 +18,18 @@ from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
 from fftocean.errors import FieldError, ParameterError
-from fftocean.fields import potential_factor
+from fftocean.fields import GEOMETRY, potential_factor
 from fftocean.gerstner.waves import Waves
 from fftocean.kernels import interpolate, surface
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME, Quantity
-from fftocean.ocean import Ocean, named, remade
+from fftocean.ocean import Ocean, check_fields
 from fftocean.trains import Trains, coordinates, moments_of, oceans_of, trains_of
 
 KINDS = {"bilinear": kernels.BILINEAR, "bicubic": kernels.SPLINE, "exact": kernels.WAVES}
 WANTED = ("heights", "normals", "velocities", "accelerations")
 WAVELENGTH = Quantity("m", 0.0, math.inf)
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 MOTION = ("displace_x", "displace_y", "height")
 VELOCITY = ("velocity_x", "velocity_y", "velocity_z")
 
@@ -145,7 +144,8 @@ class Query:
         ParameterError: a source without waves, an unknown mode, interpolation of waves that have no
             tile, or a value out of range.
 
-    Source: Newton's inversion of choppy displacement: DESIGN; splines: Unser 1999.
+    Method: Newton's iteration on the summed displacement with its exact Jacobian (`kernels.query`).
+    Source: splines: Unser 1999.
     Pinned by tests/test_query.py: an independent inversion of `gerstner.surface`; differences in
     time and space; folds.
     """
@@ -227,7 +227,7 @@ class Query:
             ParameterError: what is not a number, shapes that do not broadcast, a time beyond +-1e12
                 s, or an unknown field.
         """
-        fields = named(fields, WANTED)
+        fields = check_fields(fields, WANTED)
         if self._pid != os.getpid():  # a forked child has no threads of its parent's
             self._start()
         xs, ys, ts = (coordinates(name, values) for name, values in (("x", x), ("y", y), ("t", t)))
@@ -460,16 +460,7 @@ class _Interpolated:
             variance_forward=energies[0],
             variance_backward=energies[1],
         )
-        return remade(
-            ocean.sea,
-            ocean.seed,
-            changed,
-            ocean.choppiness,
-            ocean.dtype,
-            ocean.backend,
-            "estimate",
-            self._threads,
-        )
+        return ocean.with_amplitudes(changed, planning="estimate", threads=self._threads)
 
     def at(self, t: float, fields: tuple[str, ...]) -> Work:
         if self._pid != os.getpid():

@@ -21,11 +21,12 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from fftocean import __version__
-from fftocean.arrays import Real, RealLike, require_memory
+from fftocean.arrays import Real, RealLike
 from fftocean.cascade import Cascade
 from fftocean.errors import OutputError, ParameterError, SeaWarning, described, how_to_install
 from fftocean.fields import FIELDS
 from fftocean.files import write_whole
+from fftocean.host import require_memory
 from fftocean.limits import DIRECTION, FREQUENCY, TIME
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import measure

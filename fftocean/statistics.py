@@ -1,9 +1,12 @@
 """
-What was ordered, and what was delivered: measured on the water that comes out, not on the recipe.
+Statistics of a sea: specified by its spectra, realised by the frames of an ocean.
+
+The realised ones are measured on the fields themselves, not on the amplitudes they are made of.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -36,15 +39,18 @@ class SeaState:
     m0: float  # variance of the height [m^2]
     hs: float  # significant wave height, 4 sqrt(m0) [m]
     tp: float  # peak period [s]; 0 for a flat sea
-    mean_direction: (
-        float  # toward which the energy goes, counter-clockwise from +x, in (-180, 180] [degrees]
-    )
+    # toward which the energy goes, counter-clockwise from +x, in (-180, 180] [degrees]
+    mean_direction: float
     spread: float  # circular standard deviation of the directions [degrees]
 
 
 @dataclass(frozen=True, slots=True)
 class LoopError:
-    """How far a loop bends the frequencies of the waves: relative errors, weighted with energy."""
+    """
+    Relative errors of the frequencies in a loop, weighted with energy.
+
+    A loop of T seconds holds only frequencies of whole cycles in T.
+    """
 
     period: float  # [s]
     rms: float  # [-]
@@ -56,49 +62,86 @@ class LoopError:
 @dataclass(frozen=True, slots=True)
 class Statistics:
     """
-    What a tile delivers, beside what was ordered.
+    Statistics of one realisation, beside those of the specified sea.
 
-    m0, hs, mean_direction and spread are those of the waves in this one draw. One snapshot of the
-    same waves scatters further, as waves that cross beat: see `snapshot_error`.
+    m0, hs, mean_direction and spread are those of the waves of this seed. A single frame of the
+    same waves scatters further, since crossing waves beat: see `snapshot_error`.
     """
 
     m0: float  # variance, averaged over time [m^2]
-    hs: float  # [m]
-    tp: float  # [s]
+    hs: float  # significant wave height, 4 sqrt(m0) [m]
+    tp: float  # peak period [s]
     mean_direction: float  # [degrees]
     spread: float  # [degrees]
-    ordered: SeaState | None  # of the sea itself; None for an ocean of given waves
+    specified: SeaState | None  # of the sea itself; None for an ocean of given waves
     resolved: float  # m0 of the part that the tile can hold, averaged over seeds [m^2]
     energy_below: float  # m0 of waves longer than the tile, which it cannot hold [m^2]
     energy_above: float  # m0 of waves shorter than two samples [m^2]
-    sampling_error: (
-        float  # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
-    )
+    # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
+    sampling_error: float
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
     loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
-    folding: Folding  # of the water at its choppiness, in the moments that were looked at
+    folding: Folding  # of the water at its choppiness, in the frames that were measured
+
+    @property
+    def ordered(self) -> SeaState | None:
+        """The specified sea: the earlier name of `specified`."""
+        return self.specified
+
+    @property
+    def hs_scatter(self) -> float:
+        """Standard deviation of Hs from seed to seed [m]."""
+        return 0.5 * self.sampling_error * self.hs
+
+    @property
+    def share_below(self) -> float:
+        """Share of the specified energy in waves longer than the tile [-]; 0 for a flat sea."""
+        return self._share(self.energy_below)
+
+    @property
+    def share_above(self) -> float:
+        """Share of the specified energy in waves shorter than two samples [-]; 0 for a flat sea."""
+        return self._share(self.energy_above)
+
+    def _share(self, energy: float) -> float:
+        m0 = 0.0 if self.specified is None else self.specified.m0
+        return energy / m0 if m0 > 0.0 else 0.0
+
+    def as_plain(self) -> dict[str, Any]:
+        """
+        Return the statistics as plain data for JSON, with None for infinity.
+
+        The specified sea has the key "ordered", as in the manifests of all versions.
+        """
+        plain = {
+            "ordered" if key == "specified" else key: value for key, value in asdict(self).items()
+        }
+        if math.isinf(self.folding.largest_choppiness):
+            plain["folding"]["largest_choppiness"] = None
+        return plain
 
     def __repr__(self) -> str:
-        specified = "" if self.ordered is None else f" of {self.ordered.hs:.3g} m specified"
+        specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"
         return (
-            f"Statistics(hs={self.hs:.3g} m{specified}, tp={self.tp:.3g} s, mean_direction={self.mean_direction:.4g}, "
-            f"spread={self.spread:.3g} degrees, folded={self.folding.share:.2g}, "
+            f"Statistics(hs={self.hs:.3g} m{specified}, tp={self.tp:.3g} s, "
+            f"mean_direction={self.mean_direction:.4g}, spread={self.spread:.3g} degrees, "
+            f"folded={self.folding.share:.2g}, "
             f"largest_choppiness={self.folding.largest_choppiness:.3g})"
         )
 
 
 def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     """
-    Measure what an ocean delivers, or all tiles of a cascade together.
+    Measure the realised statistics of an ocean, or of all tiles of a cascade together.
 
     Height and vertical velocity of the frame at t = 0 go through a forward FFT, which tells the
     waves along +k from those along -k (f, b = (H +- i H'/omega)/2); their energies give m0, the
     mean direction and spread, and the spectrum whose peak is Tp.
 
     Args:
-        ocean: any ocean, or a cascade: its tiles have different waves, so their energies add up.
-        frames: in how many moments to look for folds: equally spaced over the loop, or over ten
-            peak periods.
+        ocean: an ocean, or a cascade: its tiles have different waves, so their energies add up.
+        frames: number of frames in which folds are looked for, equally spaced over the loop, or
+            over ten peak periods.
 
     Returns:
         `Statistics`.
@@ -110,14 +153,12 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     Young 1995.
     """
     if not isinstance(ocean, (Ocean, Cascade)):
-        raise ParameterError(
-            f"what is measured must be an Ocean or a Cascade, got {described(ocean)}"
-        )
+        raise ParameterError(f"ocean must be an Ocean or a Cascade, got {described(ocean)}")
     tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
-    ahead, astern, omega, theta = (
+    forward, backward, omega, theta = (
         np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True)
     )
-    energy = np.concatenate([ahead, astern])
+    energy = np.concatenate([forward, backward])
     m0 = float(np.sum(energy))
     direction, spread = moments.mean_direction_and_spread(
         energy, np.concatenate([theta, theta + np.pi])
@@ -126,14 +167,14 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
     above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
     sampling, snapshot = _scatter([tile.amplitudes for tile in tiles])
-    tp = _peak_period(np.concatenate([ahead, astern]), np.concatenate([omega, omega]))
+    tp = _peak_period(energy, np.concatenate([omega, omega]))
     return Statistics(
         m0=m0,
         hs=4.0 * math.sqrt(m0),
         tp=tp,
         mean_direction=direction,
         spread=spread,
-        ordered=None if sea is None else ordered(sea),
+        specified=None if sea is None else specified(sea),
         resolved=sum(tile.amplitudes.variance for tile in tiles),
         energy_below=below,
         energy_above=above,
@@ -148,21 +189,21 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
 
 _STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
 _WIDTHS = 1000.0
-_PLACES = 2**16
-"""The places at which the water of several tiles is added up to look for folds."""
+"""Widths of the largest tile over which the points are spread."""
+_POINTS = 2**16
+"""Points at which the water of several tiles is summed to look for folds."""
 
 
 def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     """
-    Return the folds of the water of all tiles together, in `count` moments over the loop, or over
-    `span` [s].
+    Return the folds of all tiles together, in `count` frames over the loop, or over `span` [s].
 
-    One tile is looked at in all its samples. Several are added up at places of the finest one's
-    samples, drawn over many widths of the largest, as they lie beside each other differently in
-    each: the others, whose waves are longer, are interpolated.
+    One tile is examined in all its samples. Several are summed at samples of the finest one, chosen
+    at random over many widths of the largest, since tiles of different sizes meet differently in
+    every width. The others, whose waves are longer, are interpolated.
     """
     period = tiles[0].loop if len({tile.loop for tile in tiles}) == 1 else None
-    places = _places(tiles)
+    points = _points(tiles)
     total: Folding | None = None
     for j in range(count):
         t = j * (span if period is None else period) / count
@@ -170,29 +211,30 @@ def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
         if len(frames) == 1:
             xx, xy, yy = (frames[0][name] for name in _STRETCHES)
         else:
-            summed = np.zeros((_PLACES, 3))
-            for frame, (u, v) in zip(frames, places, strict=True):
+            summed = np.zeros((_POINTS, 3))
+            for frame, (u, v) in zip(frames, points, strict=True):
                 texels = np.stack([frame[name] for name in _STRETCHES], axis=-1)
                 interpolate.bilinear(texels, u, v, summed)
             xx, xy, yy = (np.ascontiguousarray(column)[None] for column in summed.T)
         one = folding_of(xx, xy, yy, tiles[0].choppiness)
         total = one if total is None else total + one
-    assert total is not None  # there is one moment at least
+    assert total is not None  # count is at least 1
     return total
 
 
-def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
-    """The same places in samples of each tile: of the finest, whole numbers."""
+def _points(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
+    """
+    Return the same points as sample numbers (u, v) of each tile; whole numbers of the finest.
+
+    One tile needs none.
+    """
     if len(tiles) == 1:
         return []
     large, fine = tiles[0].grid, tiles[-1].grid
-    draw = np.random.default_rng(0)  # where to look, which has no part in the sea
-    x = np.floor(draw.uniform(0.0, _WIDTHS * large.lx * fine.nx / fine.lx, _PLACES)) * (
-        fine.lx / fine.nx
-    )
-    y = np.floor(draw.uniform(0.0, _WIDTHS * large.ly * fine.ny / fine.ly, _PLACES)) * (
-        fine.ly / fine.ny
-    )
+    chance = np.random.default_rng(0)  # a fixed choice, independent of the sea's own seed
+    step_x, step_y = fine.lx / fine.nx, fine.ly / fine.ny
+    x = np.floor(chance.uniform(0.0, _WIDTHS * large.lx * fine.nx / fine.lx, _POINTS)) * step_x
+    y = np.floor(chance.uniform(0.0, _WIDTHS * large.ly * fine.ny / fine.ly, _POINTS)) * step_y
     grids = [tile.grid for tile in tiles]
     scaled = [(x * (g.nx / g.lx) % g.nx, y * (g.ny / g.ly) % g.ny) for g in grids[:-1]]
     return [
@@ -201,8 +243,8 @@ def _places(tiles: tuple[Ocean, ...]) -> list[tuple[Real, Real]]:
     ]
 
 
-def ordered(sea: Sea) -> SeaState:
-    """Return what a sea is by its own integrals over frequency and direction."""
+def specified(sea: Sea) -> SeaState:
+    """Return the state of a sea from its own integrals over frequency and direction."""
     variance, theta = _polar(sea)
     direction, spread = moments.mean_direction_and_spread(variance, theta)
     m0 = sea.variance
@@ -211,14 +253,31 @@ def ordered(sea: Sea) -> SeaState:
     )
 
 
+ordered = specified
+"""The earlier name of `specified`."""
+
+
+def peak_wavelength(ocean: Ocean) -> float:
+    """Return the wavelength at the specified peak period [m]; 0 for a flat sea or given waves."""
+    tp = 0.0 if ocean.sea is None else ocean.sea.tp
+    if not tp > 0.0:
+        return 0.0
+    tension = ocean.amplitudes.surface_tension
+    return 2.0 * math.pi / float(dispersion.wavenumber(2.0 * math.pi / tp, ocean.depth, tension))
+
+
+def shortest_wavelength(grid: Grid) -> float:
+    """Return the shortest wavelength that a grid holds along both of its axes [m]: two samples."""
+    return 2.0 * max(grid.lx / grid.nx, grid.ly / grid.ny)
+
+
 def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float]:
     """
-    Return the variance [m^2] that a tile cannot hold: below its longest wave, and above its
-    shortest; or what lies beside its band.
+    Return the variance [m^2] of a sea outside a tile: (of longer waves, of shorter waves).
 
     The tile's cells cover a rectangle of wavenumbers without the cell around k = 0. In every
     direction the sea's energy is summed along |k| up to the edges of the two rectangles, without
-    cells.
+    cells. A band limits the tile further.
     """
     reach_x, reach_y = grid.reach
     cells = Cells(sea, grid.dkx, grid.dky)
@@ -226,8 +285,7 @@ def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float
         (0.5 * grid.dkx, 0.5 * grid.dky),
         ((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky),
     )
-    # what lies below: all up to the lower edge of the band, and what the inner rectangle has of the
-    # band
+    # below: all up to the lower edge of the band, and the part of the band in the inner rectangle
     below = cells.inside(*outer, (0.0, band[0])) + cells.inside(*inner, band)
     return below, max(sea.variance - cells.inside(*outer, (0.0, band[1])), 0.0)
 
@@ -263,8 +321,9 @@ def _polar(sea: Sea) -> tuple[Real, Real]:
 
 def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
     """
-    Energies a^2/2 of the waves along +k and along -k, their omega and the direction of +k, each
-    wave once.
+    Return energies a^2/2 [m^2] along +k and along -k, omega [rad/s] and direction of +k [rad].
+
+    Each wavenumber of the half plane occurs once; the four arrays have one axis.
     """
     grid = ocean.grid
     frame = ocean.frame(0.0, fields=("height", "velocity_z"))
@@ -273,14 +332,18 @@ def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
     )
     once = grid.active & ((grid.mx[None, :] > 0) | (grid.my[:, None] > 0))
     omega = ocean.amplitudes.running_omega[once]
-    ahead = 2.0 * np.abs(0.5 * (height[once] + 1j * rate[once] / omega)) ** 2
-    astern = 2.0 * np.abs(0.5 * (height[once] - 1j * rate[once] / omega)) ** 2
+    forward = 2.0 * np.abs(0.5 * (height[once] + 1j * rate[once] / omega)) ** 2
+    backward = 2.0 * np.abs(0.5 * (height[once] - 1j * rate[once] / omega)) ** 2
     kx, ky = np.broadcast_arrays(grid.kx[None, :], grid.ky[:, None])
-    return ahead, astern, omega, np.arctan2(ky[once], kx[once])
+    return forward, backward, omega, np.arctan2(ky[once], kx[once])
 
 
 def _peak_period(energy: Real, omega: Real) -> float:
-    """Tp = 2 pi int S^4 d omega / int omega S^4 d omega, S from bins 6 % wide  (Young 1995)."""
+    """
+    Return Tp = 2 pi int S^4 d omega / int omega S^4 d omega [s], S from bins 6 % wide.
+
+    Source: Young 1995.
+    """
     if not np.any(energy > 0.0):
         return 0.0
     some = energy > 0.0
@@ -297,7 +360,7 @@ def _peak_period(energy: Real, omega: Real) -> float:
 
 def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     """
-    Relative standard deviations of m0 from draw to draw, and of one frame's variance.
+    Return the relative standard deviations of m0 from seed to seed, and of one frame's variance.
 
     Gaussian amplitudes make a^2 exponential: var(sum a^2/2) = sum E^2. In one frame the waves at +k
     and -k share one Fourier coefficient, whose energy is exponential with mean E_k + E_-k; waves of
@@ -307,21 +370,20 @@ def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     for a in tiles:
         once = a.grid.active & ((a.grid.mx[None, :] > 0) | (a.grid.my[:, None] > 0))
         pairs.append((a.variance_forward[once], a.variance_backward[once]))
-    ahead, astern = (np.concatenate(column) for column in zip(*pairs, strict=True))
-    total = float(np.sum(ahead) + np.sum(astern))
+    forward, backward = (np.concatenate(column) for column in zip(*pairs, strict=True))
+    total = float(np.sum(forward) + np.sum(backward))
     if not total > 0.0:
         return 0.0, 0.0
     if tiles[0].draw != "gaussian":
-        return 0.0, math.sqrt(2.0 * float(np.sum(ahead * astern))) / total
-    return math.sqrt(float(np.sum(ahead**2) + np.sum(astern**2))) / total, math.sqrt(
-        float(np.sum((ahead + astern) ** 2))
-    ) / total
+        return 0.0, math.sqrt(2.0 * float(np.sum(forward * backward))) / total
+    sampling = math.sqrt(float(np.sum(forward**2) + np.sum(backward**2))) / total
+    snapshot = math.sqrt(float(np.sum((forward + backward) ** 2))) / total
+    return sampling, snapshot
 
 
 def loop_error(amplitudes: Amplitudes, period: float) -> LoopError:
     """
-    Return what a loop of `period` [s] does to the frequencies, and the best period within a tenth
-    of it.
+    Return the frequency errors of a loop of `period` [s], and the best period within a tenth of it.
     """
     half = amplitudes.variance_forward.copy()
     half[:, 1:] += amplitudes.variance_backward[:, 1:]  # the column mx = 0 holds both k and -k

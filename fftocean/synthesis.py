@@ -1,11 +1,28 @@
 """
-From h0 to fields, block by block: the plan of a frame, drawn from the table in `fields.py`.
+Synthesis of fields from amplitudes by two-dimensional inverse FFTs.
 
-A two-dimensional inverse transform is a pass along y, then one along x. After the first, each row
-is the Hermitian half of a real one, so two real fields A and B go through the second as one complex
-row, A + i B at k >= 0 and conj(A - i B) at -k. Where B = dA/dx both are A times a real number, 1 -+
-kx: the two share one spectrum in the first pass as well. So eight fields take five transforms along
-y and four along x. Both passes run over blocks that stay in cache.
+A two-dimensional inverse transform is a pass along y, then one along x. The fields are real, so
+their spectra are needed for kx >= 0 only: each is a half-spectrum. After the first pass every row y
+is the Hermitian half of a real row. Two real rows A and B then share one complex row of the second
+pass, A + i B, whose spectrum is
+
+    A(k) + i B(k)  at +k,      conj(A(k) - i B(k))  at -k.
+
+Where B = dA/dx, i B = -kx A: the two are A times real factors, 1 - kx and 1 + kx, and one
+half-spectrum serves both fields in the first pass as well. So eight fields take five transforms
+along y and four along x.
+
+    waves ----- phase in cycles ----> h(k, t), one block of columns kx at a time      first pass
+    h --------- powers of ky, i^m --> half-spectra ---- inverse FFT along y ---> intermediate
+    rows ------ powers of kx -------> packed rows ----- inverse FFT along x ---> fields
+                                                                                      second pass
+
+Both passes run over blocks that stay in cache. `fields.FIELDS` has the derivative of each field;
+`Plan` says which transforms a set of fields takes.
+
+Two numbers keep single precision in range. Waves are divided by the largest of them (a power of
+two, which rounds nothing), and the second pass multiplies it back. And since two fields of a packed
+row share the rounding errors of its transform, a power of two first makes them equally large.
 """
 
 import math
@@ -18,16 +35,16 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import COMPLEX_OF, Complex, Real
-from fftocean.fields import FIELDS, Field, potential_factor
+from fftocean.computation import Computation
+from fftocean.fields import FIELDS, POINTWISE, Field, potential_factor
 from fftocean.kernels import passes, surface
 from fftocean.transforms import aligned, inverse_rows
 
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
-POINTWISE = {"normal": GEOMETRY, "jacobian": GEOMETRY[2:]}
-"""The fields that are not linear, and the linear ones that they are made of."""
+PhaseFunction = Callable[[slice, Real], None]
+"""Writes the phases of the waves of some columns kx, in cycles, (columns, ny)."""
 
-Turn = Callable[[slice, Real], None]
-"""Writes how far the waves of some columns of wavenumbers have turned, (columns, ny)."""
+Source = tuple[str, int]
+""""height" or "potential", and the number of time derivatives, 0 or 1."""
 
 PAIRS: tuple[tuple[str, ...], ...] = (
     ("height", "slope_x"),
@@ -38,112 +55,116 @@ PAIRS: tuple[tuple[str, ...], ...] = (
     ("velocity_x",),
 )
 """
-Who shares a complex row with whom: always the same, asked for or not, so that a field has the same
-bits whatever is asked.
+The fields that share a packed row.
+
+Pairs are computed whole, whichever of the two is asked for, so a field has the same bits whatever
+is asked beside it.
 """
 
 
 @dataclass(frozen=True, slots=True)
-class Spectrum:
+class HalfSpectrum:
     """
-    What goes through the first pass: i^turns (ky^power source [+ sign weight ky^other_power
-    other]), with no factor of kx.
+    An input of the first pass: i^quarters (ky^power source [+ sign weight ky^other_power other]).
 
-    Sources are the height or the potential, or their time derivatives.
+    Factors of kx follow in the second pass.
     """
 
-    pair: tuple[str, ...]  # whose it is
-    source: tuple[str, int]  # (of, dt)
-    turns: int  # quarter turns
+    pair: tuple[str, ...]  # the fields that it is for
+    source: Source
+    quarters: int  # factors of i, quarter cycles of phase
     power: int
-    other: tuple[str, int] | None = None
+    other: Source | None = None
     other_power: int = 0
     sign: int = 1
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """
-    One complex row of the second pass: its one or two fields, and where in the first their spectra
-    at k and -k are.
-    """
+class PackedRow:
+    """A complex row of the second pass: its one or two fields, and their half-spectra."""
 
     pair: tuple[str, ...]
-    ahead: int
-    astern: int
+    plus: int  # number of the half-spectrum at +k
+    minus: int  # and at -k
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to compute for a set of fields."""
+    """The transforms that a set of fields takes."""
 
-    asked: tuple[str, ...]
-    linear: tuple[str, ...]  # the linear fields computed, asked for or not
-    spectra: tuple[Spectrum, ...]
-    rows: tuple[Row, ...]
+    fields: tuple[str, ...]  # that were asked for
+    linear: tuple[str, ...]  # that are computed, some of them for their partner's sake
+    half_spectra: tuple[HalfSpectrum, ...]
+    rows: tuple[PackedRow, ...]
 
 
-def rows_of_the_table() -> tuple[tuple[str, ...], ...]:
+def row_pairs() -> tuple[tuple[str, ...], ...]:
     """
-    The pairs, as far as the table allows them: two that differ by more than a real factor and one
-    of kx go a row each.
+    Return the fields of each packed row: `PAIRS`, as far as `FIELDS` allows.
+
+    Two fields whose spectra differ by more than a real factor and one factor of kx take a row each.
     """
     return tuple(
         row
         for pair in PAIRS
-        for row in ([pair] if _derived(pair) or _mixable(pair) else [(name,) for name in pair])
+        for row in (
+            [pair] if _is_x_derivative(pair) or _is_combinable(pair) else [(name,) for name in pair]
+        )
     )
 
 
-def _derived(pair: tuple[str, ...]) -> bool:
-    """Whether the second of a pair is the first's derivative along x, or there is none."""
+def _is_x_derivative(pair: tuple[str, ...]) -> bool:
+    """Return True if the second field is d/dx of the first, or if there is no second."""
     if len(pair) == 1:
         return True
     a, b = (FIELDS[name] for name in pair)
     return (b.of, b.dt, b.dy, b.dx) == (a.of, a.dt, a.dy, a.dx + 1)
 
 
-def _mixable(pair: tuple[str, ...]) -> bool:
-    """Whether A and i B of a pair differ by a real factor before anything is known of kx."""
+def _is_combinable(pair: tuple[str, ...]) -> bool:
+    """Return True if A and i B have no factor of kx and differ by a real factor."""
     a, b = (FIELDS[name] for name in pair)
     return a.dx == b.dx == 0 and (1 + b.dy - a.dy) % 2 == 0
 
 
-def _spectra_of(pair: tuple[str, ...]) -> tuple[Spectrum, ...]:
+def _half_spectra(pair: tuple[str, ...]) -> tuple[HalfSpectrum, ...]:
     """
-    The spectra that a pair needs: A alone where the rest is a factor of kx, else A + i weight B and
-    A - i weight B.
+    Return the half-spectra of a pair.
+
+    One, A, where B is its derivative along x; else two, A + i weight B and A - i weight B.
     """
     a: Field = FIELDS[pair[0]]
-    if _derived(pair):
-        return (Spectrum(pair, (a.of, a.dt), a.dx + a.dy, a.dy),)
+    if _is_x_derivative(pair):
+        return (HalfSpectrum(pair, (a.of, a.dt), a.dx + a.dy, a.dy),)
     b: Field = FIELDS[pair[1]]
-    sign = (-1) ** ((1 + b.dy - a.dy) // 2)  # i B leads A by so many half turns
+    sign = (-1) ** ((1 + b.dy - a.dy) // 2)  # of i B relative to A: half cycles of phase
     return tuple(
-        Spectrum(pair, (a.of, a.dt), a.dy, a.dy, (b.of, b.dt), b.dy, s) for s in (sign, -sign)
+        HalfSpectrum(pair, (a.of, a.dt), a.dy, a.dy, (b.of, b.dt), b.dy, s) for s in (sign, -sign)
     )
 
 
 @lru_cache(maxsize=256)
-def plan_of(fields: tuple[str, ...]) -> Plan:
-    """Plan a set of field names."""
+def plan_fields(fields: tuple[str, ...]) -> Plan:
+    """Return the plan for a set of field names."""
     wanted = {
         name for field in fields for name in ((field,) if field in FIELDS else POINTWISE[field])
     }
-    pairs = tuple(pair for pair in rows_of_the_table() if wanted & set(pair))
-    spectra: list[Spectrum] = []
+    pairs = tuple(pair for pair in row_pairs() if wanted & set(pair))
+    half_spectra: list[HalfSpectrum] = []
     rows = []
     for pair in pairs:
-        own = _spectra_of(pair)
-        rows.append(Row(pair, len(spectra), len(spectra) + len(own) - 1))
-        spectra.extend(own)
-    return Plan(fields, tuple(name for pair in pairs for name in pair), tuple(spectra), tuple(rows))
+        own = _half_spectra(pair)
+        rows.append(PackedRow(pair, len(half_spectra), len(half_spectra) + len(own) - 1))
+        half_spectra.extend(own)
+    linear = tuple(name for pair in pairs for name in pair)
+    return Plan(fields, linear, tuple(half_spectra), tuple(rows))
 
 
-def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
+def root_mean_squares(amplitudes: Amplitudes) -> dict[str, float]:
     """
-    Return the root mean square of each field, for waves of which the largest is about 1; 0 where
-    they all run along the other axis.
+    Return the root mean square of each field, for waves divided by the largest of them.
+
+    A derivative along an axis that no wave runs along is 0.
     """
     grid, omega = amplitudes.grid, amplitudes.running_omega
     per_unit = 1.0 / largest_wave(amplitudes)
@@ -169,10 +190,11 @@ def magnitudes(amplitudes: Amplitudes) -> dict[str, float]:
     return {name: size(field) for name, field in FIELDS.items()}
 
 
-def balance(first: float, second: float, reach: int) -> float:
+def balancing_weight(first: float, second: float, reach: int) -> float:
     """
-    Return the power of two, from 2^-reach to 2^reach, that makes a second field as large as a
-    first; 1 where the second is 0.
+    Return the power of two that makes a second field as large as a first.
+
+    It is limited to 2^-reach ... 2^reach, and 1 where the second field is 0.
     """
     if not second > 0.0:
         return 1.0
@@ -189,145 +211,157 @@ def largest_wave(amplitudes: Amplitudes) -> float:
     return 2.0 ** max(round(math.log2(largest)), -1000) if largest > 0.0 else 1.0
 
 
-def block_of(n: int, available: int) -> int:
+def block_size(n: int, available: int) -> int:
     """
-    How many rows of n to work on at a time; measured, and flat about there.
+    Return the number of rows of length n in a block; measured, and flat about there.
 
-    Fewer would lie nearer to the processor, but every call of a kernel gives the interpreter up and
-    takes it back: with short calls two threads wait for each other more than they work (at n = 512,
-    16 rows gain 1.2 times by a second thread, 64 rows 1.8 times).
+    Fewer would lie nearer to the processor, but every call of a kernel releases the interpreter
+    lock and takes it again: with short calls two threads wait for each other more than they work
+    (at n = 512, 16 rows gain 1.2 times by a second thread, 64 rows 1.8 times).
     """
     return min(max(2**16 // n, 32), 64, available)
 
 
 class Synthesis:
     """
-    The waves of one tile, and the buffers that turn them into fields. Whoever owns it sees to it
-    that it runs once at a time.
+    The waves of one tile, and the workspaces that transform them into fields.
+
+    Not thread-safe: the owner must serialise calls of `run`.
+
+    Args:
+        amplitudes: the waves at t = 0.
+        computation: precision, FFT library, planning effort and threads.
+
+    Raises:
+        ParameterError: a backend or planning effort that is unknown or not installed.
     """
 
-    def __init__(
-        self, amplitudes: Amplitudes, dtype: str, *, backend: str, planning: str, threads: int
-    ) -> None:
+    def __init__(self, amplitudes: Amplitudes, computation: Computation) -> None:
         self._amplitudes, self._grid = amplitudes, amplitudes.grid
+        dtype = computation.dtype
         self._dtype = np.dtype(dtype)
         grid = self._grid
-        self.columns = (
-            grid.nx + 1
-        ) // 2  # of the half plane; the Nyquist column, where there is one, is always zero
-        # Powers of two, which round nothing, keep all numbers on the way within the range of single
-        # precision: waves are taken
-        # over the largest of them, which the second pass multiplies with again.
+        # Columns of the half plane; the Nyquist column, where there is one, is always zero.
+        self.columns = (grid.nx + 1) // 2
         self._unit = largest_wave(amplitudes)
-        self._waves = self._prepared(amplitudes)
+        self._waves = self._wave_table(amplitudes)
         k = grid.k.T[: self.columns]
         self._potential = np.ascontiguousarray(potential_factor(k, amplitudes.depth), dtype=dtype)
         self._omega: Real | None = None
-        self._between = np.zeros(0, dtype=COMPLEX_OF[dtype])
-        size = self._size = magnitudes(amplitudes)
-        pairs = rows_of_the_table()
-        # The transform's rounding errors are shared out between a pair: a power of two makes them
-        # equals. A field smaller still beside
-        # its partner (in a sea nearly along one axis) gets errors of 1e-34 of the partner in single
-        # precision.
+        self._buffer = np.zeros(0, dtype=COMPLEX_OF[dtype])
+        size = self._size = root_mean_squares(amplitudes)
+        pairs = row_pairs()
+        # A field smaller still beside its partner (in a sea nearly along one axis) gets errors of
+        # 1e-34 of the partner in single precision.
         reach = 90 if self._dtype == np.float32 else 500
         self._weights: dict[tuple[str, ...], float] = {
-            pair: balance(size[pair[0]], size[pair[1]], reach) for pair in pairs if len(pair) == 2
+            pair: balancing_weight(size[pair[0]], size[pair[1]], reach)
+            for pair in pairs
+            if len(pair) == 2
         }
-        self._numbers = {
-            spectrum: self._numbers_of(spectrum) for pair in pairs for spectrum in _spectra_of(pair)
+        self._ky_factors = {
+            spectrum: self._ky_factors_of(spectrum)
+            for pair in pairs
+            for spectrum in _half_spectra(pair)
         }
-        self._factors = {pair: self._factors_of(pair) for pair in pairs}
-        self._widths = (block_of(grid.ny, self.columns), block_of(grid.nx, grid.ny))
+        self._kx_factors = {pair: self._kx_factors_of(pair) for pair in pairs}
+        self._widths = (block_size(grid.ny, self.columns), block_size(grid.nx, grid.ny))
         blocks = max(-(-self.columns // self._widths[0]), -(-grid.ny // self._widths[1]))
-        self._desks = [
-            _Desk(self._widths, grid.shape, dtype, backend, planning)
-            for _ in range(min(threads, blocks))
+        self._workspaces = [
+            _Workspace(self._widths, grid.shape, computation)
+            for _ in range(min(computation.threads, blocks))
         ]
         self.restart()
-        self.backend = self._desks[0].first.backend
+        self.backend = self._workspaces[0].first.backend
 
     def restart(self) -> None:
-        """
-        Start the threads; once more in a forked child, to which its parent's are not handed down.
-        """
-        others = len(self._desks) - 1
+        """Start the threads; a forked child calls it again, since it has none of its parent's."""
+        others = len(self._workspaces) - 1
         self._pool = ThreadPoolExecutor(others, thread_name_prefix="fftocean") if others else None
 
-    def run(self, turn: Turn, outputs: Mapping[str, Real], choppiness: float) -> None:
+    def run(self, phase: PhaseFunction, outputs: Mapping[str, Real], choppiness: float) -> None:
         """
-        Compute fields into the arrays given by name, each (ny, nx), or (ny, nx, 3) for normals.
+        Compute fields.
+
+        Args:
+            phase: writes the phases of the waves.
+            outputs: the arrays to write to by field name, (ny, nx) or, for normals, (ny, nx, 3).
+            choppiness: factor on the horizontal displacement [-].
         """
-        plan = plan_of(tuple(outputs))
+        plan = plan_fields(tuple(outputs))
         if not plan.linear:
             return
-        if self._omega is None and any(spectrum.source[1] for spectrum in plan.spectra):
+        if self._omega is None and any(spectrum.source[1] for spectrum in plan.half_spectra):
             self._omega = np.ascontiguousarray(
                 self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype
             )
-        between = self._between_passes(len(plan.spectra))
-        moved = _movable(between)
+        intermediate = self._intermediate(len(plan.half_spectra))
+        transposed = _transposable(intermediate)
         c = self._dtype.type(choppiness)
-        self._share(
+        self._run_blocks(
             self.columns,
             self._widths[0],
-            lambda desk, block: self._first_pass(plan, desk, block, turn, moved),
+            lambda workspace, block: self._first_pass(plan, workspace, block, phase, transposed),
         )
-        halves = _parts(between)
-        self._share(
+        rows = _parts(intermediate)
+        self._run_blocks(
             self._grid.ny,
             self._widths[1],
-            lambda desk, block: self._second_pass(plan, desk, block, halves, outputs, c),
+            lambda workspace, block: self._second_pass(plan, workspace, block, rows, outputs, c),
         )
 
-    def _share(self, total: int, width: int, work: "Callable[[_Desk, slice], None]") -> None:
+    def _run_blocks(
+        self, total: int, width: int, work: "Callable[[_Workspace, slice], None]"
+    ) -> None:
         """
-        Do the blocks of one pass, on one thread or each desk on its own. The blocks are the same,
-        so are their bytes.
+        Do the blocks of one pass, each thread with a workspace of its own.
+
+        The blocks do not depend on the number of threads, nor do their bytes.
         """
         blocks = [slice(start, min(start + width, total)) for start in range(0, total, width)]
 
-        def at(desk: _Desk, own: Iterable[slice]) -> None:
+        def run(workspace: _Workspace, own: Iterable[slice]) -> None:
             for block in own:
-                work(desk, block)
+                work(workspace, block)
 
         (mine, *others) = [
-            (desk, blocks[i :: len(self._desks)]) for i, desk in enumerate(self._desks)
+            (workspace, blocks[i :: len(self._workspaces)])
+            for i, workspace in enumerate(self._workspaces)
         ]
         tasks: list[Future[None]] = []
         try:
             for share in others:
-                assert self._pool is not None  # there is one for more desks than one
+                assert self._pool is not None  # there is one for more workspaces than one
                 try:
-                    tasks.append(self._pool.submit(at, *share))
-                except (
-                    RuntimeError
-                ):  # Python is on its way out and starts nothing new: the same work, here
-                    at(*share)
-            at(*mine)  # here, where the caller's caches are warm and nobody has to be woken
+                    tasks.append(self._pool.submit(run, *share))
+                except RuntimeError:  # the interpreter is shutting down and starts nothing new
+                    run(*share)
+            run(*mine)  # in this thread, whose caches are warm
             for task in tasks:
                 task.result()
-        finally:  # of an interrupt, too: nobody may have the desks before the last has left them
+        finally:  # after an interrupt, too, no workspace may be reused while a thread still writes
             wait(tasks)
 
     def _first_pass(
-        self, plan: Plan, desk: "_Desk", block: slice, turn: Turn, between: Real | Complex
+        self,
+        plan: Plan,
+        workspace: "_Workspace",
+        block: slice,
+        phase: PhaseFunction,
+        intermediate: Real | Complex,
     ) -> None:
-        """Columns kx: turn the waves, derive along y, transform along y, store transposed."""
+        """Advance the waves of some columns kx, derive and transform along y, and transpose."""
         n = block.stop - block.start
-        turns, cosine, sine = desk.turns[:n], desk.cosine[:n], desk.sine[:n]
-        turn(block, turns)
+        cycles, cosine, sine = workspace.cycles[:n], workspace.cosine[:n], workspace.sine[:n]
+        phase(block, cycles)
         (passes.phasors_single if self._dtype == np.float32 else passes.phasors)(
-            turns, cosine, sine
+            cycles, cosine, sine
         )
-        ready: set[tuple[str, int]] = set()
+        ready: set[Source] = set()
 
-        def parts_of(source: tuple[str, int]) -> tuple[Real, Real]:
-            """
-            Real and imaginary part of the height, the potential, or a rate of one, made once a
-            block.
-            """
-            parts: tuple[Real, Real] = desk.parts[source]
+        def parts_of(source: Source) -> tuple[Real, Real]:
+            """Return real and imaginary part of a source, computed once for the block."""
+            parts: tuple[Real, Real] = workspace.parts[source]
             if source not in ready:
                 ready.add(source)
                 of, dt = source
@@ -335,51 +369,58 @@ class Synthesis:
                     for whole, part in zip(parts_of(("height", dt)), parts, strict=True):
                         passes.scale(whole, self._potential[block], part)
                 elif dt == 0:
-                    passes.turn_waves(self._waves[block], cosine, sine, *parts)
+                    passes.heights(self._waves[block], cosine, sine, *parts)
                 else:
                     assert self._omega is not None  # made before the first pass
-                    passes.turn_rates(self._waves[block], cosine, sine, self._omega[block], *parts)
+                    passes.height_rates(
+                        self._waves[block], cosine, sine, self._omega[block], *parts
+                    )
             return parts
 
-        for s, spectrum in enumerate(plan.spectra):
-            power, other_power, first, second = self._numbers[spectrum]
-            parts = _swapped(parts_of(spectrum.source), spectrum.turns)
+        for s, spectrum in enumerate(plan.half_spectra):
+            power, other_power, first, second = self._ky_factors[spectrum]
+            parts = _swapped(parts_of(spectrum.source), spectrum.quarters)
+            source = workspace.first_source
             if spectrum.other is None:
-                passes.derive(*parts, power, first, second, n, desk.first_source)
+                passes.derive(*parts, power, first, second, n, source)
             else:
-                other = _swapped(parts_of(spectrum.other), spectrum.turns)
-                passes.mix(*parts, power, *other, other_power, first, second, n, desk.first_source)
-            desk.first()
-            passes.transpose(desk.first_result, s, block.start, n, between)
+                other = _swapped(parts_of(spectrum.other), spectrum.quarters)
+                passes.mix(*parts, power, *other, other_power, first, second, n, source)
+            workspace.first()
+            passes.transpose(workspace.first_result, s, block.start, n, intermediate)
 
     def _second_pass(
         self,
         plan: Plan,
-        desk: "_Desk",
+        workspace: "_Workspace",
         block: slice,
-        between: Real,
+        intermediate: Real,
         outputs: Mapping[str, Real],
         choppiness: float,
     ) -> None:
-        """
-        Rows y: derive along x, transform two fields as one, split them, and finish what is made of
-        them.
-        """
+        """Derive and transform packed rows along x, split them, and finish pointwise fields."""
         n = block.stop - block.start
         rows = {
-            name: outputs[name][block] if name in outputs else desk.scratch[name][:n]
+            name: outputs[name][block] if name in outputs else workspace.scratch[name][:n]
             for name in plan.linear
         }
         for row in plan.rows:
-            ahead, astern, undo = self._factors[row.pair]
+            plus, minus, undo = self._kx_factors[row.pair]
             passes.pack(
-                between, block.start, n, row.ahead, row.astern, ahead, astern, desk.second_source
+                intermediate,
+                block.start,
+                n,
+                row.plus,
+                row.minus,
+                plus,
+                minus,
+                workspace.second_source,
             )
-            desk.second()
+            workspace.second()
             if len(row.pair) == 2:
-                passes.split(desk.second_result, undo, rows[row.pair[0]], rows[row.pair[1]])
+                passes.split(workspace.second_result, undo, rows[row.pair[0]], rows[row.pair[1]])
             else:
-                passes.real_parts(desk.second_result, rows[row.pair[0]])
+                passes.real_parts(workspace.second_result, rows[row.pair[0]])
         if "normal" in outputs:
             sx, sy, xx, xy, yy = (rows[name] for name in POINTWISE["normal"])
             surface.normals(sx, sy, xx, xy, yy, choppiness, outputs["normal"][block])
@@ -387,10 +428,11 @@ class Synthesis:
             xx, xy, yy = (rows[name] for name in POINTWISE["jacobian"])
             surface.jacobian(xx, xy, yy, choppiness, outputs["jacobian"][block])
 
-    def _prepared(self, amplitudes: Amplitudes) -> Real:
+    def _wave_table(self, amplitudes: Amplitudes) -> Real:
         """
-        Sums and differences of forward and backward waves, as `passes.turn_waves` wants them,
-        (columns, 4 ny).
+        Return sums and differences of forward and backward waves, (columns, 4 ny).
+
+        `passes.heights` has their layout.
         """
         forward, backward = (a.T[: self.columns] for a in (amplitudes.forward, amplitudes.backward))
         waves = np.empty((self.columns, 4, self._grid.ny), dtype=self._dtype)
@@ -403,107 +445,95 @@ class Synthesis:
         )):  # fmt: skip
             np.multiply(combine(a, b), per_unit, out=waves[:, i], casting="same_kind")
         if self._dtype == np.float32:
-            # What cannot be seen beside the largest, not even as curvature, must not end as
-            # subnormal, which is slow.
+            # Waves too small to be seen beside the largest, even in their curvature, would become
+            # subnormal numbers, which are slow.
             waves[np.abs(waves) < 1e-30] = 0.0
         return waves.reshape(self.columns, -1)
 
-    def _numbers_of(self, spectrum: Spectrum) -> tuple[Real, Real, float, float]:
+    def _ky_factors_of(self, spectrum: HalfSpectrum) -> tuple[Real, Real, float, float]:
         """
-        The powers of ky of a spectrum, the second with its weight, (ny,); the signs that its
-        quarter turns give its parts.
+        Return the factors of a half-spectrum in the first pass.
+
+        The two powers of ky, the second with its weight, (ny,) each; and the signs that i^quarters
+        gives to the real and the imaginary part.
         """
         number = self._dtype.type
         weight = spectrum.sign * self._weights.get(spectrum.pair, 1.0)
         power, other = self._grid.ky**spectrum.power, weight * self._grid.ky**spectrum.other_power
-        turned = 1j**spectrum.turns * (1 + 1j)
+        signs = 1j**spectrum.quarters * (1 + 1j)
         return (
             power.astype(self._dtype),
             other.astype(self._dtype),
-            number(round(turned.real)),
-            number(round(turned.imag)),
+            number(round(signs.real)),
+            number(round(signs.imag)),
         )
 
-    def _factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real, float]:
+    def _kx_factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real, float]:
         """
-        The factors of kx that a pair's spectra take at k and at -k, laid out as `passes.pack` wants
-        them; what undoes the weight.
+        Return the factors of a packed row: at +k, at -k, and the one that undoes the weight.
+
+        `passes.pack` has the layout of the first two.
         """
         kx, weight = self._grid.kx[: self.columns], self._weights.get(pair, 1.0)
-        slant = weight * kx if len(pair) == 2 and _derived(pair) else 0.0
-        order = FIELDS[pair[0]].dx
-        power = self._unit * kx**order
-        ahead, astern = (
-            np.repeat(power * (1.0 - slant), 2),
-            np.repeat(power * (1.0 + slant), 2)[:1:-1],
-        )
-        astern[1::2] *= -1.0
-        undo = (
-            1.0 / weight if self._size[pair[-1]] > 0.0 else 0.0
-        )  # no wave, no field: not even roundings of the other one
-        return ahead.astype(self._dtype), astern.astype(self._dtype), self._dtype.type(undo)
+        slope = weight * kx if len(pair) == 2 and _is_x_derivative(pair) else 0.0
+        power = self._unit * kx ** FIELDS[pair[0]].dx
+        plus = np.repeat(power * (1.0 - slope), 2)
+        minus = np.repeat(power * (1.0 + slope), 2)[:1:-1]
+        minus[1::2] *= -1.0
+        # A field without waves is exactly 0, without the rounding errors of its partner.
+        undo = 1.0 / weight if self._size[pair[-1]] > 0.0 else 0.0
+        return plus.astype(self._dtype), minus.astype(self._dtype), self._dtype.type(undo)
 
-    def _between_passes(self, spectra: int) -> Complex:
+    def _intermediate(self, spectra: int) -> Complex:
         """
-        What the first pass leaves for the second, (ny, spectra, columns), each row on cache lines
-        of its own.
+        Return the array between the passes, (ny, spectra, columns).
+
+        Each row starts on a cache line.
         """
-        line = 64 // self._between.itemsize
+        line = 64 // self._buffer.itemsize
         columns = -(-self.columns // line) * line
         size = self._grid.ny * spectra * columns
-        if self._between.size < size:
-            self._between = aligned((1, size), self._dtype.name)[0]
-        return self._between[:size].reshape(self._grid.ny, spectra, columns)
+        if self._buffer.size < size:
+            self._buffer = aligned((1, size), self._dtype.name)[0]
+        return self._buffer[:size].reshape(self._grid.ny, spectra, columns)
 
 
-class _Desk:
-    """What one thread needs to work: buffers and FFT plans, the same for whatever is asked."""
+class _Workspace:
+    """The buffers and FFT plans of one thread, the same for any set of fields."""
 
     def __init__(
-        self,
-        widths: tuple[int, int],
-        shape: tuple[int, int],
-        dtype: str,
-        backend: str,
-        planning: str,
+        self, widths: tuple[int, int], shape: tuple[int, int], computation: Computation
     ) -> None:
         (columns, rows), (ny, nx) = widths, shape
-        self.turns = np.empty((columns, ny))
+        dtype = computation.dtype
+        self.cycles = np.empty((columns, ny))
         self.cosine, self.sine = np.empty((2, columns, ny), dtype=dtype)
         sources = [(of, dt) for of in ("height", "potential") for dt in (0, 1)]
-        self.parts: dict[tuple[str, int], tuple[Real, Real]] = {}
+        self.parts: dict[Source, tuple[Real, Real]] = {}
         for source in sources:
             real, imaginary = np.empty((2, columns, ny), dtype=dtype)
             self.parts[source] = (real, imaginary)
-        self.first = inverse_rows((columns, ny), dtype, backend=backend, planning=planning)
-        self.second = inverse_rows((rows, nx), dtype, backend=backend, planning=planning)
-        self.first_source, self.first_result = (
-            _parts(self.first.source),
-            _movable(self.first.result),
+        self.first, self.second = (
+            inverse_rows(buffer, dtype, backend=computation.backend, planning=computation.planning)
+            for buffer in ((columns, ny), (rows, nx))
         )
-        self.second_source, self.second_result = (
-            _parts(self.second.source),
-            _parts(self.second.result),
-        )
+        self.first_source = _parts(self.first.source)
+        self.first_result = _transposable(self.first.result)
+        self.second_source = _parts(self.second.source)
+        self.second_result = _parts(self.second.result)
         self.scratch = {name: np.empty((rows, nx), dtype=dtype) for name in FIELDS}
 
 
 def _swapped(parts: tuple[Real, Real], quarters: int) -> tuple[Real, Real]:
-    """
-    What becomes the real part and what the imaginary, but for their signs, when a number is turned
-    by quarters.
-    """
+    """Return real and imaginary part after multiplication by i^quarters, but for their signs."""
     return parts if quarters % 2 == 0 else parts[::-1]
 
 
-def _movable(array: Complex) -> Real | Complex:
-    """
-    A complex array as `passes.transpose` moves it: those of single precision as reals of 8 bytes; a
-    view.
-    """
+def _transposable(array: Complex) -> Real | Complex:
+    """Return a view for `passes.transpose`: complex64 as float64, which moves 8 bytes at once."""
     return array.view(np.float64) if array.dtype == np.complex64 else array
 
 
 def _parts(array: Complex) -> Real:
-    """A complex array as its interleaved real parts, the last axis twice as long; a view."""
+    """Return a view of the interleaved real and imaginary parts, the last axis twice as long."""
     return array.view(array.real.dtype)

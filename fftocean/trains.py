@@ -62,9 +62,9 @@ class Trains:
             part = slice(self.first[i], self.first[i + 1])
             frequency = dispersion.turns_per_second(self.omega[None, part])
             if loop is None:
-                passes.turns_at(frequency, t, turns[:, part])
+                passes.phases_at(frequency, t, turns[:, part])
             else:
-                passes.turns_at(
+                passes.phases_at(
                     np.rint(frequency * loop), math.fmod(t, loop) / loop, turns[:, part]
                 )
         result: Real = 2.0 * np.pi * turns[0] + self.phase

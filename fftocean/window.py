@@ -12,15 +12,16 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import Real, require_memory
+from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.frame import Frame
 from fftocean.grid import Grid
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate, surface
 from fftocean.limits import FRAMES, Quantity
-from fftocean.ocean import Ocean, memory_needed, named, remade
+from fftocean.ocean import Ocean, check_fields, memory_needed
 
 PLACE = Quantity("m", -1e9, 1e9)
 WAVELENGTH = Quantity("m", 0.0, math.inf)
@@ -214,7 +215,7 @@ def _rebuilt(source: Cascade | Ocean, recipe: dict[str, Any]) -> Window:
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The fields asked for, and the linear ones that they are made of."""
-    fields = named(fields, tuple(_MADE_OF))
+    fields = check_fields(fields, tuple(_MADE_OF))
     return fields, tuple(dict.fromkeys(part for name in fields for part in _MADE_OF[name]))
 
 
@@ -249,7 +250,7 @@ def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
         wide[rows_there, columns] = values[rows, columns] / divisor
         return wide
 
-    made: Amplitudes = replace(
+    filtered: Amplitudes = replace(
         a,
         grid=fine,
         forward=spread(a.forward, response),
@@ -257,5 +258,4 @@ def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
         variance_forward=spread(a.variance_forward, response**2),
         variance_backward=spread(a.variance_backward, response**2),
     )
-    _, (sea, seed, _, choppiness, *rest) = ocean.__reduce__()
-    return remade(sea, seed, made, choppiness, *rest)
+    return ocean.with_amplitudes(filtered)

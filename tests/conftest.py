@@ -1,17 +1,62 @@
-"""Settings that all tests share."""
+"""Settings that all tests share: which of them are quick, which start processes, small previews."""
+
+from pathlib import Path
 
 import pytest
 
-from fftocean.baking.previews import sheets as preview
+TESTS = Path(__file__).parent
+
+QUICK = (
+    "physics/",
+    "export/",
+    "test_amplitudes.py",
+    "test_cells.py",
+    "test_fields.py",
+    "test_grid.py",
+    "test_limits.py",
+    "test_noise.py",
+    "test_ocean.py",
+    "test_products.py",
+)
+"""Places of tests that are done in half a minute, but for those marked `process` or `slow`."""
+
+PROCESS = (
+    "baking/test_executors.py",
+    "baking/test_faults.py",
+    "baking/test_lock.py",
+    "bench/test_benchmarks.py",
+    "clients/",
+    "kernels/test_compiler.py",
+    "test_forks.py",
+    "test_packaging.py",
+)
+"""Places of tests that start processes; single tests elsewhere are marked where they stand."""
+
+
+def pytest_collection_modifyitems(items):
+    """Mark tests as `process` and `quick` by the place of their file."""
+    for item in items:
+        try:
+            place = item.path.relative_to(TESTS).as_posix()
+        except ValueError:  # a test from elsewhere
+            continue
+        if place.startswith(PROCESS):
+            item.add_marker(pytest.mark.process)
+        heavy = any(item.get_closest_marker(name) for name in ("process", "slow", "client"))
+        if place.startswith(QUICK) and not heavy:
+            item.add_marker(pytest.mark.quick)
 
 
 @pytest.fixture(autouse=True)
 def small_pictures(request, monkeypatch):
     """
-    A bake's pictures have few pixels, as their cost is in them; not in tests marked
-    `full_pictures`.
+    Give the previews of a bake few pixels, as their cost is in them.
+
+    Tests marked `full_pictures` have them at full size.
     """
     if request.node.get_closest_marker("full_pictures") is None:
+        from fftocean.baking.previews import sheets  # slow to import: not while collecting
+
         for name, value in {
             "WIDTH": 96,
             "VIEW_HEIGHT": 34,
@@ -19,4 +64,4 @@ def small_pictures(request, monkeypatch):
             "FILM": (24, 9),
             "FILM_FRAMES": 2,
         }.items():
-            monkeypatch.setattr(preview, name, value)
+            monkeypatch.setattr(sheets, name, value)

@@ -1,12 +1,17 @@
 """
-Imports point down only. The contract is DESIGN's list of rooms; it is read off the source itself,
-by syntax, so that a module need not be importable, nor even finished, to be held to it.
+Imports point down the floors of docs/architecture.md.
+
+They are read from the source by syntax (tools/imports.py): a module need not be importable, nor
+even finished, to be held to it.
 """
 
 import ast
+import re
+from functools import cache
 from pathlib import Path
 
 import pytest
+from imports import imports_in, modules_in, packages_in, reach
 
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
@@ -15,7 +20,7 @@ FLOORS = {
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["synthesis", "frame", "ocean", "gerstner"],
+    4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner"],
     5: ["cascade", "trains", "window"],
     6: [
         *("products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"),
@@ -31,7 +36,7 @@ FLOOR = {room: floor for floor, rooms in FLOORS.items() for room in rooms}
 # The stairs within a floor, lowest step first. Elsewhere the rooms of a floor do not know each
 # other, and the modules of one room may.
 STAIRS = [
-    [["constants", "errors"], ["arrays", "files"], ["limits"]],
+    [["constants", "errors"], ["arrays", "host", "files"], ["limits"]],
     [
         ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
         ["physics.spectra", "physics.spreading", "physics.tabulated"],
@@ -43,7 +48,7 @@ STAIRS = [
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["synthesis", "frame"], ["ocean"]],
+    [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["trains", "window"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
@@ -59,14 +64,14 @@ STEP = {
 
 ONLY = {
     "kernels": {"arrays", "errors", "forks"},
-    "export": {"arrays", "errors"},
+    "export": {"arrays", "errors", "files"},
 }  # bare arrays in, bare arrays out
 ONLY |= {"wisdom": {"errors", "host"}, "transforms": {"arrays", "errors", "forks", "wisdom"}}
 NEVER = {
     "gerstner": {"fields", "transforms", "synthesis", "ocean", "kernels", "amplitudes"}
 }  # a check must not share code with the checked
-# Public names that DESIGN hangs on a low room, though a higher one does the work: each is one
-# import inside the method of that name.
+# Public methods of a low module whose work is done by a higher one: each is one import inside the
+# method of that name.
 DOORS = {
     ("physics.sea", "from_spectrum"): "readers.realise",
     ("ocean", "to_spectrum"): "science",
@@ -82,101 +87,9 @@ def room(module: str) -> str:
     return module.partition(".")[0]
 
 
-def modules_in(folder: Path) -> dict[str, str]:
-    """
-    Every module of the package by its name within it (`physics.sea`; a package by its folder's, the
-    whole by ""), and its source.
-    """
-    found = {}
-    for path in sorted(folder.rglob("*.py")):
-        parts = path.relative_to(folder).with_suffix("").parts
-        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(
-            encoding="utf-8"
-        )
-    return found
-
-
 def imports(module: str, source: str, known: set[str], is_package: bool = False) -> set[str]:
-    """
-    Which modules of the package a source imports: at its head or inside a function, for run time or
-    for types, absolute or relative, or by name through importlib. `from fftocean.physics import
-    sea` is an import of `physics.sea` where that is a module.
-    """
-    tree = ast.parse(source)
-    for function in [
-        node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.FunctionDef) and (module, node.name) in DOORS
-    ]:
-        door = f"fftocean.{DOORS[module, function.name]}"
-        function.body = [
-            node
-            for node in function.body
-            if not (isinstance(node, ast.ImportFrom) and node.module == door)
-        ]
-    here = [part for part in module.split(".") if part]
-    found = set()
-
-    def add(dotted: str, names: list[str]) -> None:
-        if dotted.partition(".")[0] != "fftocean":
-            return
-        target = dotted.partition(".")[2]
-        for name in names:
-            inner = f"{target}.{name}".lstrip(".")
-            found.add(inner if inner in known or inner in FLOOR else target)
-
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                if alias.name != "fftocean":
-                    add(alias.name, [""])
-                elif any(
-                    name != "__version__"
-                    for name in attributes_used(tree, alias.asname or "fftocean")
-                ):
-                    found.add(
-                        ROOF
-                    )  # the version is the one thing that the whole package may tell its parts
-        elif isinstance(node, ast.ImportFrom):
-            names = [alias.name for alias in node.names]
-            if node.level:
-                up = here if is_package else here[:-1]
-                base = [
-                    "fftocean",
-                    *up[: len(up) - node.level + 1],
-                    *([node.module] if node.module else []),
-                ]
-                add(".".join(base), names)
-            elif node.module == "fftocean" and names == ["__version__"]:
-                continue
-            else:
-                add(node.module or "", names)
-        elif isinstance(node, ast.Call) and getattr(
-            node.func, "attr", getattr(node.func, "id", "")
-        ) in ("import_module", "__import__"):
-            for argument in node.args:
-                if isinstance(argument, ast.Constant) and isinstance(argument.value, str):
-                    add(argument.value, [""])
-    return {name.rstrip(".") for name in found}
-
-
-def attributes_used(tree: ast.AST, package: str) -> set[str]:
-    """
-    What is asked of the package object itself, as in `fftocean.__version__`; passing it on whole
-    counts as everything.
-    """
-    asked, whole = set(), 0
-    for node in ast.walk(tree):
-        if (
-            isinstance(node, ast.Attribute)
-            and isinstance(node.value, ast.Name)
-            and node.value.id == package
-        ):
-            asked.add(node.attr)
-            whole -= 1
-        if isinstance(node, ast.Name) and node.id == package:
-            whole += 1
-    return asked | ({"*"} if whole else set())
+    """Return the modules of the package that a source imports, but for its declared doors."""
+    return imports_in(module, source, known | FLOOR.keys(), is_package, DOORS)
 
 
 def objection(importer: str, imported: str) -> str | None:
@@ -231,30 +144,32 @@ def objections(sources: dict[str, str], packages: set[str]) -> list[str]:
     return found
 
 
-def reach(graph: dict[str, set[str]], start: str) -> set[str]:
-    """Every module that comes along when one is imported."""
-    seen, todo = set(), [start]
-    while todo:
-        for imported in graph.get(todo.pop(), set()) - seen:
-            seen.add(imported)
-            todo.append(imported)
-    return seen
+@cache
+def sources() -> dict[str, str]:
+    """Return the source of every module, read once."""
+    return modules_in(PACKAGE)
 
 
-SOURCES = modules_in(PACKAGE)
-PACKAGES = {
-    module for module in SOURCES if (PACKAGE.joinpath(*module.split(".")) / "__init__.py").exists()
-}
-GRAPH = {
-    module: imports(module, source, set(SOURCES), module in PACKAGES)
-    for module, source in SOURCES.items()
-}
+@cache
+def packages() -> set[str]:
+    """Return the names that are folders."""
+    return packages_in(PACKAGE)
+
+
+@cache
+def graph() -> dict[str, set[str]]:
+    """Return the modules that each module imports."""
+    return {
+        module: imports(module, source, set(sources()), module in packages())
+        for module, source in sources().items()
+    }
+
 
 # The package as it is
 
 
 def test_imports_point_down_and_only_the_command_line_prints():
-    assert objections(SOURCES, PACKAGES) == []
+    assert objections(sources(), packages()) == []
 
 
 def test_the_tree_was_really_read():
@@ -269,8 +184,8 @@ def test_the_tree_was_really_read():
         "physics.sea",
         "grid",
         "amplitudes",
-    } <= SOURCES.keys()
-    assert {"", "physics"} <= PACKAGES
+    } <= sources().keys()
+    assert {"", "physics"} <= packages()
     assert {
         "physics.spectra",
         "physics.spreading",
@@ -278,18 +193,18 @@ def test_the_tree_was_really_read():
         "limits",
         "errors",
         "arrays",
-    } <= GRAPH["physics.sea"]
-    assert GRAPH["constants"] == GRAPH["errors"] == set()
-    assert len(reach(GRAPH, "physics.sea")) >= 7
+    } <= graph()["physics.sea"]
+    assert graph()["constants"] == graph()["errors"] == set()
+    assert len(reach(graph(), "physics.sea")) >= 7
 
 
 def test_the_check_shares_no_code_with_the_checked_even_through_others():
     for checker, checked in NEVER.items():
         along = {
             room(imported)
-            for module in SOURCES
+            for module in sources()
             if room(module) == checker
-            for imported in reach(GRAPH, module)
+            for imported in reach(graph(), module)
         }
         assert not along & checked
 
@@ -299,15 +214,15 @@ def test_doors_open_upward_for_one_name_only():
     A door is an import inside its own method; anywhere else in that room it is a breach, and so is
     another room's import there.
     """
-    known = {"physics.sea", "readers.realise", "readers.layout"}
+    known = {"physics.sea", "readers.realise", "readers.dataset_layout"}
     method = "class Sea:\n    def {}(cls):\n        from fftocean.{} import x\n"
     assert imports("physics.sea", method.format("from_spectrum", "readers.realise"), known) == set()
     assert imports("physics.sea", method.format("from_wind", "readers.realise"), known) == {
         "readers.realise"
     }
-    assert imports("physics.sea", method.format("from_spectrum", "readers.layout"), known) == {
-        "readers.layout"
-    }
+    assert imports(
+        "physics.sea", method.format("from_spectrum", "readers.dataset_layout"), known
+    ) == {"readers.dataset_layout"}
     assert imports("physics.sea", "from fftocean.readers.realise import x", known) == {
         "readers.realise"
     }
@@ -319,7 +234,9 @@ def test_no_module_waits_for_itself():
     half-made.
     """
     bare = {
-        module: imported - PACKAGES for module, imported in GRAPH.items() if module not in PACKAGES
+        module: imported - packages()
+        for module, imported in graph().items()
+        if module not in packages()
     }
     assert [module for module in bare if module in reach(bare, module)] == []
 
@@ -329,6 +246,14 @@ def test_names_on_the_stairs_belong_to_the_floor():
         modules = [module for steps in stair for module in steps]
         assert len({FLOOR[room(module)] for module in modules}) == 1
         assert len(set(modules)) == len(modules)
+
+
+def test_the_page_shows_the_floors():
+    """docs/architecture.md has the same modules on the same floors as the table above."""
+    page = (PACKAGE.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    table = page.partition("<!-- floors -->")[2].partition("\n\n")[0]
+    rows = re.findall(r"^\| (\d+) \| (.*?) \|", table, re.MULTILINE)
+    assert {int(floor): re.findall(r"`(\w+)`", names) for floor, names in rows} == FLOORS
 
 
 # The checker itself: forged sources that it must catch, and honest ones that it must not
@@ -484,12 +409,12 @@ def complaints(module: str, source: str) -> list[str]:
         (
             "export.exr",
             "from fftocean.physics.sea import Sea",
-            "must not import physics.sea: export sees arrays and errors only",
+            "must not import physics.sea: export sees arrays and errors and files only",
         ),
         (
             "export.exr",
             "from fftocean.kernels import passes",
-            "must not import kernels.passes: export sees arrays and errors only",
+            "must not import kernels.passes: export sees arrays and errors and files only",
         ),
         (
             "gerstner.direct",
@@ -562,31 +487,46 @@ def test_a_forged_breach_is_caught(module, source, says):
     [
         (
             "fields",
-            "import numpy as np\nfrom fftocean.arrays import Real\nfrom fftocean.physics import sea, dispersion",
+            "import numpy as np\n"
+            "from fftocean.arrays import Real\n"
+            "from fftocean.physics import sea, dispersion",
         ),
         (
             "ocean",
-            "from fftocean.kernels import passes\nfrom fftocean.physics.sea import Sea\nfrom .amplitudes import Amplitudes",
+            "from fftocean.kernels import passes\n"
+            "from fftocean.physics.sea import Sea\n"
+            "from .amplitudes import Amplitudes",
         ),
         (
             "physics.sea",
-            "from . import spectra, dispersion\nfrom .spreading import Blend\nfrom ..limits import DEPTH",
+            "from . import spectra, dispersion\n"
+            "from .spreading import Blend\n"
+            "from ..limits import DEPTH",
         ),
         (
             "kernels.passes",
-            "from fftocean.kernels.compiler import compiled\nfrom . import compiler\nfrom fftocean.arrays import Real",
+            "from fftocean.kernels.compiler import compiled\n"
+            "from . import compiler\n"
+            "from fftocean.arrays import Real",
         ),
         (
             "readers.swan",
-            "from fftocean.readers import files, layout\nfrom fftocean.physics.sea import Sea\nfrom fftocean import limits",
+            "from fftocean.readers import bounded_reads\n"
+            "from fftocean.physics.sea import Sea\n"
+            "from fftocean import limits",
         ),
         (
             "gerstner.direct",
-            "from fftocean.physics import dispersion\nfrom fftocean.grid import Grid\nfrom fftocean import errors",
+            "from fftocean.physics import dispersion\n"
+            "from fftocean.grid import Grid\n"
+            "from fftocean import errors",
         ),
         (
             "job.job",
-            "import fftocean\nfrom fftocean import __version__\nfftocean.__version__\nfrom fftocean.statistics import measure",
+            "import fftocean\n"
+            "from fftocean import __version__\n"
+            "fftocean.__version__\n"
+            "from fftocean.statistics import measure",
         ),
         (
             "cli",

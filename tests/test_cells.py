@@ -179,7 +179,16 @@ def test_a_spectral_line_keeps_its_energy(width):
 
 @pytest.mark.parametrize(
     "spreading",
-    [fo.LongCrested(), fo.WrappedNormal(spread=0.1), two_rows(), fo.CosineN(n=0.0)],
+    [
+        fo.LongCrested(),
+        fo.WrappedNormal(spread=0.1),
+        two_rows(),
+        fo.CosineN(n=0.0),
+        fo.SwellElongation(xi=0.4),
+        fo.CustomSpreading(
+            lambda omega, theta, peak: np.exp(np.cos(theta - 0.4) * np.minimum(peak / omega, 9.0))
+        ),
+    ],
     ids=lambda s: repr(s)[:20],
 )
 def test_cells_do_not_depend_on_the_grid_or_the_band(spreading):

@@ -248,6 +248,27 @@ def test_foam_of_a_loop_needs_a_loop():
     assert np.any(Foam(threshold=1.0).live(free).at(3.0))
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    [None, 3, "sea", {}, np.zeros(3), fo.Ocean, fo.Sea.from_wind(speed=5.0, fetch=1e4)],
+    ids=lambda w: type(w).__name__,
+)
+def test_what_is_no_water_is_refused_by_name(wrong, ocean):
+    clean = np.zeros(ocean.grid.shape)
+    for call in (
+        lambda: list(Foam().loop(wrong, 4)),
+        lambda: Foam().live(wrong),
+        lambda: Foam().response(wrong, 4, 0, 4),
+        lambda: Foam().starts([clean], wrong, 4),
+        lambda: list(Foam().states(wrong, 4, clean, 0, 4)),
+    ):
+        with pytest.raises(fo.ParameterError, match="foam needs an Ocean"):
+            call()
+    if not isinstance(wrong, int):
+        with pytest.raises(fo.ParameterError, match="count must be a whole number"):
+            list(Foam().loop(ocean, wrong))
+
+
 @pytest.mark.parametrize(("tau", "count"), [(1e-3, 4), (1e6, 4)])
 def test_the_mean_foam_holds_for_extreme_decay_times(tau, count, ocean):
     """

@@ -6,15 +6,17 @@ from fftocean import host
 
 
 def test_a_control_group_limits_the_cores(monkeypatch):
-    real = host.read
+    real = host.read_system_file
     monkeypatch.setattr(
         host,
-        "read",
+        "read_system_file",
         lambda path: "150000 100000\n" if str(path).endswith("cpu.max") else real(path),
     )
     assert host.cores() == 1
     monkeypatch.setattr(
-        host, "read", lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path)
+        host,
+        "read_system_file",
+        lambda path: "max 100000\n" if str(path).endswith("cpu.max") else real(path),
     )
     assert 1 <= host.cores() <= os.cpu_count()
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from fftocean import arrays, errors, limits
+from fftocean import arrays, errors, host, limits
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.limits import Count, Quantity
 from fftocean.physics.sea import Sea, WaveSystem, from_compass
@@ -482,13 +482,13 @@ def test_what_can_go_wrong_is_one_tree():
 
 
 def test_memory_is_asked_for_before_it_is_taken():
-    assert arrays.available_memory() > 0.0
-    arrays.require_memory("a small thing", 1.0)
+    assert host.available_memory() > 0.0
+    host.require_memory("a small thing", 1.0)
     with pytest.raises(
         ParameterError,
         match=r"^a vast ocean needs about 1048576\.0 GiB of memory, but only \d+\.\d GiB are free$",
     ):
-        arrays.require_memory("a vast ocean", 2.0**50)
+        host.require_memory("a vast ocean", 2.0**50)
 
 
 def test_complex_types_have_the_parts_they_are_named_after():

@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
+from fftocean.computation import Computation
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.kernels import passes
 
@@ -219,14 +220,14 @@ def test_turns_beyond_2_to_53_are_turned_in_whole_numbers():
     )
     for step, count in ((5, 7), (2**25 + 3, 2**26), (2**31 + 11, 2**32 - 5), (2**32 - 1, 2**32)):
         fine = np.empty_like(cycles)
-        passes.turns_in_fine_loop(cycles, step, count, fine)
+        passes.phases_in_fine_loop(cycles, step, count, fine)
         exact = [float(fractions.Fraction(int(c) * step % count, count)) for c in cycles[0]]
         apart = fine[0] - exact
         assert np.max(np.abs(apart - np.rint(apart))) < 2e-16
         assert np.max(np.abs(fine)) <= 0.5
         if count <= 2**26:
             plain = np.empty((1, 3))
-            passes.turns_in_loop(cycles[:, :3], float(step), float(count), plain)
+            passes.phases_in_loop(cycles[:, :3], float(step), float(count), plain)
             assert np.array_equal(plain, fine[:, :3])
 
 
@@ -423,7 +424,7 @@ def test_waves_that_would_overflow_are_refused():
 
 
 def test_too_much_memory_is_refused_before_it_is_taken(monkeypatch):
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
     with pytest.raises(
         fo.ParameterError,
         match=r"n = 65536 x 65536 needs about \d+\.\d GiB of memory, but only 1.0 GiB",
@@ -459,6 +460,7 @@ def test_sixteen_threads_on_one_ocean_get_right_data():
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")
 @pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
 @pytest.mark.parametrize("backend", ["pyfftw", "scipy"])
+@pytest.mark.process
 def test_a_forked_child_has_threads_of_its_own(backend):
     """The parent's workers are not handed down to it: without new ones it would wait for ever."""
     o = ocean(dtype="float32", threads=2, backend=backend)
@@ -505,6 +507,7 @@ def test_an_ocean_is_frozen(name, value):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork on this platform")
 @pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@pytest.mark.process
 def test_a_forked_child_does_not_hang_on_the_parent_s_lock():
     o = ocean(dtype="float32")
     expected = o.frame(1.0).height
@@ -672,6 +675,7 @@ def test_arrays_of_an_unpickled_ocean_are_read_only():
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # Python 3.12 warns of what is tested
+@pytest.mark.process
 def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
     ocean = fo.Ocean(WATER, n=16, size=100.0)
     truth = [ocean.frame(float(t), ("height",)).height for t in range(4)]
@@ -689,6 +693,7 @@ def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
 
 
 @pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.process
 def test_a_thread_that_outlives_the_main_one_goes_on(threads):
     """
     When Python is on its way out, no new work can be handed to a pool: it is done where it is asked
@@ -709,3 +714,65 @@ threading.Thread(target=later).start()
         [sys.executable, "-c", script], capture_output=True, text=True, timeout=600
     )
     assert done.stdout == "3\n", done.stderr
+
+
+def test_with_amplitudes_shows_the_given_waves():
+    """Half of each amplitude is half the height, by linearity; all else is the ocean's own."""
+    original = ocean(fo.Sea.from_wind(speed=8.0, fetch=50e3), loop=30.0, choppiness=0.7, threads=2)
+    a = original.amplitudes
+    halved = dataclasses.replace(a, forward=0.5 * a.forward, backward=0.5 * a.backward)
+    other = original.with_amplitudes(halved)
+    assert other.amplitudes is halved
+    assert (other.sea, other.seed, other.choppiness, other.dtype) == (original.sea, 3, 0.7, "float64")
+    truth = original.frame(4.2, ALL)
+    frame = other.frame(4.2, ALL)
+    for name in FIELDS:
+        assert np.allclose(frame[name], 0.5 * truth[name], rtol=1e-12, atol=1e-14), name
+    assert worst(4.2, other)[0] < 1e-12
+    again = original.with_amplitudes(a, planning="estimate", threads=1).frame(4.2, ALL)
+    assert all(np.array_equal(again[name], truth[name]) for name in ALL)
+    twin = pickle.loads(pickle.dumps(other))
+    assert all(np.array_equal(twin.frame(4.2)[name], other.frame(4.2)[name]) for name in EIGHT)
+
+
+def test_with_amplitudes_may_change_the_grid():
+    """The same waves on twice the samples: every second sample is the old one."""
+    given = fo.Ocean.from_modes([(1, 2, 0.5, 0.1), (0, -3, 0.2, 1.0)], n=8, size=9.0)
+    finer = fo.Ocean.from_modes([(1, 2, 0.5, 0.1), (0, -3, 0.2, 1.0)], n=16, size=9.0)
+    moved = given.with_amplitudes(finer.amplitudes)
+    assert moved.grid.shape == (16, 16)
+    assert np.allclose(moved.frame(1.0).height[::2, ::2], given.frame(1.0).height, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "rule"),
+    [
+        (lambda o: o.with_amplitudes(None), "amplitudes must be Amplitudes, got None"),
+        (lambda o: o.with_amplitudes(o), "amplitudes must be Amplitudes, got"),
+        (lambda o: o.with_amplitudes(o.amplitudes, threads=0), "threads must be"),
+        (lambda o: o.with_amplitudes(o.amplitudes, planning="best"), "planning must be one of"),
+        (
+            lambda o: o.with_amplitudes(
+                dataclasses.replace(o.amplitudes, forward=1e200 * o.amplitudes.forward)
+            ),
+            "waves must keep every field below",
+        ),
+    ],
+)
+def test_with_amplitudes_refuses_what_it_cannot_compute(change, rule):
+    with pytest.raises(fo.ParameterError, match=rule):
+        change(ocean(n=16))
+
+
+def test_with_amplitudes_asks_for_memory(monkeypatch):
+    o = ocean(n=16)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 1000.0)
+    with pytest.raises(fo.ParameterError, match="n = 16 x 16 needs about"):
+        o.with_amplitudes(o.amplitudes)
+
+
+def test_a_computation_is_checked_and_named_by_its_type():
+    assert Computation(np.float64).dtype == "float64"
+    for bad, rule in (({"dtype": "half"}, "dtype must be"), ({"threads": 0}, "threads must be")):
+        with pytest.raises(fo.ParameterError, match=rule):
+            Computation(**bad)

@@ -1,7 +1,4 @@
-"""
-The package as it is handed on: what the archive holds, that it is typed, and what is left out of
-version control.
-"""
+"""The distribution: files of its archive, its type marker, files outside version control."""
 
 import subprocess
 import sys
@@ -16,12 +13,12 @@ ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
-def test_the_package_says_that_it_is_typed():
+def test_the_package_is_marked_as_typed():
     assert resources.files("fftocean").joinpath("py.typed").is_file()
     assert "Typing :: Typed" in PROJECT["project"]["classifiers"]
 
 
-def test_the_archive_packs_folders_of_the_root_alone():
+def test_the_archive_packs_only_folders_of_the_root():
     """A pattern without a leading slash also means folders of that name in stray environments."""
     assert all(
         pattern.startswith("/")
@@ -29,6 +26,7 @@ def test_the_archive_packs_folders_of_the_root_alone():
     )
 
 
+@pytest.mark.process
 def test_an_archive_holds_no_stray_environment(tmp_path):
     """
     Built from a small copy of the tree, with an environment in it whose folders have our names.
@@ -56,8 +54,8 @@ def test_an_archive_holds_no_stray_environment(tmp_path):
     assert not [name for name in names if name.startswith("env") or "__pycache__" in name]
 
 
-def test_nothing_that_the_documentation_writes_is_put_under_version_control():
-    """Folders and pictures of the commands in README and help."""
+def test_files_of_documented_commands_are_ignored_by_git():
+    """Folders and images that the commands in README and help write are in .gitignore."""
     ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").splitlines()
     for name in (
         "/sea/",

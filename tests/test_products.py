@@ -1,6 +1,6 @@
 """
-Normals, Jacobian and squeeze of the displaced surface, in closed form on one wave and by its own
-tangents on many.
+Normals, Jacobian and smallest eigenvalue of the deformation gradient, in closed form on one wave
+and from the tangents of a surface of many.
 """
 
 import math
@@ -27,8 +27,8 @@ def one_wave():
 def test_closed_form_on_one_wave(one_wave):
     """
     For height a cos f: D = -a (k/|k|) sin f, so the deformation is 1 - c a |k| cos f along k and 1
-    across it; its product is the Jacobian, its smaller value the squeeze, and the normal leans
-    along k by -slope/(1 - c a |k| cos f).
+    across it; its product is the Jacobian, its smaller value the smallest eigenvalue, and the
+    normal leans along k by -slope/(1 - c a |k| cos f).
     """
     frame, f, kx, ky, k = one_wave
     along = 1.0 - C * A * k * np.cos(f)
@@ -40,7 +40,7 @@ def test_closed_form_on_one_wave(one_wave):
     assert np.max(np.abs(fo.normals(frame) - normal)) < 1e-13
 
 
-def test_frame_s_own_normal_and_jacobian_are_these(one_wave):
+def test_fields_normal_and_jacobian_equal_the_functions(one_wave):
     frame = one_wave[0]
     ocean = fo.Ocean.from_modes([(*M, A, 0.4)], n=32, size=L, dtype="float64", choppiness=C)
     asked = ocean.frame(frame.t, fields=("normal", "jacobian"))
@@ -85,7 +85,7 @@ def test_mean_of_the_jacobian_is_one(choppiness):
 
 
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
-def test_crests_are_squeezed(dtype):
+def test_crests_have_a_jacobian_below_one(dtype):
     """
     Correlation(height, Jacobian) < 0: the sign of i in the displacement. -i, as often printed,
     gives it the other sign.
@@ -136,7 +136,7 @@ def test_folds_of_one_wave(steepness):
     assert below.share == 0.0 < above.share
 
 
-def test_folds_of_a_sea_are_those_of_the_sum_of_waves():
+def test_folds_of_a_sea_equal_those_of_the_direct_sum():
     """
     Over a loop, at more choppiness than all samples bear: against eigenvalues by LAPACK of the
     direct sum's stretches.
@@ -161,7 +161,7 @@ def test_folds_of_a_sea_are_those_of_the_sum_of_waves():
     assert sum(one.share for one in each) / 5 == pytest.approx(found.share)
 
 
-def test_water_that_never_folds_and_what_is_refused():
+def test_flat_water_never_folds_and_bad_frames_are_refused():
     flat = fo.Ocean.from_modes([], n=4, size=10.0).frame(0.0)
     found = fo.folding(flat)
     assert (found.share, found.min_jacobian, found.largest_choppiness) == (0.0, 1.0, math.inf)

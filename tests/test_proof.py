@@ -1,7 +1,4 @@
-"""
-The proof proves: it passes on every ocean that is right, and each of its lines fails when what it
-looks at is broken.
-"""
+"""Verification: right oceans pass every check, and each fault fails the check of its quantity."""
 
 import math
 import sys
@@ -56,7 +53,7 @@ def ocean(sea=DEEP, **arguments):
 
 
 def few(**arguments):
-    """A handful of given waves: everything but the sea's energy can be proven on them, at once."""
+    """Return an ocean of six given waves, on which all but the sea's energy is verified quickly."""
     return fo.Ocean.from_modes(
         WAVES,
         **{"n": (16, 12), "size": (80.0, 60.0), "loop": 20.0, "dtype": "float64", **arguments},
@@ -83,10 +80,10 @@ NAMES = [
     "Parseval",
     "mean level",
 ]
-ENERGY = ["m0 of the frame", "energy held + lost", "m0 of this draw"]
+ENERGY = ["m0 of the frame", "energy resolved + lost", "m0 of this realisation"]
 
 
-# What is right passes
+# Right oceans
 
 
 @pytest.mark.parametrize(
@@ -118,7 +115,7 @@ ENERGY = ["m0 of the frame", "energy held + lost", "m0 of this draw"]
         "cut",
     ],
 )
-def test_an_ocean_of_a_sea_is_proven(case):
+def test_an_ocean_of_a_sea_passes(case):
     assert failed(case()) == []
 
 
@@ -138,22 +135,22 @@ def test_an_ocean_of_a_sea_is_proven(case):
     ids=str,
 )
 @pytest.mark.parametrize("t", [0.0, -1e6, 1e12])
-def test_an_ocean_of_given_waves_is_proven(arguments, dtype, t):
+def test_an_ocean_of_given_waves_passes(arguments, dtype, t):
     """
-    At any time: what rounding omega t costs the direct sum is allowed for, in both precisions.
+    The tolerance covers the rounding of omega t in the direct sum, at any time and precision.
     """
     assert failed(few(dtype=dtype, **arguments), t) == []
 
 
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("n", [1, 2, 7])
-def test_an_ocean_without_waves_is_proven(n, dtype):
+def test_an_ocean_without_waves_passes(n, dtype):
     assert failed(fo.Ocean.from_modes([], n=n, size=10.0, loop=3.0, dtype=dtype)) == []
 
 
 @pytest.mark.parametrize("scale", [1e-20, 1e-35, 1e-50, 1e-200])
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
-def test_waves_that_the_type_cannot_hold_are_none(dtype, scale):
+def test_waves_below_the_precision_of_the_type_count_as_none(dtype, scale):
     """
     Amplitudes that float32 rounds to nothing, or to a few bits: a tile far from its sea's peak has
     such.
@@ -168,7 +165,7 @@ def test_waves_that_the_type_cannot_hold_are_none(dtype, scale):
     assert failed(tiny) == []
 
 
-def test_a_tile_that_misses_its_sea_is_proven():
+def test_a_tile_that_holds_nothing_of_its_sea_passes():
     """
     Ripples of 2 m/s in a tile of a kilometre: what falls into its band is below the least number
     there is.
@@ -201,7 +198,7 @@ def test_folds_do_not_fail_the_normals(seed):
 
 
 @pytest.mark.parametrize("tile", [(8, 60.0), (16, 150.0)])
-def test_a_likely_draw_is_one_that_is_drawn(tile):
+def test_the_tolerance_of_m0_covers_2000_realisations(tile):
     """
     m0 of 2000 draws of few waves, exponential each: all within the bound, which is no more than
     three times what one in 1000 exceeds.
@@ -215,7 +212,7 @@ def test_a_likely_draw_is_one_that_is_drawn(tile):
     assert bound < 3.0 * np.quantile(np.abs(draws - 1.0), 0.999)
 
 
-def test_checks_have_names_reasons_and_bounds_that_mean_something():
+def test_checks_have_names_reasons_and_small_tolerances():
     """
     Every field within 1e-12 (1e-6 in float32), and no bound above a hundredth but for the one that
     is about chance.
@@ -226,18 +223,18 @@ def test_checks_have_names_reasons_and_bounds_that_mean_something():
     for c in (*double, *single):
         assert c.against
         assert c.reason
-        assert c.bound < 1e-2 or c.name == "m0 of this draw"
-    assert max(c.bound for c in double if c.name in FIELDS) < 2e-12
-    assert max(c.bound for c in single if c.name in FIELDS) < 1.01e-6
+        assert c.tolerance < 1e-2 or c.name == "m0 of this realisation"
+    assert max(c.tolerance for c in double if c.name in FIELDS) < 2e-12
+    assert max(c.tolerance for c in single if c.name in FIELDS) < 1.01e-6
 
 
-def test_nan_is_no_pass():
+def test_nan_does_not_pass():
     assert not proof.Check("name", "against", math.nan, 1.0, "reason").passed
     assert not proof.Check("name", "against", math.inf, 1.0, "reason").passed
     assert proof.Check("name", "against", 1.0, 1.0, "reason").passed
 
 
-# What is broken fails, under its name
+# Faults
 
 
 def rendered(patch, change):
@@ -466,7 +463,7 @@ FAINT = "a millionth too high"  # below what float32 can show
     ("what", "dtype"),
     [(w, d) for w in BROKEN for d in ("float32", "float64") if (w, d) != (FAINT, "float32")],
 )
-def test_what_is_broken_fails_under_its_name(what, dtype, monkeypatch):
+def test_a_fault_fails_under_its_name(what, dtype, monkeypatch):
     patch, names = BROKEN[what]
     assert failed(few(dtype=dtype, depth=6.0)) == []
     patch(monkeypatch)
@@ -477,7 +474,7 @@ def test_what_is_broken_fails_under_its_name(what, dtype, monkeypatch):
     "what",
     ["choppiness twice in the normals", "no Jacobian off the diagonal", "the loop runs backwards"],
 )
-def test_a_fault_in_one_place_fails_that_line_alone(what, monkeypatch):
+def test_a_fault_in_one_quantity_fails_that_check_alone(what, monkeypatch):
     """The proof points at the fault: what is right beside it still passes."""
     BROKEN[what][0](monkeypatch)
     assert failed(few()) == BROKEN[what][1]
@@ -491,12 +488,12 @@ ENERGY_BROKEN = {
     "h0 twice too high": (
         lambda patch: patch.setattr(noise, "complex_normals", twice(noise.complex_normals)),
         {"amplitudes": "gaussian", "n": 48, "size": 300.0},
-        "m0 of this draw",
+        "m0 of this realisation",
     ),
     "a fixed amplitude a millionth too high": (
         lambda patch: patch.setattr(noise, "unit_phasors", twice(noise.unit_phasors, 1.000001)),
         {"amplitudes": "fixed"},
-        "m0 of this draw",
+        "m0 of this realisation",
     ),
     "cells with a hundredth too much": (
         lambda patch: (
@@ -504,12 +501,12 @@ ENERGY_BROKEN = {
             patch.setattr(Cells, "require_energy", lambda *_: None),
         ),
         {},
-        "energy held + lost",
+        "energy resolved + lost",
     ),
     "energy lost and not told": (
         lambda patch: patch.setattr("fftocean.statistics.outside_band", lambda *_: (0.0, 0.0)),
         {"n": 12, "size": 30.0},
-        "energy held + lost",
+        "energy resolved + lost",
     ),
 }  # fmt: skip
 

@@ -34,6 +34,12 @@ def cascade(**arguments):
     return fo.Cascade(SEA, TILES, **{"seed": 2, "dtype": "float64", "choppiness": 0.7, **arguments})
 
 
+@pytest.fixture
+def source(request):
+    """Return what the parameter makes: not before the test runs, as tiles take time to make."""
+    return request.param()
+
+
 def points(count, far=200.0):
     return np.random.default_rng(count).uniform(-far, far, (2, count))
 
@@ -211,7 +217,9 @@ def test_bicubic_of_a_cascade_is_near_exact():
 # Motion
 
 
-@pytest.mark.parametrize("source", [ocean(), cascade(), FEW], ids=["ocean", "cascade", "few"])
+@pytest.mark.parametrize(
+    "source", [ocean, cascade, lambda: FEW], ids=["ocean", "cascade", "few"], indirect=True
+)
 def test_velocity_is_the_rate_of_the_position(source):
     """
     Of the particle found: central differences of its position converge as dt^2, twice dt four times
@@ -541,6 +549,7 @@ def test_a_query_is_a_frozen_value():
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no fork there")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+@pytest.mark.process
 def test_a_forked_child_can_ask_too():
     query = fo.Query(ocean(), mode="bilinear", threads=2)
     x, y = points(20000)

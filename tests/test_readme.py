@@ -47,7 +47,7 @@ def test_the_two_commands_are_one_line_each():
     )
 
 
-DEFAULT = ("README.md", "fftocean/bake/default.toml")
+DEFAULT = ("README.md", "fftocean/job/default.toml")
 
 
 @pytest.mark.parametrize(
@@ -76,15 +76,41 @@ def test_waves_in_prose_are_those_of_the_job(name):
     assert named or name not in DEFAULT
 
 
-def test_linked_files_exist():
-    for target in re.findall(r"\]\(([^)#:]+)\)", (ROOT / "README.md").read_text(encoding="utf-8")):
-        assert (ROOT / target).exists(), target
+PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/{p.name}" for p in ROOT.glob("docs/*.md"))]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_linked_files_exist(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#:\s]+)\)", text):
+        assert ((ROOT / page).parent / target).exists(), target
+
+
+@pytest.mark.parametrize("page", ["CONTRIBUTING.md", "docs/architecture.md"])
+def test_named_places_exist(page):
+    """Files and folders between backticks, from the root or from the package."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = re.findall(r"`([\w/.]+(?:/|\.(?:py|md|toml)))`", text)
+    assert len(named) > 5
+    for place in named:
+        assert (ROOT / place).exists() or (ROOT / "fftocean" / place).exists(), place
+
+
+@pytest.mark.parametrize("folder", ["fftocean", "tests", "benchmarks", "docs", "examples"])
+def test_nothing_refers_to_pages_that_are_not_here(folder):
+    """A page that is named in capitals with its suffix stands in the repository."""
+    for path in [p for p in (ROOT / folder).rglob("*") if p.suffix in (".py", ".md", ".toml")]:
+        text = path.read_text(encoding="utf-8")
+        for page in re.findall(r"\b([A-Z]{4,}\.md)\b", text):
+            assert list(ROOT.rglob(page)), f"{path.relative_to(ROOT)}: {page}"
+        assert not re.search(r"\bDE" + r"SIGN\b", text), path.relative_to(ROOT)
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "notebooks").glob("*.ipynb")), ids=lambda p: p.name)
 @pytest.mark.filterwarnings(
     "ignore"
 )  # of the kernel's own libraries; the notebook asserts what it claims
+@pytest.mark.process
 def test_notebooks_run(path):
     import nbclient
     import nbformat
@@ -119,6 +145,7 @@ def test_every_test_that_the_errata_name_is_there():
 
 
 @pytest.mark.parametrize("there", [True, False])
+@pytest.mark.process
 def test_the_box_rides_with_and_without_matplotlib(tmp_path, there):
     """The example ends well without it, and says what it would need."""
     script = "import runpy, sys; sys.argv[1:] = ['--seconds', '0.2', '--picture', 'box.png']; "

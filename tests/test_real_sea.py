@@ -1,4 +1,4 @@
-"""A sea that was measured: NDBC buoy 44004, 1 January 2000, from its own file to a baked tile."""
+"""A measured sea: NDBC buoy 44004, 1 January 2000, from its file to a baked tile."""
 
 import math
 from pathlib import Path
@@ -26,7 +26,7 @@ def test_the_example_is_the_buoy_s_record(record):
     assert np.array_equal(spectrum.density, record[1])
 
 
-def test_ordered_height_is_the_buoy_s_own(record):
+def test_specified_height_is_the_buoy_s_own(record):
     """
     The buoy's 4 sqrt(m0) sums bands of 0.01 Hz; straight lines between the points differ by half a
     band at either end: 0.2 %.
@@ -37,8 +37,8 @@ def test_ordered_height_is_the_buoy_s_own(record):
 
 def test_baked_height_is_the_buoy_s_own(record, tmp_path):
     """
-    Fixed amplitudes hold the tile's m0 in every draw; the mean over the frames of a loop averages
-    what beats. Left are the band edges (0.2 %), what the tile cannot hold, and the beats of waves
+    Fixed amplitudes give the tile's m0 for every seed, and the mean over the frames of a loop
+    averages beats. Left are the band edges (0.2 %), the unresolved energy, and the beats of waves
     with equal loop frequencies (1 % here).
     """
     job = fo.Job.read(EXAMPLE).replaced(

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean import arrays, science
+from fftocean import host, science
 from fftocean.errors import OutputError, ParameterError, SeaWarning
 from fftocean.fields import FIELDS
 from fftocean.statistics import ordered
@@ -168,8 +168,8 @@ def test_memory_is_refused_before_anything_is_computed(monkeypatch):
     science.to_xarray(o, range(5))
     ((what, needed),) = asked
     assert what == "5 times of 16 x 12 samples of height"
-    monkeypatch.setattr(science, "require_memory", arrays.require_memory)
-    monkeypatch.setattr(arrays, "available_memory", lambda: 0.999 * needed)
+    monkeypatch.setattr(science, "require_memory", host.require_memory)
+    monkeypatch.setattr(host, "available_memory", lambda: 0.999 * needed)
     with monkeypatch.context() as patch:
         patch.setattr(fo.Ocean, "frame", lambda *_, **__: pytest.fail("computed"))
         with pytest.raises(
@@ -184,7 +184,7 @@ def test_memory_is_refused_before_anything_is_computed(monkeypatch):
                 o, freq=np.linspace(0.01, 2.0, 1000), dir=np.arange(0.0, 360.0, 0.5)
             )
     data = science.to_xarray(o, range(4))
-    monkeypatch.setattr(arrays, "available_memory", lambda: 10.0)
+    monkeypatch.setattr(host, "available_memory", lambda: 10.0)
     with pytest.raises(ParameterError, match=r"encoding x.nc needs about"):
         science.write(data, "x.nc")
 
@@ -449,6 +449,7 @@ def test_only_a_dataset_is_written(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".zarr"])
+@pytest.mark.process
 def test_a_full_disk_leaves_what_was_there(suffix, tmp_path):
     """
     A limit on the size of files stands in for a full disk, at every scale from the first byte to
@@ -461,7 +462,7 @@ def test_a_full_disk_leaves_what_was_there(suffix, tmp_path):
 import resource, sys
 from pathlib import Path
 import numpy as np, xarray as xr
-from fftocean import science
+from fftocean import host, science
 from fftocean.errors import OutputError
 def flat(z):
     height = (("time", "y", "x"), np.full((2, 32, 32), z))
@@ -664,7 +665,7 @@ def test_white_noise_comes_out_white():
         np.linspace(0.035, 0.34, count, endpoint=False) + 0.5 * 0.305 / count
     )  # from half a band below to half a band above
     turned = np.arange(count) * 137.50776405 % 360.0  # golden angles: evenly round the circle
-    binned = science._shared_out(
+    binned = science._distributed(
         np.full(count, 1.0), np.clip(hertz, f[0], f[-1]), turned, f, np.arange(0.0, 360.0, 30.0)
     )
     density = binned / (np.gradient(f)[:, None] * 30.0)

@@ -1,5 +1,7 @@
-"""Ordered against delivered: the measurement itself is held to what can be known another way."""
+"""Specified and realised statistics, each against an independent computation."""
 
+import dataclasses
+import json
 import math
 
 import numpy as np
@@ -7,7 +9,13 @@ import pytest
 
 import fftocean as fo
 from fftocean.grid import Grid
-from fftocean.statistics import loop_error, ordered, outside_band
+from fftocean.statistics import (
+    loop_error,
+    outside_band,
+    peak_wavelength,
+    shortest_wavelength,
+    specified,
+)
 
 SEA = fo.Sea.from_wind(speed=12.0, fetch=150e3, depth=30.0, direction=75.0)
 
@@ -18,7 +26,7 @@ def ocean(**arguments):
 
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 @pytest.mark.parametrize("loop", [None, 40.0])
-def test_the_output_s_energy_is_that_of_its_waves(loop, dtype):
+def test_realised_energy_is_that_of_the_waves(loop, dtype):
     """
     Forward FFT of height and its rate tells +k from -k: m0, direction and spread equal those of
     modes(), which it does not read.
@@ -36,14 +44,14 @@ def test_the_output_s_energy_is_that_of_its_waves(loop, dtype):
     assert s.spread == pytest.approx(math.degrees(math.sqrt(2 - 2 * abs(mean))), rel=1e-5)
 
 
-def test_one_wave_is_measured_as_itself():
+def test_statistics_of_one_wave():
     o = fo.Ocean.from_modes([(3, 4, 0.5, 1.0)], n=32, size=100.0, dtype="float64", depth=9.0)
     s = fo.measure(o)
     assert s.hs == pytest.approx(4 * math.sqrt(0.125), rel=1e-13)
     assert s.mean_direction == pytest.approx(math.degrees(math.atan2(4, 3)), abs=1e-10)
     assert s.spread == pytest.approx(0.0, abs=1e-4)  # sqrt(2 - 2) of roundings
     assert s.tp == pytest.approx(2 * math.pi / o.modes().omega[0], rel=1e-12)
-    assert s.ordered is None
+    assert s.specified is None
     assert (s.sampling_error, s.snapshot_error, s.energy_below, s.energy_above) == (
         0.0,
         0.0,
@@ -52,7 +60,7 @@ def test_one_wave_is_measured_as_itself():
     )
 
 
-def test_ordered_is_what_was_ordered():
+def test_specified_values_are_those_of_from_sea_state():
     """
     Hs as from_sea_state took it, Tp to the curve's own resolution, direction as given; spread of
     cos^2 is 1 - 8/(3 pi) exactly.
@@ -64,7 +72,7 @@ def test_ordered_is_what_was_ordered():
             direction=-130.0,
         )
     )
-    state = ordered(sea)
+    state = specified(sea)
     assert state.hs == pytest.approx(3.0, abs=1e-9)
     assert state.tp == pytest.approx(9.0, rel=1e-5)
     assert state.mean_direction == pytest.approx(-130.0, abs=1e-6)
@@ -93,8 +101,8 @@ def test_energy_outside_the_band_in_one_direction(size):
     assert above == pytest.approx(fo.moments.moment(spectrum, 0, float(high)), abs=1e-3 * m0)
 
 
-@pytest.mark.parametrize("draw", ["gaussian", "fixed"])
-def test_expected_scatter_is_what_seeds_do(draw):
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+def test_expected_scatter_is_that_of_100_seeds(amplitudes):
     """
     Standard deviations over 100 seeds of m0 and of one frame's variance: chi-square estimates, good
     to 7 % each, four of them.
@@ -105,7 +113,7 @@ def test_expected_scatter_is_what_seeds_do(draw):
         )
     )
     oceans = [
-        fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=draw, dtype="float64")
+        fo.Ocean(sea, n=12, size=200.0, seed=seed, amplitudes=amplitudes, dtype="float64")
         for seed in range(100)
     ]
     s = fo.measure(oceans[0])
@@ -119,10 +127,10 @@ def test_expected_scatter_is_what_seeds_do(draw):
 def test_peak_period_of_a_large_tile():
     """Many waves round the peak: Young's estimator within 5 %, the width of its bins."""
     s = fo.measure(ocean(n=256, size=1500.0))
-    assert s.ordered is not None
-    assert s.tp == pytest.approx(s.ordered.tp, rel=0.05)
+    assert s.specified is not None
+    assert s.tp == pytest.approx(s.specified.tp, rel=0.05)
     assert s.mean_direction == pytest.approx(75.0, abs=3.0)
-    assert s.spread == pytest.approx(s.ordered.spread, rel=0.05)
+    assert s.spread == pytest.approx(s.specified.spread, rel=0.05)
 
 
 def test_loop_error_by_hand():
@@ -150,7 +158,7 @@ def test_loop_error_by_hand():
 
 @pytest.mark.parametrize("period", [1e-2, 1e9])
 def test_the_shortest_and_the_longest_loop_have_an_error_too(period):
-    """No better period is looked for where none is allowed."""
+    """The better period is within the limits of loops."""
     e = fo.measure(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=100.0, loop=period)).loop
     assert e is not None
     assert np.isfinite(e.rms)
@@ -174,9 +182,7 @@ def test_folds_are_measured_over_the_loop():
         several.min_jacobian, abs=1e-5
     )  # float32
     for wrong in (ocean.sea, ocean.frame(0.0), fo.Ocean, "sea"):
-        with pytest.raises(
-            fo.ParameterError, match="what is measured must be an Ocean or a Cascade, got "
-        ):
+        with pytest.raises(fo.ParameterError, match="ocean must be an Ocean or a Cascade, got "):
             fo.measure(wrong)
 
 
@@ -198,6 +204,45 @@ def test_folds_of_a_cascade_are_those_of_its_sum():
     f, g = np.meshgrid(*[(np.arange(1000) + 0.5) * (2 * np.pi / 1000)] * 2)
     assert found.share == pytest.approx(
         np.mean(0.6 * np.cos(f) + 0.7 * np.cos(g) > 1.0), abs=5e-3
-    )  # 65536 draws
+    )  # 65536 points
     assert found.min_jacobian == pytest.approx(-0.3, abs=0.02)
     assert found.largest_choppiness == pytest.approx(1.0 / 1.3, rel=0.02)
+
+
+def test_the_earlier_name_and_the_json_key_of_the_specified_sea_remain():
+    """Manifests of all versions have the key "ordered" there, before "resolved"."""
+    s = fo.measure(ocean(n=16))
+    assert s.ordered is s.specified
+    plain = json.loads(json.dumps(s.as_plain(), allow_nan=False))
+    assert list(plain)[:7] == ["m0", "hs", "tp", "mean_direction", "spread", "ordered", "resolved"]
+    assert plain["ordered"] == dataclasses.asdict(s.specified)
+    assert plain["hs"] == s.hs
+    assert "specified" not in plain
+
+
+def test_plain_data_has_no_infinity():
+    """Water that no choppiness folds has an infinite largest choppiness, and JSON has no number."""
+    flat = fo.measure(fo.Ocean.from_modes([], n=8, size=50.0))
+    assert flat.folding.largest_choppiness == math.inf
+    assert flat.as_plain()["folding"]["largest_choppiness"] is None
+
+
+def test_shares_and_scatter_follow_from_the_energies():
+    s = fo.measure(ocean(n=8, size=30.0))
+    assert s.share_below == pytest.approx(s.energy_below / SEA.variance, rel=1e-12)
+    assert s.share_above == pytest.approx(s.energy_above / SEA.variance, rel=1e-12)
+    assert 0.0 < s.share_below < 1.0
+    # Hs goes as the square root of m0: half the relative deviation
+    assert s.hs_scatter == pytest.approx(s.hs * s.sampling_error / 2.0, rel=1e-12)
+    flat = fo.measure(fo.Ocean(fo.Sea(), n=8, size=10.0))
+    assert (flat.share_below, flat.share_above, flat.hs_scatter) == (0.0, 0.0, 0.0)
+
+
+def test_wavelengths_of_peak_and_samples():
+    """Deep water: L = g Tp^2 / (2 pi). A grid's shortest wave has two of its wider samples."""
+    sea = fo.Sea.from_wind(speed=12.0, fetch=150e3)
+    o = fo.Ocean(sea, n=(16, 8), size=(100.0, 80.0))
+    assert peak_wavelength(o) == pytest.approx(9.80665 * sea.tp**2 / (2.0 * math.pi), rel=1e-9)
+    assert shortest_wavelength(o.grid) == 20.0
+    assert peak_wavelength(fo.Ocean(fo.Sea(), n=8, size=10.0)) == 0.0
+    assert peak_wavelength(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0)) == 0.0

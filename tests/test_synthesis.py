@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import fftocean as fo
 from fftocean.fields import FIELDS, multiplier
-from fftocean.synthesis import PAIRS, plan_of
+from fftocean.synthesis import PAIRS, plan_fields
 from fftocean.transforms import BACKENDS, library
 
 SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=12.0, direction=30.0)
@@ -134,7 +134,7 @@ def test_a_field_has_the_same_bits_whatever_is_asked_beside_it(n, dtype):
 
 
 def test_five_passes_then_four_for_eight_fields():
-    plan = plan_of(
+    plan = plan_fields(
         (
             "height",
             "displace_x",
@@ -146,20 +146,20 @@ def test_five_passes_then_four_for_eight_fields():
             "stretch_yy",
         )
     )
-    assert (len(plan.spectra), len(plan.rows)) == (5, 4)
-    full = plan_of(FULL)
-    assert (len(full.spectra), len(full.rows), len(full.linear)) == (5, 4, 8)
-    height = plan_of(("height",))
-    assert (len(height.spectra), len(height.rows)) == (1, 1)
+    assert (len(plan.half_spectra), len(plan.rows)) == (5, 4)
+    full = plan_fields(FULL)
+    assert (len(full.half_spectra), len(full.rows), len(full.linear)) == (5, 4, 8)
+    height = plan_fields(("height",))
+    assert (len(height.half_spectra), len(height.rows)) == (1, 1)
     assert sorted(name for pair in PAIRS for name in pair) == sorted(FIELDS)
 
 
 def test_buffers_do_not_depend_on_what_is_asked():
     ocean = fo.Ocean(SEA, n=16, size=100.0)
-    desk = ocean._synthesis._desks[0]
+    workspace = ocean._synthesis._workspaces[0]
     for name in FIELDS:
         ocean.frame(0.0, (name,))
-    assert ocean._synthesis._desks == [desk]
+    assert ocean._synthesis._workspaces == [workspace]
 
 
 def test_what_a_narrow_block_leaves_behind_is_harmless():
@@ -173,15 +173,15 @@ def test_what_a_narrow_block_leaves_behind_is_harmless():
         ocean.frame(float(t))
     again = ocean.frame(1.0)
     assert all(np.array_equal(first[name], again[name]) for name in first.fields)
-    desk = ocean._synthesis._desks[0]
-    assert np.all(np.isfinite(desk.first.result))
-    assert np.all(np.isfinite(desk.second.result))
+    workspace = ocean._synthesis._workspaces[0]
+    assert np.all(np.isfinite(workspace.first.result))
+    assert np.all(np.isfinite(workspace.second.result))
 
 
 def test_whoever_is_interrupted_waits_for_the_others():
     """When one thread's work raises, the lock must not be given back while another still writes."""
     synthesis = fo.Ocean(SEA, n=256, size=100.0, threads=2)._synthesis
-    first = synthesis._desks[0]
+    first = synthesis._workspaces[0]
     still_at_it, begun = [], threading.Event()
 
     def work(desk, _):
@@ -194,7 +194,7 @@ def test_whoever_is_interrupted_waits_for_the_others():
         still_at_it.pop()
 
     with pytest.raises(KeyboardInterrupt):
-        synthesis._share(2, 1, work)
+        synthesis._run_blocks(2, 1, work)
     assert not still_at_it
 
 

@@ -255,6 +255,7 @@ def test_a_user_without_a_home_measures_every_time(monkeypatch):
     )
 
 
+@pytest.mark.process
 def test_pyfftw_is_whole_for_whoever_asks_first():
     """Eight threads at once in a fresh process: none sees what another has imported half."""
     script = """

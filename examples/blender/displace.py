@@ -53,12 +53,14 @@ def read_bake(folder):
         )
     if "displacement" not in maps:
         sys.exit(
-            f"{folder} must have displacement maps, got {', '.join(maps)}: bake with --maps displacement"
+            f"{folder} must have displacement maps, got {', '.join(maps)}: bake with --maps "
+            "displacement"
         )
     if maps["displacement"]["format"] not in FORMATS:
         got = maps["displacement"]["format"]
         sys.exit(
-            f"{folder} must have the format {' or '.join(FORMATS)}, got {got}: bake with --format exr"
+            f"{folder} must have the format {' or '.join(FORMATS)}, "
+            f"got {got}: bake with --format exr"
         )
     if maps["displacement"]["unit"] != "m" or list(maps["displacement"]["channels"]) != [
         "R",
@@ -68,7 +70,8 @@ def read_bake(folder):
         sys.exit(f"{folder} must have displacements in metres in R, G and B")
     if subset != "all" or len(rows) != count:
         sys.exit(
-            f"{folder} must hold the whole loop, got frames {subset} of {count}: bake without start:stop:step"
+            f"{folder} must hold the whole loop, got frames {subset} of {count}: bake without "
+            "start:stop:step"
         )
     if [row["frame"] for row in rows] != list(range(count)):
         sys.exit(f"{folder} must hold frames 0 to {count - 1} in order")
@@ -222,7 +225,8 @@ def report_distances(sea, manifest, path):
         np.float64
     )  # of a half: what a half map may be off by half of
     print(
-        f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, horizontal to {width:.3f} m"
+        f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, "
+        f"horizontal to {width:.3f} m"
     )
     print(f"largest distance along an axis: {np.max(apart):.3g} m")
     print(

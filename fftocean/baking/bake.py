@@ -1,10 +1,9 @@
 """
-Turning a job into a folder that can be trusted: claim it, survey the loop, write the frames, and
-the manifest last of all.
+Bake of a job into a folder: survey of the loop, frames, and last of all the manifest.
 
-Each thing that is finished is on the disk before the journal says so, and only what the journal
-says and the disk bears out is taken over by the next run. So a bake can be stopped at any moment,
-and goes on with the same command to the same bytes.
+Each result is on the disk before the journal records it, and the next run takes over only what the
+journal records and the disk still holds unchanged. So a bake can be stopped at any moment, and the
+same command resumes it and ends with the same bytes.
 """
 
 import math
@@ -15,43 +14,41 @@ from typing import Any
 
 from fftocean import blend_loss as blend
 from fftocean import foam
-from fftocean.arrays import available_memory
 from fftocean.baking.finished.containers import assemble, intact, unpack
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import compose, read_manifest
 from fftocean.baking.folder import layout
-from fftocean.baking.folder.identity import (
-    claim,
-    discard_work,
-    header_of,
-    require_claimable,
-    require_replaceable,
-)
-from fftocean.baking.folder.journal import Journal, entries_of
-from fftocean.baking.folder.listing import leave_cascade
+from fftocean.baking.folder.identity import header_of
+from fftocean.baking.folder.journal import Entry, Journal, entries_of
+from fftocean.baking.folder.listing import replace_cascade
 from fftocean.baking.folder.lock import locked, require_free
-from fftocean.baking.folder.plan import Entry, Order, frames_of, tasks_of
-from fftocean.baking.folder.run_log import Ledger, Listen, Progress
-from fftocean.baking.previews import previews as pictures
+from fftocean.baking.folder.ownership import (
+    mark,
+    remove_workspace,
+    require_replaceable,
+    require_same_bake,
+)
+from fftocean.baking.folder.plan import Plan, frames_of, tasks_of
+from fftocean.baking.folder.run_log import Listen, Progress, RunLog
+from fftocean.baking.previews import previews
 from fftocean.baking.scene import maps
 from fftocean.baking.scene.maps import MAPS
-from fftocean.baking.scene.scene import Scene, leave, seat
-from fftocean.baking.survey import recalled, survey, wanting
-from fftocean.baking.workers.choice import check_executor, crew_of
-from fftocean.baking.workers.local import Crew
+from fftocean.baking.scene.scene import Scene, clear_scene, set_scene
+from fftocean.baking.survey import needs_ranges, survey, with_recorded_ranges
+from fftocean.baking.workers.choice import check_executor, choose_executor
+from fftocean.baking.workers.local import Executor
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, described
 from fftocean.export import engines, formats
 from fftocean.export.profiles import Profile
-from fftocean.files import as_json, make_folder, path_of, sweep, write_whole
-from fftocean.host import cores
+from fftocean.files import as_json, make_folder, path_of, remove_temporary_files, write_whole
+from fftocean.host import available_memory, cores
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
 
 SMALL = 2e7
 """
-Samples of a bake, all frames and maps, that one process has written before others would have
-started.
+Samples of all frames and maps that one process writes in the time in which others would start.
 """
 
 
@@ -69,36 +66,36 @@ def bake(
     scene: Scene | None = None,
 ) -> dict[str, Any]:
     """
-    Bake a job: a file a map and frame, or a container a map, something to look at, and a manifest
-    that is written last.
+    Bake a job into a folder: maps, previews, and a manifest that is written last.
 
-    A folder without `manifest.json` is not a finished bake. The same bake into its folder again
-    goes on where it was stopped: frames that are there, and are what they were when they were
-    written, are kept; the bytes are those of a bake that was never stopped.
+    Each map is written as one file per frame, or as one container, as the job's format has it. A
+    folder without `manifest.json` is not a finished bake. The same call resumes a bake that was
+    stopped: frames that exist and are unchanged are kept, and the bytes are those of a bake that
+    was never stopped.
 
     Args:
-        job: what to bake.
-        folder: where to; made if it is not there.
-        overwrite: bake over another job's folder; what its job or manifest lists is removed first.
-        frames: a part of the loop, `start:stop:step` as Python slices; None is all of it.
-        downsample: how many times fewer samples a side: the same waves, but for those too short
-            (see `Job.downsampled`).
-        executor: "serial", "processes", "dask" for a cluster of this machine's own, "tcp://..." for
-            a scheduler's, or "auto": processes, unless the bake is so small that one would be done
-            before others had started.
-        workers: how many; None is one for each processor that this process may use.
+        job: sea, tile, and maps to write.
+        folder: the folder to write to; made if it does not exist.
+        overwrite: replace a folder that holds another job; the files that its job or manifest lists
+            are removed first.
+        frames: part of the loop, `start:stop:step` as in Python slices; None is all of it.
+        downsample: bake 1/downsample of the samples a side; waves too short for that grid are
+            dropped (see `Job.downsampled`).
+        executor: "serial", "processes", "dask" for a cluster on this machine, "tcp://..." for that
+            of a scheduler, or "auto": processes, unless one process finishes before others start.
+        workers: number of workers; None is one for each processor that this process may use.
         progress: called with (frames done, frames in all).
-        listen: called with what happens, as plain data: {"event": "start" | "survey" | "frame" |
+        listen: called with each event as plain data: {"event": "start" | "survey" | "frame" |
             "done", ...}.
-        scene: the job's water, where it is set up already, as `scene_for` does.
+        scene: the job's scene, if `scene_for` has set it up already.
 
     Returns:
-        The manifest, as plain data.
+        The manifest as plain data.
 
     Raises:
         OutputError: a file cannot be written, or the folder holds another job.
         FolderInUseError: another process bakes into the folder.
-        JobError: the job asks for more than can be.
+        JobError: the job asks for something that cannot be baked.
     """
     if not isinstance(job, Job):
         raise JobError(
@@ -111,43 +108,44 @@ def bake(
     scene = scene or scene_for(job, downsample, len(chosen))
     header = header_of(job, frames=chosen, downsample=downsample, backend=scene.ocean.backend)
     make_folder(folder)
-    with locked(folder) as hold:
-        order = Order(job, downsample, header, chosen, str(folder), hold.token)
-        seat(order.claim, scene)
+    with locked(folder) as lock:
+        plan = Plan(job, downsample, header, chosen, str(folder), lock.token)
+        set_scene(plan.identity, scene)
         try:
-            leave_cascade(folder, overwrite=overwrite)
-            known = _known(folder, order, scene, overwrite)
+            replace_cascade(folder, overwrite=overwrite)
+            known = _earlier_entries(folder, plan, scene, overwrite)
             make_folder(folder / layout.WORK_FOLDER)
-            with Journal(folder / layout.JOURNAL, order.claim, known) as journal:
-                claim(folder, header, overwrite=overwrite)
-                ledger = Ledger(folder, journal, known, progress, listen)
-                rows, containers = _kept(order, scene, ledger)
+            with Journal(folder / layout.JOURNAL, plan.identity, known) as journal:
+                mark(folder, header, overwrite=overwrite)
+                log = RunLog(folder, journal, known, progress, listen)
+                rows, containers = _kept_frames(plan, scene, log)
                 todo = [j for j in chosen if j not in rows]
-                crew = crew_of(*crew_for(executor, workers, scene, len(todo)), hold.descriptor)
-                ledger.say(
+                name, count = choose_workers(executor, workers, scene, len(todo))
+                chosen_executor = choose_executor(name, count, lock.descriptor)
+                log.report(
                     "start",
                     folder=str(folder),
                     frames=len(chosen),
                     kept=len(rows),
-                    executor=crew.name,
-                    workers=crew.workers,
+                    executor=chosen_executor.name,
+                    workers=chosen_executor.workers,
                 )
                 if rows:
-                    ledger.progress(len(rows), len(chosen))
-                order = recalled(order, ledger)
-                if todo or wanting(order, scene):
-                    with crew:
-                        order = survey(crew, order, scene, ledger)
-                        _write(crew, order, todo, rows, ledger)
-                    _sweep(folder)  # a worker may have died while it wrote
-                manifest = _finish(order, scene, [rows[j] for j in chosen], containers, ledger)
-            with suppress(OutputError):  # the bake is done; what is left of its work is litter
-                discard_work(folder)
+                    log.progress(len(rows), len(chosen))
+                plan = with_recorded_ranges(plan, log)
+                if todo or needs_ranges(plan, scene):
+                    with chosen_executor:
+                        plan = survey(chosen_executor, plan, scene, log)
+                        _write(chosen_executor, plan, todo, rows, log)
+                    _remove_temporary_files(folder)  # a worker may have died while it wrote
+                manifest = _finish(plan, scene, [rows[j] for j in chosen], containers, log)
+            with suppress(OutputError):  # the bake is finished without that
+                remove_workspace(folder)
         except BaseException:
-            _sweep(folder)
+            _remove_temporary_files(folder)
             raise
         finally:
-            leave()
+            clear_scene()
     if listen:
         listen(
             {"event": "done", "manifest": str(folder / layout.MANIFEST_FILE), "frames": len(chosen)}
@@ -155,21 +153,25 @@ def bake(
     return manifest
 
 
-def _sweep(folder: Path) -> None:
-    """Remove the temporary files of all who are stopped."""
-    for room in layout.rooms(folder):
-        sweep(room)
+def _remove_temporary_files(folder: Path) -> None:
+    """Remove the temporary files of all processes that were stopped."""
+    for inner in layout.folders_of(folder):
+        remove_temporary_files(inner)
 
 
 def scene_for(job: Job, downsample: int, frames: int) -> Scene:
     """
-    Set up a job's water, and find out before anything is written whether its format can hold so
-    many frames of its maps.
+    Return the scene of a job whose maps, format and previews are possible; write nothing.
+
+    Args:
+        job: the job, before downsampling.
+        downsample: factor by which the samples a side are fewer.
+        frames: number of frames that the files will hold.
 
     Raises:
-        JobError: the job asks for more than can be.
+        JobError: the job asks for something that cannot be baked.
     """
-    pictures.require_drawable(job)
+    previews.require_drawable(job)
     try:
         maps.needed(job.maps, mips=job.mips, eulerian=job.lookup == "eulerian")
     except ParameterError as error:
@@ -189,10 +191,10 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
 
 def require_usable(job: Job) -> Profile:
     """
-    Return the conventions of a job's files; nothing is written before.
+    Return the conventions of a job's files.
 
     Raises:
-        JobError: the engine cannot use the format; the message names the format to choose.
+        JobError: the engine cannot use the format; the message names one that it can.
     """
     try:
         return engines.profile_for(job.engine, job.format, job.normals)
@@ -200,24 +202,24 @@ def require_usable(job: Job) -> Profile:
         raise JobError(f"{job.source}: bake.engine and bake.format: {error}") from None
 
 
-def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[Entry]:
+def _earlier_entries(folder: Path, plan: Plan, scene: Scene, overwrite: bool) -> list[Entry]:
     """
-    What an earlier run says that it has finished: a manifest's rows, or a journal's lines.
+    Return the entries of earlier runs: those of the journal, or the rows of a manifest.
 
     Raises:
-        OutputError: the folder holds another bake, and is not to be overwritten.
+        OutputError: the folder holds another bake, and `overwrite` is False.
     """
     if overwrite:
         require_replaceable(folder)
-        discard_work(folder)
+        remove_workspace(folder)
         return []
-    require_claimable(folder, order.header)
+    require_same_bake(folder, plan.header)
     try:
         manifest = read_manifest(folder)
         contents = Contents.of(folder, manifest)
     except IntegrityError:
-        return entries_of(folder / layout.JOURNAL, order.claim)
-    if any(manifest.get(key) != value for key, value in order.header.items()):
+        return entries_of(folder / layout.JOURNAL, plan.identity)
+    if any(manifest.get(key) != value for key, value in plan.header.items()):
         return []
     scaled = {
         name: [m["scaled"]["low"], m["scaled"]["high"]]
@@ -233,17 +235,16 @@ def _known(folder: Path, order: Order, scene: Scene, overwrite: bool) -> list[En
     return [*known, *({"row": row} for row in manifest["frames"])]
 
 
-def _kept(
-    order: Order, scene: Scene, ledger: Ledger
+def _kept_frames(
+    plan: Plan, scene: Scene, log: RunLog
 ) -> tuple[dict[int, dict[str, Any]], dict[str, Any]]:
     """
-    The frames of earlier runs that the disk bears out, by their number, and the containers that
-    they stand in already.
+    Return the rows of earlier runs whose files are unchanged, by frame, and the finished containers.
     """
-    containers: dict[str, Any] = next(iter(ledger.claimed("containers")), {})
-    places = {j: place for place, j in enumerate(order.frames)}
+    containers: dict[str, Any] = next(iter(log.recorded("containers")), {})
+    places = {j: place for place, j in enumerate(plan.frames)}
 
-    def borne_out(row: Mapping[str, Any]) -> bool:
+    def is_intact(row: Mapping[str, Any]) -> bool:
         files = [
             (
                 layout.frame_file(scene.form, name, row["frame"], places[row["frame"]]),
@@ -251,62 +252,69 @@ def _kept(
             )
             for name in scene.job.maps
         ]
-        return all(ledger.holds(path, entry["sha256"]) for path, entry in files)
+        return all(log.is_unchanged(path, entry["sha256"]) for path, entry in files)
 
-    rows = {row["frame"]: row for row in ledger.claimed("row") if row["frame"] in places}
-    return {j: row for j, row in rows.items() if containers or borne_out(row)}, containers
+    rows = {row["frame"]: row for row in log.recorded("row") if row["frame"] in places}
+    return {j: row for j, row in rows.items() if containers or is_intact(row)}, containers
 
 
-def crew_for(executor: str, workers: int | None, scene: Scene, todo: int) -> tuple[str, int]:
-    """Who does it, and how many: no more workers than frames, nor than there is memory for."""
+def choose_workers(executor: str, workers: int | None, scene: Scene, todo: int) -> tuple[str, int]:
+    """
+    Return an executor's name and the number of workers: at most one a frame, and as many as fit
+    into memory.
+    """
     grid = scene.ocean.grid
     most = available_memory() / memory_needed(grid, scene.ocean.dtype)
-    hands = max(1, min(workers or cores(), todo, int(min(most, 1024))))
+    count = max(1, min(workers or cores(), todo, int(min(most, 1024))))
     if executor == "auto":
         samples = float(grid.nx * grid.ny) * todo * len(scene.job.maps)
-        executor = "processes" if hands > 1 and samples > SMALL else "serial"
-    return executor, 1 if executor == "serial" else hands
+        executor = "processes" if count > 1 and samples > SMALL else "serial"
+    return executor, 1 if executor == "serial" else count
 
 
 def _write(
-    crew: Crew, order: Order, todo: Sequence[int], rows: dict[int, dict[str, Any]], ledger: Ledger
+    executor: Executor,
+    plan: Plan,
+    todo: Sequence[int],
+    rows: dict[int, dict[str, Any]],
+    log: RunLog,
 ) -> None:
-    """Have frames written; each that is finished goes into the journal, and into `rows`."""
-    total = len(order.frames)
+    """Write frames; add each to the journal and to `rows`."""
+    total = len(plan.frames)
     size = (
         foam.SPAN
-        if "foam" in order.job.maps
-        else max(1, min(foam.SPAN, math.ceil(len(todo) / (4 * crew.workers))))
+        if "foam" in plan.job.maps
+        else max(1, min(foam.SPAN, math.ceil(len(todo) / (4 * executor.workers))))
     )
-    with closing(crew.run(order, tasks_of("frame", todo, size))) as entries:
+    with closing(executor.run(plan, tasks_of("frame", todo, size))) as entries:
         for entry in entries:
             row = entry["row"]
             if row["frame"] in rows:
-                continue  # of a task that was done twice
-            ledger.add(entry)
+                continue  # its task was carried out twice
+            log.add(entry)
             rows[row["frame"]] = row
-            ledger.progress(len(rows), total)
-            ledger.say("frame", frame=row["frame"], t=row["t"], done=len(rows), frames=total)
+            log.progress(len(rows), total)
+            log.report("frame", frame=row["frame"], t=row["t"], done=len(rows), frames=total)
 
 
 def _finish(
-    order: Order,
+    plan: Plan,
     scene: Scene,
     rows: list[dict[str, Any]],
     containers: dict[str, Any],
-    ledger: Ledger,
+    log: RunLog,
 ) -> dict[str, Any]:
-    """Containers, pictures, and the manifest."""
-    containers = containers or assemble(ledger.folder, order, scene, rows)
+    """Write containers, previews, and the manifest; return the manifest."""
+    containers = containers or assemble(log.folder, plan, scene, rows)
     statistics = measure(scene.ocean)
     manifest = compose(
-        order,
+        plan,
         scene,
         rows,
         statistics=statistics,
-        blend=blend.describe(scene.ocean, max(1, round(scene.job.frames / order.step))),
+        blend=blend.describe(scene.ocean, max(1, round(scene.job.frames / plan.step))),
         containers=containers,
-        pictures=pictures.draw(ledger.folder, scene, statistics),
+        pictures=previews.write_previews(log.folder, scene, statistics),
     )
-    write_whole(ledger.folder / layout.MANIFEST_FILE, as_json(manifest))
+    write_whole(log.folder / layout.MANIFEST_FILE, as_json(manifest))
     return manifest

@@ -1,14 +1,11 @@
-"""
-What a bake will come to, before anything is written: files, bytes, memory and time, from two frames
-made in memory.
-"""
+"""Estimate of a bake's files, bytes, memory and time, from two frames rendered in memory."""
 
 import time
 from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.baking.bake import crew_for, scene_for
+from fftocean.baking.bake import choose_workers, scene_for
 from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
@@ -20,15 +17,15 @@ from fftocean.ocean import memory_needed
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What to expect."""
+    """Expected cost of a bake."""
 
     frames: int
-    files: int  # all of them
-    bytes: int  # about
-    seconds: float  # about, on this machine
+    files: int  # in all
+    bytes: int  # approximate
+    seconds: float  # approximate, on this machine
     memory: float  # of each process [bytes]
-    container: float  # of this process beside it, to put the largest container together [bytes]
-    video: float  # that the maps of all frames take in an engine [bytes]
+    container: float  # of this process in addition, to assemble the largest container [bytes]
+    video: float  # of the maps of all frames in an engine [bytes]
     executor: str
     workers: int
 
@@ -46,13 +43,13 @@ def estimate(
     Estimate a bake; the arguments are those of `bake`.
 
     Raises:
-        JobError: the job asks for more than can be.
+        JobError: the job asks for something that cannot be baked.
         OutputError: a value that the format cannot hold.
     """
     chosen = frames_of(frames, job.frames)
     scene = scene or scene_for(job, downsample, len(chosen))
-    name, hands = crew_for(executor, workers, scene, len(chosen))
-    sizes = [_bytes_of(scene, j) for j in chosen[:1]]  # and whatever is to be compiled is
+    name, count = choose_workers(executor, workers, scene, len(chosen))
+    sizes = [_bytes_of(scene, j) for j in chosen[:1]]  # which also compiles the kernels
     start = time.perf_counter()
     sizes += [_bytes_of(scene, j) for j in chosen[-1:]]
     each = time.perf_counter() - start
@@ -68,12 +65,12 @@ def estimate(
         bytes=round(float(np.mean(sizes)) * len(chosen))
         + 700_000 * len(scene.job.pictures)
         + 1200 * len(chosen),
-        seconds=3.0 + each * rounds / hands + (1.5 if name != "serial" else 0.0),
+        seconds=3.0 + each * rounds / count + (1.5 if name != "serial" else 0.0),
         memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
         container=_container(scene, len(chosen)),
         video=video_memory(scene, len(chosen)),
         executor=name,
-        workers=hands,
+        workers=count,
     )
 
 
@@ -101,10 +98,10 @@ def _texels(scene: Scene, frames: int, channels: int) -> float:
 
 
 def _bytes_of(scene: Scene, j: int) -> int:
-    """What the maps of a frame come to; without foam, which would take the whole loop to know."""
+    """Return the bytes of a frame's maps; foam counts as none, as it depends on the whole loop."""
     foam = np.zeros(scene.ocean.grid.shape) if "foam" in scene.job.maps else None
     total = 0
-    for name, levels in scene.pictures(scene.frame(j), foam):
+    for name, levels in scene.maps(scene.frame(j), foam):
         low, high = (
             (min(float(p.min()) for p in levels), max(float(p.max()) for p in levels))
             if scene.form.scaled

@@ -1,4 +1,4 @@
-"""A bake mended: what is no longer what was written is written again, with the same bytes."""
+"""Repair of a bake: damaged files are written again, with the same bytes."""
 
 import os
 import warnings
@@ -13,8 +13,9 @@ from fftocean.baking.finished.check import check
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
-from fftocean.baking.folder.identity import HEADER, checked, differences, read_checked
+from fftocean.baking.folder.identity import HEADER, differences
 from fftocean.baking.folder.run_log import Listen, Progress
+from fftocean.baking.folder.sealed import read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError, SeaWarning
 from fftocean.files import as_json, path_of, remove, write_whole
 from fftocean.job.job import Job
@@ -30,23 +31,24 @@ def repair(
     listen: Listen | None = None,
 ) -> dict[str, Any]:
     """
-    Write again all of a bake that `check` finds missing or changed, and remove what it finds extra;
-    everything else stays.
+    Repair a bake: write missing and changed files again, and remove extra ones.
+
+    `check` finds these files; all others stay.
 
     Args:
-        folder: that `bake` wrote, or the folder around the tiles of a cascade.
-        job: what was baked, where it must be known from which file: its measured spectra are looked
-            for beside that. None takes the folder's own word for it.
+        folder: the folder of a bake, or the one around the tiles of a cascade.
+        job: the job that was baked, read from its file, if it has measured spectra, which are
+            looked up next to that file. None takes the job from the folder.
         executor, workers, progress, listen: as for `bake`.
 
     Returns:
-        The manifest.
+        The manifest as plain data.
 
     Raises:
-        IntegrityError: neither the manifest nor the job's file is what was written, or what was
-            written again has other bytes.
-        OutputError: a file cannot be written, or this installation would not write the same bytes.
-        FolderInUseError: a bake is under way there.
+        IntegrityError: neither manifest.json nor job.json is readable, or a file that was written
+            again has other bytes.
+        OutputError: a file cannot be written, or this installation would write other bytes.
+        FolderInUseError: another process bakes into the folder.
     """
     folder = path_of("folder", folder)
     findings = check(folder)
@@ -63,7 +65,7 @@ def repair(
             for name in layout.tile_folders(folder)
             if any(_within(finding.path, name) for finding in findings)
         ]
-        return _mend_tiles(
+        return _repair_tiles(
             folder, tiles, job, executor=executor, workers=workers, progress=progress, listen=listen
         )
     manifest: dict[str, Any] | None
@@ -74,16 +76,17 @@ def repair(
     except (IntegrityError, KeyError):
         manifest = None
         try:
-            header = read_checked(folder / layout.JOB_FILE)
+            header = read_sealed(folder / layout.JOB_FILE)
         except IntegrityError as error:
             raise IntegrityError(
-                f"{folder} cannot be repaired, for it does not say what it is of: {error}"
+                f"{folder} cannot be repaired: neither "
+                f"{layout.MANIFEST_FILE} nor {layout.JOB_FILE} is readable ({error})"
             ) from None
     job = job or Job.from_description(header["job"])
     if manifest is not None and any(finding.path == layout.JOB_FILE for finding in findings):
         if os.path.lexists(folder / layout.JOB_FILE) and not (folder / layout.JOB_FILE).is_file():
             raise OutputError(f"{folder / layout.JOB_FILE} must be a file, and is not")
-        write_whole(folder / layout.JOB_FILE, as_json(checked(header)))
+        write_whole(folder / layout.JOB_FILE, as_json(sealed(header)))
     for finding in findings:
         if finding.kind == "extra":
             remove(folder / finding.path)
@@ -99,9 +102,9 @@ def repair(
         progress=progress,
         listen=listen,
     )
-    if manifest is not None and again != checked(manifest):
-        what = differences(manifest, again) or "its frames' checksums"
-        raise IntegrityError(f"{folder} was repaired, and is not what it was: {what}")
+    if manifest is not None and again != sealed(manifest):
+        changes = differences(manifest, again) or "checksums of frames"
+        raise IntegrityError(f"{folder} was repaired, and differs from the first bake: {changes}")
     return again
 
 
@@ -110,23 +113,23 @@ def _within(path: str, name: str) -> bool:
     return path == name or path.startswith(f"{name}/")
 
 
-def _mend_tiles(
+def _repair_tiles(
     folder: Path, broken: Sequence[str], job: Job | None, **options: Any
 ) -> dict[str, Any]:
     """
-    Mend a cascade: its broken tiles one by one, then what stands beside them, with the same bytes.
+    Repair a cascade: its damaged tiles one by one, then its list and previews.
 
     Args:
         folder: of the cascade.
-        broken: folders of the tiles in which something is wrong.
-        job: the job, where its measured spectra lie beside its file; None is the folder's own.
+        broken: folders of the tiles in which a problem was found.
+        job: the job, if its measured spectra lie next to its file; None takes that of the folder.
         options: executor, workers, progress and listen of `bake_tiles`.
 
     Raises:
-        IntegrityError: neither list nor job is what was written, or other bytes came out.
+        IntegrityError: neither list nor job is readable, or a repaired file has other bytes.
     """
     try:
-        header = read_checked(folder / layout.CASCADE_JOB)
+        header = read_sealed(folder / layout.CASCADE_JOB)
     except IntegrityError:
         header = None
     try:
@@ -135,41 +138,42 @@ def _mend_tiles(
         before = None
         if header is None:
             raise IntegrityError(
-                f"{folder} cannot be repaired, for it does not say what it is of: {error}"
+                f"{folder} cannot be repaired: neither "
+                f"{layout.CASCADE_FILE} nor {layout.CASCADE_JOB} is readable ({error})"
             ) from None
     if header is None:
         assert before is not None
         header = {key: before[key] for key in listing.HEADER}
-        write_whole(folder / layout.CASCADE_JOB, as_json(checked(header)))
+        write_whole(folder / layout.CASCADE_JOB, as_json(sealed(header)))
     own, tiles = listing.job_of(header, source=str(folder / layout.CASCADE_JOB))
-    work = {
+    tile_options = {
         key: value for key, value in options.items() if key in ("executor", "workers", "listen")
     }
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SeaWarning)  # said when it was baked
-        shares = {
-            share.path: share.job
-            for share in listing.shares_of(own if job is None else summable(job), tiles)
+        warnings.simplefilter("ignore", SeaWarning)  # given when it was baked
+        tile_jobs = {
+            tile.path: tile.job
+            for tile in listing.jobs_of_tiles(own if job is None else summable(job), tiles)
         }
         for name in broken:
-            if name not in shares:
-                listing.discard_bake(folder / name)
-            elif _names_itself(folder / name):
-                repair(folder / name, shares[name], **work)
+            if name not in tile_jobs:
+                listing.remove_bake(folder / name)
+            elif _is_described(folder / name):
+                repair(folder / name, tile_jobs[name], **tile_options)
         subset = None if header["subset"] == "all" else header["subset"]
         again = bake_tiles(
             job or own, tiles, folder, frames=subset, downsample=header["downsample"], **options
         )
-    if before is not None and again != checked(before):
+    if before is not None and again != sealed(before):
         raise IntegrityError(
-            f"{folder} was repaired, and its {layout.CASCADE_FILE} is not what it was"
+            f"{folder} was repaired, and its {layout.CASCADE_FILE} differs from the first one"
         )
     return again
 
 
-def _names_itself(folder: Path) -> bool:
-    """Return whether a bake still says what it is of."""
-    for read, path in ((read_manifest, folder), (read_checked, folder / layout.JOB_FILE)):
+def _is_described(folder: Path) -> bool:
+    """Return whether the manifest or the job of a bake is readable."""
+    for read, path in ((read_manifest, folder), (read_sealed, folder / layout.JOB_FILE)):
         try:
             read(path)
         except IntegrityError:

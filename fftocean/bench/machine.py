@@ -45,7 +45,7 @@ def moment() -> dict[str, Any]:
 
 def instructions() -> list[str]:
     """The vector instructions that matter to an FFT."""
-    for line in host.read("/proc/cpuinfo").splitlines():
+    for line in host.read_system_file("/proc/cpuinfo").splitlines():
         if line.startswith(("flags", "Features")):
             flags = set(line.partition(":")[2].split())
             return [
@@ -60,9 +60,11 @@ def caches() -> dict[str, str]:
     """The data caches that core 0 sees, by level, with how many cores share each."""
     found = {}
     for folder in sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
-        kind, level, size = (host.read(folder / name).strip() for name in ("type", "level", "size"))
+        kind, level, size = (
+            host.read_system_file(folder / name).strip() for name in ("type", "level", "size")
+        )
         if kind in ("Data", "Unified") and size:
-            shared = _count(host.read(folder / "shared_cpu_list"))
+            shared = _count(host.read_system_file(folder / "shared_cpu_list"))
             found[f"L{level}"] = size + (f", shared by {shared}" if shared > 1 else "")
     return found
 

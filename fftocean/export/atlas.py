@@ -21,10 +21,10 @@ from fftocean.export.form import (
     Layout,
     Scale,
     counted,
-    finite_again,
     halves,
     numbered,
     one_level,
+    require_finite,
     require_shape,
     require_size,
 )
@@ -119,7 +119,7 @@ def _decode(
     rows, columns, count = require_shape(shape, "exr-atlas")
     require_size(data, 2 * rows * columns * count, "exr-atlas")
     words = np.frombuffer(data, dtype="<f2").reshape(rows, columns, count)
-    return [finite_again(words.astype(np.float16))]
+    return [require_finite(words.astype(np.float16))]
 
 
 EXR_ATLAS = Format(

@@ -15,14 +15,14 @@ from fftocean.export.form import (
     Layout,
     Scale,
     counted,
-    finite_again,
     halves,
     numbered,
     one_level,
+    require_finite,
     require_shape,
     require_size,
 )
-from fftocean.export.text import as_json
+from fftocean.files import as_json
 
 TEXEL = 8  # bytes of four halves; levels of a KTX2 file begin at multiples of it
 
@@ -80,7 +80,7 @@ def decoder(
                     f"format {name} must have a 1 in A where a map has {count} channels"
                 )
             held = texels if count == 4 else texels[..., :3]
-            found.append(finite_again(counted(held, (r, c, count))))
+            found.append(require_finite(counted(held, (r, c, count))))
             at += TEXEL * r * c
         return found
 

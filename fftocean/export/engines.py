@@ -206,7 +206,8 @@ def profile_for(engine: str, format_name: str, normals: str = "engine") -> Profi
     cell = TABLE[engine, format_name]
     if isinstance(cell, Refusal):
         raise ParameterError(
-            f"engine {engine} cannot use format {format_name}: {cell.reason}; choose format {cell.instead}"
+            f"engine {engine} cannot use format {format_name}: {cell.reason}; choose format "
+            f"{cell.instead}"
         )
     choices: dict[str, Normals] = {"engine": cell.normals, "signed": "signed", "packed": "packed"}
     if normals not in choices:

@@ -24,9 +24,9 @@ from fftocean.export.form import (
     Scale,
     counted,
     finite,
-    finite_again,
     halves,
     one_level,
+    require_finite,
 )
 
 
@@ -82,13 +82,15 @@ def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
             found = int(high[1]) - int(low[1]) + 1, int(high[0]) - int(low[0]) + 1
             if found != tuple(shape):
                 raise IntegrityError(
-                    f"an EXR picture must be {shape[0]} rows of {shape[1]}, got {found[0]} of {found[1]}"
+                    f"an EXR picture must be {shape[0]} rows of {shape[1]}, "
+                    f"got {found[0]} of {found[1]}"
                 )
         channels = OpenEXR.File(io.BytesIO(data), separate_channels=True).channels()
         planes = [channels[name].pixels for name in ("RGBA" if len(channels) == 4 else "RGB")]
         if len(channels) != len(planes) or len({plane.dtype for plane in planes}) != 1:
             raise IntegrityError(
-                f"an EXR picture must have channels R, G, B (, A) of one type, got {', '.join(channels)}"
+                "an EXR picture must have channels R, G, B (, A) of one type, "
+                f"got {', '.join(channels)}"
             )
         return np.stack(planes, axis=-1)
     except IntegrityError:
@@ -111,7 +113,8 @@ def encode_half(red: Real, green: Real, blue: Real) -> bytes:
         extreme = float(np.max(np.abs(values), initial=0.0))
         if not extreme <= HALF_MAX:
             raise OutputError(
-                f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, got {extreme:g}"
+                f"channel {name} must stay within +-{HALF_MAX:g} to be a half float, "
+                f"got {extreme:g}"
             )
         halves.append(values[::-1].astype(np.float16))
     return encode(np.stack(halves, axis=-1))
@@ -152,7 +155,7 @@ def _format(
         pixels = read(data, None if shape is None else shape[:2])
         if pixels.dtype != stored:
             raise IntegrityError(f"format {name} must hold {stored}, got {pixels.dtype}")
-        return [finite_again(counted(pixels, shape))]
+        return [require_finite(counted(pixels, shape))]
 
     return Format(
         name=name,

@@ -180,7 +180,7 @@ def halves(pixels: Real) -> npt.NDArray[np.float16]:
     return finite(pixels, np.float16)
 
 
-def finite_again(pixels: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def require_finite(pixels: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """
     Return pixels that were stored, after a check that they are finite, as they were then.
 

@@ -99,7 +99,8 @@ def unpack(
             0,
         ):
             raise IntegrityError(
-                f"a KTX2 file must hold {count} layers of {columns} x {rows} halves, {levels} levels, got {found[:9]}"
+                f"a KTX2 file must hold {count} layers of {columns} x {rows} halves, "
+                f"{levels} levels, got {found[:9]}"
             )
         first = 12 + struct.calcsize(HEADER)
         index = [struct.unpack_from("<3Q", data, first + 24 * level) for level in range(levels)]
@@ -114,7 +115,8 @@ def unpack(
         )
         if end != len(data) or not lengths_right or overlap or index[-1][0] < first + 24 * levels:
             raise IntegrityError(
-                f"a KTX2 file of {levels} levels must end with them, at byte {end}, got {len(data)} bytes"
+                f"a KTX2 file of {levels} levels must end with them, at byte {end}, "
+                f"got {len(data)} bytes"
             )
         if bytes(data[found[9] : found[9] + found[10]]) != _descriptor():
             raise IntegrityError("a KTX2 file of ours must describe its texels as four half floats")

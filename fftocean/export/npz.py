@@ -13,7 +13,7 @@ import numpy.typing as npt
 from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
 from fftocean.export.exr import no_sidecar
-from fftocean.export.form import Format, Scale, finite, finite_again, one_level
+from fftocean.export.form import Format, Scale, finite, one_level, require_finite
 
 MEMBER = "pixels.npy"
 
@@ -73,7 +73,7 @@ def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes
 def _decode_frame(
     data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
 ) -> list[npt.NDArray[Any]]:
-    return [finite_again(read(data, shape))]
+    return [require_finite(read(data, shape))]
 
 
 NPZ = Format(

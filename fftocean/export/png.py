@@ -59,13 +59,15 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
         chunks = _chunks(data)
         if [name for name, _ in chunks] != [b"IHDR", b"IDAT", b"IEND"]:
             raise IntegrityError(
-                f"a PNG of ours must have chunks IHDR, IDAT, IEND, got {b', '.join(n for n, _ in chunks)!r:.100}"
+                "a PNG of ours must have chunks IHDR, IDAT, IEND, "
+                f"got {b', '.join(n for n, _ in chunks)!r:.100}"
             )
         columns, rows, depth, colour, *rest = struct.unpack(">IIBBBBB", chunks[0][1])
         found = (rows, columns, {kind: count for count, kind in COLOUR.items()}.get(colour, 0))
         if depth != 16 or any(rest) or not found[2]:
             raise IntegrityError(
-                f"a PNG of ours must be 16 bit gray or RGB, not interlaced, got {depth} bit, colour type {colour}"
+                f"a PNG of ours must be 16 bit gray or RGB, not interlaced, got {depth} bit, "
+                f"colour type {colour}"
             )
         if shape is not None and found != tuple(shape):
             raise IntegrityError(f"a PNG picture must have shape {tuple(shape)}, got {found}")

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.errors import OutputError, ParameterError
-from fftocean.export.text import as_json
+from fftocean.files import as_json
 
 Limit = float | Sequence[float] | None
 """One end of the range: of the whole map, or of each of its channels."""
@@ -53,7 +53,8 @@ def to_steps(pixels: Real, lo: Limit, hi: Limit) -> npt.NDArray[np.uint16]:
     smallest, largest = pixels.min(axis=(0, 1)), pixels.max(axis=(0, 1))
     if not (np.all(smallest >= low) and np.all(largest <= high)):  # so put that a NaN is outside
         raise OutputError(
-            f"values must lie between {low.tolist()} and {high.tolist()}, got {smallest.tolist()} to {largest.tolist()}"
+            f"values must lie between {low.tolist()} and {high.tolist()}, "
+            f"got {smallest.tolist()} to {largest.tolist()}"
         )
     per_unit = np.divide(LARGEST, high - low, out=np.zeros_like(low), where=high > low)
     return np.rint((pixels - low) * per_unit).astype(np.uint16)

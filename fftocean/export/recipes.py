@@ -90,7 +90,8 @@ slices/horizontal={across}
 slices/vertical={down}
 """
 
-_UNITY = """Unity: {file} as a Texture2DArray (not run in Unity: compare slice 0 with the first cell)
+_UNITY = """Unity: {file} as a Texture2DArray (not run in Unity: \
+compare slice 0 with the first cell)
 
 Inspector of the texture:
     Texture Type      Default
@@ -130,7 +131,8 @@ Cells run from left to right, then down.
 {facts}
 """
 
-_UNREAL = """Unreal: {file} as a flipbook in one texture (not run in Unreal: compare frame 0 with the first cell)
+_UNREAL = """Unreal: {file} as a flipbook in one texture (not run in Unreal: \
+compare frame 0 with the first cell)
 
 Details of the texture:
     Compression Settings   HDR (RGBA16F, no BC6H)

@@ -82,7 +82,9 @@ def atlas(profile: Profile) -> dict[str, str]:
     down = place if profile.first_v == 0 else f"tiles_down - 1 - {place}"
     wide, high = "(nx + 2 * gutter)", "(ny + 2 * gutter)"
     return {
-        "atlas_u": f"(mod(index, tiles_across) + (gutter + mod(u, 1) * nx) / {wide}) / tiles_across",
+        "atlas_u": (
+            f"(mod(index, tiles_across) + (gutter + mod(u, 1) * nx) / {wide}) / tiles_across"
+        ),
         "atlas_v": f"({down} + (gutter + mod(v, 1) * ny) / {high}) / tiles_down",
     }
 
@@ -142,7 +144,9 @@ def conventions(profile: Profile) -> dict[str, str]:
         "profile": profile.name,
         "axes": f"{axes}, {profile.handed}-handed",
         "unit": profile.unit,
-        "rows": f"row 0 of a file is the {profile.first_row} edge; {placed} at v = {profile.first_v}",
+        "rows": (
+            f"row 0 of a file is the {profile.first_row} edge; {placed} at v = {profile.first_v}"
+        ),
         "columns": "column 0 is the west edge, at u = 0",
         "normals": "packed: n = 2 c - 1" if packed else "signed: n = c",
         "normal_green": f"{green}, which is {'north' if profile.green_north > 0 else 'south'}",

@@ -21,11 +21,11 @@ from fftocean.export.form import (
     Layout,
     Scale,
     finite,
-    finite_again,
     one_level,
+    require_finite,
     require_shape,
 )
-from fftocean.export.text import as_json
+from fftocean.files import as_json
 
 CHUNK = "c/{frame}/0/0/0"
 
@@ -84,7 +84,7 @@ def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes
 def _decode_frame(
     data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, _levels: int
 ) -> list[npt.NDArray[Any]]:
-    return [finite_again(decode_chunk(data, require_shape(shape, "zarr")))]
+    return [require_finite(decode_chunk(data, require_shape(shape, "zarr")))]
 
 
 def _sidecar(facts: Mapping[str, Any], layout: Layout) -> bytes:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, brief_repr, require_memory
+from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.errors import ParameterError
 from fftocean.gerstner.checks import (
     COMPONENT,
@@ -21,6 +21,7 @@ from fftocean.gerstner.checks import (
     check_tau,
     pair,
 )
+from fftocean.host import require_memory
 from fftocean.limits import ANGLE, LENGTH, SAMPLES, SIZE, TIME
 
 

@@ -1,4 +1,4 @@
-"""A job: a sea, a tile of it, and what to write. Read from TOML, checked key by key, frozen."""
+"""Job: a sea, a tile of it, and maps to write. Read from TOML, checked key by key, immutable."""
 
 import hashlib
 import json
@@ -33,15 +33,17 @@ MAX_SYSTEMS = 64  # the finest partitions of measured seas have 20
 @dataclass(frozen=True, slots=True)
 class Job:
     """
-    What to bake. `settings` holds every key of `parameters.PARAMETERS` with its value; `systems`
-    the waves beside the wind sea.
+    Settings of a bake: sea, tile, maps and files.
+
+    `settings` holds every key of `parameters.PARAMETERS` with its value; `systems` the wave systems
+    besides the wind sea.
 
     Make one with `Job.default()`, `Job.read(path)` or `Job.from_toml(text)`; change one with
     `job.replaced({"ocean.n": 512})`.
     """
 
     settings: Mapping[str, Any]
-    wind: bool  # whether there is a wind sea
+    wind: bool  # True if there is a wind sea
     systems: tuple[Mapping[str, Any], ...]  # as in the file
     source: str = "job"
 
@@ -72,14 +74,15 @@ class Job:
         Read a job file.
 
         Raises:
-            JobError: it cannot be read, is too large, is not UTF-8 or not TOML, or holds a key or
-                value that it may not.
+            JobError: the file cannot be read, is too large, is not UTF-8 or not TOML, or has an
+                unknown key or a value out of range.
         """
         path = path_of("path", path)
         try:
             if not path.is_file():
                 raise JobError(
-                    f"{path} must be a TOML file, and is {'a folder or device' if path.exists() else 'not there'}"
+                    f"{path} must be a TOML file, and "
+                    f"{'is a folder or device' if path.exists() else 'does not exist'}"
                 )
             with path.open("rb") as file:
                 data = file.read(MAX_BYTES + 1)
@@ -95,7 +98,7 @@ class Job:
     @classmethod
     def from_toml(cls, text: str, *, source: str = "job") -> "Job":
         """
-        Parse a job; see `read` for what is refused. A byte-order mark at the start is skipped.
+        Parse a job; errors are those of `read`. A byte-order mark at the start is skipped.
         """
         if not isinstance(text, str):
             raise JobError(f"a job must be TOML text, got {described(text)}")
@@ -124,8 +127,9 @@ class Job:
         cls, tree: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
     ) -> "Job":
         """
-        Check a parsed job, key by key; and, `at_sea`, whether it is a sea, for which its measured
-        files must be there.
+        Return the job of a parsed TOML tree, checked key by key.
+
+        With `at_sea` its sea is set up and checked too, for which its measured files must exist.
         """
         given: dict[str, Any] = {}
         systems: tuple[Mapping[str, Any], ...] = ()
@@ -192,12 +196,12 @@ class Job:
 
     def measured_notes(self) -> dict[str, list[str]]:
         """
-        Return what was masked, repaired or assumed to make the measured systems, by the full names
-        of their tables.
+        Return notes on masked, repaired or assumed values of the measured systems, by the full
+        names of their tables.
         """
         notes = {}
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the notes say it
+            warnings.simplefilter("ignore")  # the notes contain it
             measured = self.measurements()
         for key, made in measured.items():
             depth, own = self.settings["sea.depth"], made.depth_source
@@ -212,12 +216,11 @@ class Job:
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":
         """
-        Return the job with some keys changed; sea.wind.speed brings in a wind sea where there is
-        none.
+        Return the job with some keys changed; sea.wind.speed adds a wind sea where there is none.
 
         Raises:
-            JobError: an unknown key, a value that it may not have, or another key of sea.wind where
-                there is no wind sea.
+            JobError: an unknown key, a value out of range, or another key of sea.wind where there
+                is no wind sea.
         """
         if not isinstance(changes, Mapping):
             raise JobError(
@@ -238,8 +241,7 @@ class Job:
 
     def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
         """
-        Return the sea that is specified; `measured` as `measurements` returns them, where they are
-        at hand.
+        Return the specified sea; `measured`, if given, are the spectra that `measurements` returns.
         """
         s, depth = self.settings, self.settings["sea.depth"]
         waves: list[WaveSystem] = []
@@ -277,7 +279,7 @@ class Job:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
 
     def ocean(self, *, dtype: str = "float32") -> Ocean:
-        """The tile."""
+        """Return the ocean of the tile."""
         s = self.settings
         low, high = s["ocean.band_low"], s["ocean.band_high"]
         if not low < high:
@@ -308,22 +310,22 @@ class Job:
 
     @property
     def maps(self) -> tuple[str, ...]:
-        """What to write."""
+        """Names of the maps to write."""
         return tuple(self.settings["bake.maps"])
 
     @property
     def format(self) -> str:
-        """Of the files."""
+        """File format."""
         return str(self.settings["bake.format"])
 
     @property
     def engine(self) -> str:
-        """Whose conventions the files have."""
+        """Engine whose conventions the files have."""
         return str(self.settings["bake.engine"])
 
     @property
     def lookup(self) -> str:
-        """Whether maps are indexed by the undisplaced position, or by place."""
+        """Index of maps: lagrangian (rest position) or eulerian (world position)."""
         return str(self.settings["bake.lookup"])
 
     @property
@@ -333,23 +335,23 @@ class Job:
 
     @property
     def mips(self) -> bool:
-        """Whether smaller levels are written too."""
+        """True if mip levels are written."""
         return bool(self.settings["bake.mips"])
 
     @property
     def pictures(self) -> tuple[str, ...]:
-        """What to look at."""
+        """Names of the previews to write."""
         return tuple(self.settings["bake.pictures"])
 
     @property
     def foam(self) -> dict[str, float]:
-        """How water foams: tau, threshold and strength."""
+        """Parameters of foam: tau, threshold and strength."""
         return {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
 
     def downsampled(self, factor: int) -> "Job":
         """
-        Return the job with `factor` times fewer samples a side: the same waves, but for those too
-        short for the coarser grid.
+        Return the job with 1/`factor` of the samples a side; waves too short for that grid are
+        dropped.
 
         Its samples lie on every `factor`-th of this job's. Height and displacement there are this
         job's, low-passed; nothing is aliased.
@@ -412,11 +414,10 @@ class Job:
         cls, described: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
     ) -> "Job":
         """
-        Return the job that `describe` has described; not `at_sea`, where the files that it measured
-        its sea by need not be.
+        Return the job that `describe` described; without `at_sea` its measured files need not exist.
 
         Raises:
-            JobError: it is none.
+            JobError: the description is not that of a job.
         """
         tree: dict[str, Any] = {}
         for key, value in described.items():
@@ -425,7 +426,7 @@ class Job:
             for table in tables:
                 inner = inner.setdefault(table, {})
                 if not isinstance(inner, dict):
-                    raise JobError(f"{source}: {key!r:.80} is no key of a job")
+                    raise JobError(f"{source}: {key!r:.80} is not a key of a job")
             number = key in BY_KEY and BY_KEY[key].quantity is not None
             inner[name] = (
                 float(value)
@@ -436,8 +437,7 @@ class Job:
 
     def describe(self) -> dict[str, Any]:
         """
-        The whole job as plain data for a manifest: every key, with `inf` as a word, as JSON has no
-        such number.
+        Return the job as plain data for a manifest: every key, with `inf` as a word.
         """
         shown = {p.key: self.settings[p.key] for p in PARAMETERS if self.wind or p not in WIND}
         tree: dict[str, Any] = json.loads(
@@ -455,8 +455,10 @@ def measured_files(path: Path) -> list[Path]:
 
 def _brings_wind(given: Mapping[str, Any], source: str) -> bool:
     """
-    Whether keys of sea.wind ask for a wind sea beside sea.systems; the wind's speed has no default
-    there.
+    Return whether keys of sea.wind ask for a wind sea besides sea.systems.
+
+    Raises:
+        JobError: another key of sea.wind is given without its speed, which has no default there.
     """
     keys = [p.key for p in WIND if p.key in given]
     if keys and "sea.wind.speed" not in given:
@@ -467,7 +469,7 @@ def _brings_wind(given: Mapping[str, Any], source: str) -> bool:
 
 
 def _flatten(tree: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
-    """Walk a parsed TOML tree as dotted keys."""
+    """Yield the dotted keys of a parsed TOML tree, with their values."""
     for name, value in tree.items():
         key = f"{prefix}{name}"
         if isinstance(value, dict) and key not in _KNOWN:
@@ -492,7 +494,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
 
 
 def parse_value(text: str) -> Any:
-    """Parse a TOML value; what is none is a string, and `a,b` is a list."""
+    """Parse a TOML value; other text is a string, and `a,b` is a list."""
     if len(text) <= MAX_LINE:
         for attempt in (text, f"[{text}]"):
             try:
@@ -505,7 +507,7 @@ def parse_value(text: str) -> Any:
 
 
 def _worded(tree: Any) -> Any:
-    """A tree whose infinite numbers are words."""
+    """Return a tree with words for infinite numbers."""
     if isinstance(tree, Mapping):
         return {key: _worded(value) for key, value in tree.items()}
     if isinstance(tree, (list, tuple)):
@@ -514,7 +516,7 @@ def _worded(tree: Any) -> Any:
 
 
 def finite_or_word(value: float) -> float | str:
-    """A number that JSON can hold: inf as a word."""
+    """Return a number as JSON can hold it: inf as a word."""
     return value if math.isfinite(value) else str(value)
 
 

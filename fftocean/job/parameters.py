@@ -1,8 +1,8 @@
 """
-Every key of a job, once: its name, what it may be, its default and its help.
+Keys of a job: name, permitted values, default and help text of each.
 
-The same rows feed the TOML reader, the command line's flags, the manifest's units and the
-documentation.
+The TOML reader, the command line's flags, the manifest's units and the documentation all use this
+table.
 """
 
 import math
@@ -40,8 +40,8 @@ ENGINES = (
     "houdini",
 )
 PICTURES = ("sheet", "animation", "tiling", "spectrum")
-# the words stand here and not in the rooms that know them, so that the command line's help loads
-# none of those; a test compares
+# repeated here so that the command line's help need not import the modules that define them; those
+# compare at import, or a test does
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +61,12 @@ class Parameter:
 
     @property
     def unit(self) -> str:
-        """The SI unit, "" for pure numbers and words."""
+        """SI unit; "" for pure numbers and words."""
         return self.quantity.unit if self.quantity else ""
 
     @property
     def rule(self) -> str:
-        """What the value may be, in words."""
+        """Permitted values, in words."""
         if self.switch:
             return "true or false"
         if self.quantity is None:
@@ -76,10 +76,10 @@ class Parameter:
 
     def check(self, value: Any) -> Any:
         """
-        Return the value in the type it will be used in.
+        Return a value of the key, in its final type.
 
         Raises:
-            JobError: it breaks the rule; the message names key, rule and value.
+            JobError: the value is not permitted; the message names key, rule and value.
         """
         try:
             if self.pair and isinstance(value, (list, tuple)):
@@ -118,7 +118,7 @@ class Parameter:
 
 
 def spelled(word: str, names: Iterable[str]) -> str | None:
-    """Return the name among some that a word means, whatever its case; None where there is none."""
+    """Return the name that equals a word apart from case; None if there is none."""
     return next((name for name in names if name.casefold() == word.strip().casefold()), None)
 
 
@@ -194,7 +194,8 @@ OUTPUT = (
     Parameter(
         "bake.normals",
         "engine",
-        "values of normal maps: signed (-1 to 1), packed (0 to 1), or as the engine's stock materials read",
+        "values of normal maps: signed (-1 to 1), packed (0 to 1), or engine: as the engine's stock "
+        "materials read",
         choices=("engine", "signed", "packed"),
         flag="normals",
     ),
@@ -204,7 +205,7 @@ OUTPUT = (
     Parameter(
         "bake.pictures",
         ("sheet", "animation"),
-        "pictures to look at, beside the maps",
+        "preview images, beside the maps",
         choices=PICTURES,
         many=True,
         none=True,
@@ -215,13 +216,14 @@ FOAM = (
     Parameter(
         "bake.foam.threshold",
         0.72,
-        "squeeze below which water foams: 1 is still, 0 folding",
+        "smallest eigenvalue of the deformation gradient below which water foams: 1 is at rest, "
+        "0 folds",
         limits.FOAM_THRESHOLD,
     ),
     Parameter(
         "bake.foam.strength",
         60.0,
-        "foam made per unit of squeeze below the threshold",
+        "foam per second and unit of that eigenvalue below the threshold",
         limits.FOAM_STRENGTH,
     ),
 )

@@ -1,12 +1,11 @@
 """
-The two passes of a block-wise inverse transform, on either side of the row FFTs.
+The loops on either side of the row FFTs of a synthesis.
 
-First pass, per block of columns kx: turn the waves, derive along y; (transform along y;) store
-transposed. Second pass, per block of rows y: derive along x, pack two real fields into one complex
-row; (transform along x;) split them. Whatever a block touches stays in cache. Loops run over plain
-reals, contiguous, over five arrays at most: what compilers vectorise. So complex rows come as their
-interleaved real parts, 2 n long, and spectra on their way through the first pass as two arrays of
-parts.
+First pass, for each block of columns kx: advance the waves, derive along y; (transform along y;)
+transpose. Second pass, for each block of rows y: derive along x, pack two real fields into one
+complex row; (transform along x;) split them. The data of a block stay in cache. Compilers vectorise
+loops over contiguous reals in at most five arrays. So complex rows are given as their interleaved
+real and imaginary parts, 2 n long, and half-spectra in the first pass as two arrays of parts.
 """
 
 import numpy as np
@@ -20,75 +19,72 @@ SPLIT = 134217729.0  # 2^27 + 1 splits a double in two halves of 26 bits  (Veltk
 
 
 @compiled
-def turns_at(frequency: Real, t: float, out: Real) -> None:
+def phases_at(frequency: Real, t: float, out: Real) -> None:
     """
-    out = frac(frequency t): turns made at time t, in [-1/2, 1/2], at any t as exact as the
-    frequency.
+    Write out = frac(frequency t), the phases at time t in cycles, in [-1/2, 1/2].
 
-    The leading 26 bits of frequency and time have an exact product, from which whole turns can be
-    dropped without loss; the rest is smaller by 2^26.
+    They are as exact as the frequency, at any t. The leading 26 bits of frequency and time have an
+    exact product, from which whole cycles are subtracted without loss; the rest is smaller by 2^26.
     """
     scaled = t * SPLIT
     t_coarse = scaled - (scaled - t)
     t_fine = t - t_coarse
     for b in range(out.shape[0]):
-        f, turns = frequency[b], out[b]
-        for j in range(turns.size):
+        f, phase = frequency[b], out[b]
+        for j in range(phase.size):
             wide = f[j] * SPLIT
             coarse = wide - (wide - f[j])
             whole = coarse * t_coarse
             rest = (whole - ((whole + ROUND) - ROUND)) + (coarse * t_fine + (f[j] - coarse) * t)
-            turns[j] = rest - ((rest + ROUND) - ROUND)
+            phase[j] = rest - ((rest + ROUND) - ROUND)
 
 
 @compiled
-def turns_in_loop(cycles: Real, step: float, count: float, out: Real) -> None:
+def phases_in_loop(cycles: Real, step: float, count: float, out: Real) -> None:
     """
-    out = (cycles step mod count) / count: turns made at the step-th of `count` moments of a loop,
-    in [-1/2, 1/2].
+    Write out = (cycles step mod count) / count, the phases at one of `count` moments of a loop.
 
-    All of them are whole numbers, held in doubles, and the arithmetic is exact up to the last
-    division: cycles below 2^50 and count up to 2^26 have products and quotients below 2^52.
+    They are in cycles, in [-1/2, 1/2]. All inputs are whole numbers, held in doubles, and the
+    arithmetic is exact up to the last division: cycles below 2^50 and count up to 2^26 have
+    products and quotients below 2^52.
     """
     part = 1.0 / count
     for b in range(out.shape[0]):
-        whole, turns = cycles[b], out[b]
-        for j in range(turns.size):
+        whole, phase = cycles[b], out[b]
+        for j in range(phase.size):
             within = whole[j] - ((whole[j] * part + ROUND) - ROUND) * count
             moved = within * step
-            turns[j] = (moved - ((moved * part + ROUND) - ROUND) * count) * part
+            phase[j] = (moved - ((moved * part + ROUND) - ROUND) * count) * part
 
 
 @compiled
-def turns_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
+def phases_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
     """
-    out = (cycles step mod count) / count, as `turns_in_loop`, for cycles below 2^63 and count up to
-    2^32.
+    Write the same as `phases_in_loop`, for cycles below 2^63 and count up to 2^32.
 
-    In whole numbers of 64 bits, several times slower: (cycles mod count) step is below 2^64.
+    It takes integers of 64 bits and several times as long: (cycles mod count) step is below 2^64.
     """
     n, j = np.uint64(count), np.uint64(step)
     half, part = n // np.uint64(2), 1.0 / np.float64(count)
     for b in range(out.shape[0]):
-        whole, turns = cycles[b], out[b]
-        for i in range(turns.size):
+        whole, phase = cycles[b], out[b]
+        for i in range(phase.size):
             moved = (np.uint64(whole[i]) % n) * j % n
-            turns[i] = -(np.float64(n - moved) * part) if moved > half else np.float64(moved) * part
+            phase[i] = -(np.float64(n - moved) * part) if moved > half else np.float64(moved) * part
 
 
 @compiled
-def phasors(turns: Real, cosine: Real, sine: Real) -> None:
+def phasors(cycles: Real, cosine: Real, sine: Real) -> None:
     """
-    cosine, sine = cos and sin of 2 pi turns, |turns| <= 1/2: Taylor series of half the angle, then
-    doubled; no branch, no table.
+    Write cosine and sine of phases in cycles, |cycles| <= 1/2.
 
-    Half the angle is at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of
-    the cosine.
+    By Taylor series of half the angle, which is then doubled: no branch, no table. Half the angle is
+    at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of the cosine.
     """
-    for b in range(turns.shape[0]):
-        turn, c, s = turns[b], cosine[b], sine[b]
-        for j in range(turn.size):
-            x = np.pi * turn[j]
+    for b in range(cycles.shape[0]):
+        phase, c, s = cycles[b], cosine[b], sine[b]
+        for j in range(phase.size):
+            x = np.pi * phase[j]
             y = x * x
             sin = 1.0 - y * (1 / 342) * (1.0 - y * (1 / 420))
             sin = 1.0 - y * (1 / 156) * (1.0 - y * (1 / 210) * (1.0 - y * (1 / 272) * sin))
@@ -120,17 +116,17 @@ _COSINE = tuple(np.float32(1 / (m * (m + 1))) for m in (1, 3, 5, 7, 9, 11))
 
 
 @compiled
-def phasors_single(turns: Real, cosine: Real, sine: Real) -> None:
+def phasors_single(cycles: Real, cosine: Real, sine: Real) -> None:
     """
-    The same in single precision, to which the angle is rounded only here, within half a turn.
+    Write the same in single precision, to which the angle, within half a cycle, is rounded first.
 
     The first term left out is 7e-10 of the sine and 6e-9 of the cosine.
     """
     one, two = np.float32(1), np.float32(2)
-    for b in range(turns.shape[0]):
-        turn, c, s = turns[b], cosine[b], sine[b]
-        for j in range(turn.size):
-            x = np.float32(np.pi * turn[j])
+    for b in range(cycles.shape[0]):
+        phase, c, s = cycles[b], cosine[b], sine[b]
+        for j in range(phase.size):
+            x = np.float32(np.pi * phase[j])
             y = x * x
             sin = one - y * _SINE[3] * (one - y * _SINE[4] * (one - y * _SINE[5]))
             sin = x * (one - y * _SINE[0] * (one - y * _SINE[1] * (one - y * _SINE[2] * sin)))
@@ -141,9 +137,9 @@ def phasors_single(turns: Real, cosine: Real, sine: Real) -> None:
 
 
 @compiled
-def turn_waves(waves: Real, cosine: Real, sine: Real, real: Real, imag: Real) -> None:
+def heights(waves: Real, cosine: Real, sine: Real, real: Real, imag: Real) -> None:
     """
-    real + i imag = forward e^{-i f} + backward e^{+i f}.
+    Write the height spectrum, real + i imag = forward e^{-i f} + backward e^{+i f}.
 
     `waves` holds, for each column, the real part of forward + backward, the imaginary of their
     difference and of their sum, and the real part of their difference, each `cosine.shape[1]` long.
@@ -160,10 +156,13 @@ def turn_waves(waves: Real, cosine: Real, sine: Real, real: Real, imag: Real) ->
 
 
 @compiled
-def turn_rates(waves: Real, cosine: Real, sine: Real, omega: Real, real: Real, imag: Real) -> None:
+def height_rates(
+    waves: Real, cosine: Real, sine: Real, omega: Real, real: Real, imag: Real
+) -> None:
     """
-    real + i imag = -i omega (forward e^{-i f} - backward e^{+i f}): the time derivative of
-    `turn_waves`.
+    Write the time derivative of `heights`.
+
+    real + i imag = -i omega (forward e^{-i f} - backward e^{+i f}).
     """
     n = cosine.shape[1]
     for b in range(cosine.shape[0]):
@@ -178,7 +177,7 @@ def turn_rates(waves: Real, cosine: Real, sine: Real, omega: Real, real: Real, i
 
 @compiled
 def scale(source: Real, factor: Real, out: Real) -> None:
-    """out = factor source."""
+    """Write out = factor source."""
     for b in range(factor.shape[0]):
         h, p, o = source[b], factor[b], out[b]
         for j in range(p.size):
@@ -189,7 +188,7 @@ def scale(source: Real, factor: Real, out: Real) -> None:
 def derive(
     real: Real, imag: Real, power: Real, first: float, second: float, columns: int, out: Real
 ) -> None:
-    """out = power (first real + i second imag), row by row, complex parts interleaved."""
+    """Write out = power (first real + i second imag), row by row, parts interleaved."""
     for b in range(columns):
         x, y, o = real[b], imag[b], out[b]
         for j in range(power.size):
@@ -211,8 +210,9 @@ def mix(
     out: Real,
 ) -> None:
     """
-    out = first (power real + other other_real) + i second (power imag + other other_imag), complex
-    parts interleaved.
+    Write the sum of two sources with a power of ky each, parts interleaved.
+
+    out = first (power real + other other_real) + i second (power imag + other other_imag).
     """
     for b in range(columns):
         x, y, u, v, o = real[b], imag[b], other_real[b], other_imag[b], out[b]
@@ -226,15 +226,15 @@ def transpose(
     block: Real | Complex, spectrum: int, first: int, columns: int, out: Real | Complex
 ) -> None:
     """
-    out[y, spectrum, first + b] = block[b, y] for b < columns, eight columns at a time.
+    Write out[y, spectrum, first + b] = block[b, y] for b < columns, eight columns at a time.
 
-    Complex numbers of single precision come as reals of 8 bytes: nothing is computed, they are only
-    moved.
+    Complex numbers of single precision are given as reals of 8 bytes: they are moved, not computed.
     """
     whole = columns - columns % 8
     for b in range(0, whole, 8):
         c0, c1, c2, c3, c4, c5, c6, c7 = (
-            block[b], block[b + 1], block[b + 2], block[b + 3], block[b + 4], block[b + 5], block[b + 6], block[b + 7],
+            block[b], block[b + 1], block[b + 2], block[b + 3],
+            block[b + 4], block[b + 5], block[b + 6], block[b + 7],
         )  # fmt: skip
         for y in range(block.shape[1]):
             o = out[y, spectrum, first + b : first + b + 8]
@@ -248,33 +248,31 @@ def transpose(
 
 @compiled
 def pack(
-    between: Real,
+    intermediate: Real,
     first: int,
     rows: int,
-    ahead: int,
-    astern: int,
+    plus: int,
+    minus: int,
     factors: Real,
     mirrored: Real,
     out: Real,
 ) -> None:
     """
-    out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k: a complex row with one real field
-    as real part, one as imaginary.
+    Write packed rows, whose transforms have one real field as real part, one as imaginary part.
 
-    X and Y are two spectra of row first + r; both are the Hermitian halves of real rows. `factors`
-    has each number twice, for real and imaginary part; `mirrored` too, from the highest k down to
-    the first above 0, the second of each with a minus for the conjugate.
+    out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k. X and Y are the half-spectra `plus`
+    and `minus` of row first + r, the Hermitian halves of real rows. `factors` has each number twice,
+    for real and imaginary part; `mirrored` too, from the highest k down to the first above 0, the
+    second of each with a minus for the conjugate.
     """
     high = mirrored.size // 2  # the highest k
     for r in range(rows):
-        x, y, o = between[first + r, ahead], between[first + r, astern], out[r]
+        x, y, o = intermediate[first + r, plus], intermediate[first + r, minus], out[r]
         for i in range(factors.size):
             o[i] = factors[i] * x[i]
         m = o[o.size - mirrored.size :]
         for i in range(high):
-            k = np.uint64(
-                2 * (high - i)
-            )  # unsigned: an index that might be negative would have to be looked at
+            k = np.uint64(2 * (high - i))  # unsigned: no check for a negative index
             m[2 * i] = mirrored[2 * i] * y[k]
             m[2 * i + 1] = mirrored[2 * i + 1] * y[k + np.uint64(1)]
 
@@ -282,7 +280,7 @@ def pack(
 @compiled
 def split(packed: Real, undo: float, real: Real, imag: Real) -> None:
     """
-    real, imag = the two real fields of packed rows, the second times `undo`; each is (rows, nx).
+    Write the two real fields of packed rows, the second times `undo`; each is (rows, nx).
     """
     for r in range(real.shape[0]):
         o, a, b = packed[r], real[r], imag[r]
@@ -293,7 +291,7 @@ def split(packed: Real, undo: float, real: Real, imag: Real) -> None:
 
 @compiled
 def real_parts(packed: Real, real: Real) -> None:
-    """real = the real parts of packed rows, whose imaginary parts are nothing."""
+    """Write the real parts of packed rows, whose imaginary parts hold no field."""
     for r in range(real.shape[0]):
         o, a = packed[r], real[r]
         for i in range(a.size):

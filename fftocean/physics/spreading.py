@@ -59,7 +59,7 @@ class CosineSquared:
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """D at `theta`, [1/rad]."""
         omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
-        return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.cos(theta) ** 2, 0.0)
+        return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.square(np.cos(theta)), 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ def cosine_2s(s: RealLike, theta: RealLike) -> Real:
     from scipy.special import poch
 
     s, theta = np.asarray(s, dtype=np.float64), np.asarray(theta, dtype=np.float64)
-    sine2 = np.sin(0.5 * theta) ** 2
+    sine2 = np.square(np.sin(0.5 * theta))
     in_front = 0.5 * np.log1p(-np.minimum(sine2, 0.5))
     log_cosine = np.where(
         sine2 < 0.5, in_front, np.log(np.maximum(np.abs(np.cos(0.5 * theta)), 1e-300))
@@ -117,15 +117,15 @@ class DonelanBanner:
         beta = donelan_banner_beta(np.asarray(omega, dtype=np.float64) / peak)
         # sech^2(y) = 4 e^{-2|y|} / (1 + e^{-2|y|})^2, which cannot overflow
         decay = np.exp(-2.0 * np.abs(beta * wrapped(theta)))
-        density: Real = beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / (1.0 + decay) ** 2
+        density: Real = beta / (2.0 * np.tanh(np.pi * beta)) * 4.0 * decay / np.square(1.0 + decay)
         return density
 
 
 def donelan_banner_beta(x: Real) -> Real:
     """beta(omega/omega_p) [-] of `DonelanBanner`."""
-    below = 2.61 * np.clip(x, 0.56, 0.95) ** 1.3
-    near = 2.28 * np.clip(x, 0.95, 1.6) ** -1.3
-    above = 10.0 ** (-0.4 + 0.8393 * np.exp(-0.567 * np.log(np.maximum(x, 1.6) ** 2)))
+    below = 2.61 * np.power(np.clip(x, 0.56, 0.95), 1.3)
+    near = 2.28 * np.power(np.clip(x, 0.95, 1.6), -1.3)
+    above = np.power(10.0, -0.4 + 0.8393 * np.exp(-0.567 * np.log(np.square(np.maximum(x, 1.6)))))
     return np.where(x < 0.95, below, np.where(x < 1.6, near, above))
 
 
@@ -155,7 +155,7 @@ class LongCrested:
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `theta`, [1/rad]: the bell."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
-        bell: Real = np.exp(-0.5 * (theta / LONG_CRESTED_WIDTH) ** 2)
+        bell: Real = np.exp(-0.5 * np.square(theta / LONG_CRESTED_WIDTH))
         return bell / (LONG_CRESTED_WIDTH * math.sqrt(2.0 * np.pi))
 
 

@@ -102,8 +102,11 @@ class GodaSuzuki:
 
 def _peaked_exponent(x: Real, s_peak: float) -> Real:
     """s_p x^5 below the peak, s_p x^-2.5 above."""
+    # np.power, not **, which rounds a lone number otherwise than one in an array
     return np.minimum(
-        s_peak * np.where(x <= 1.0, np.minimum(x, 1.0) ** 5.0, np.maximum(x, 1.0) ** -2.5), SHARPEST
+        s_peak
+        * np.where(x <= 1.0, np.power(np.minimum(x, 1.0), 5.0), np.power(np.maximum(x, 1.0), -2.5)),
+        SHARPEST,
     )
 
 
@@ -131,7 +134,9 @@ class Hasselmann:
         x = _relative(omega, peak)
         mu = -2.33 - 1.45 * (self.speed * peak / GRAVITY - 1.17)
         return np.where(
-            x < 1.05, 6.97 * np.minimum(x, 1.05) ** 4.06, 9.77 * np.maximum(x, 1.05) ** mu
+            x < 1.05,
+            6.97 * np.power(np.minimum(x, 1.05), 4.06),
+            9.77 * np.power(np.maximum(x, 1.05), mu),
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
@@ -189,7 +194,7 @@ class WrappedNormal:
         )  # what is left out lies beyond 8.5 sigma: under 1e-16
         total = np.zeros_like(theta)
         for j in range(-turns, turns + 1):
-            total += np.exp(-0.5 * ((theta + 2.0 * np.pi * j) / sigma) ** 2)
+            total += np.exp(-0.5 * np.square((theta + 2.0 * np.pi * j) / sigma))
         return total / (sigma * math.sqrt(2.0 * np.pi))
 
 
@@ -201,7 +206,7 @@ class CustomSpreading:
     The norm comes from Gauss quadrature on panels that narrow toward theta = 0 and toward `breaks`,
     so a bell round any of them of any width down to 0.1 degree is good to 1e-12, and so is anything
     smooth; a function with a kink or a jump that `breaks` does not name is refused when the
-    quadrature sees it. Between many frequencies the norm is interpolated, to 1e-12 as well.
+    quadrature sees it. Between frequencies the norm is interpolated, to 1e-12 as well.
     """
 
     function: Function  # f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi]
@@ -224,7 +229,9 @@ class CustomSpreading:
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
         """D at `omega` and `theta`, [1/rad]."""
         omega = _held(omega, peak)
-        frequency, angle = np.broadcast_arrays(omega, wrapped(theta))
+        frequency, angle = (
+            np.array(a, order="C") for a in np.broadcast_arrays(omega, wrapped(theta))
+        )
         density: Real = self._checked(frequency, angle, peak) / _circle_integral(
             self._checked, omega, peak, tuple(self.breaks)
         )
@@ -331,8 +338,9 @@ def _relative(omega: RealLike, peak: float) -> Real:
 Panels = tuple[Real, Real]
 """Nodes theta [rad] and their weights [rad]."""
 
-_MANY = 1024  # frequencies from which on a table is cheaper
 _DEGREE = 16  # of the table's polynomials
+_WIDEST = 0.5  # panel of the table, in ln(omega/omega_p)
+_HALVINGS = 23  # down to a panel 6e-8 wide, which is a mere edge
 
 
 @lru_cache(maxsize=64)
@@ -366,13 +374,18 @@ def _panels(breaks: tuple[float, ...], order: int) -> Panels:
 def _integrals(
     function: Function, omega: Real, peak: float, breaks: tuple[float, ...], order: int = 16
 ) -> Real:
-    """The integral over theta at each of a list of frequencies; in blocks, to spare memory."""
+    """
+    Return the integral over theta at each of a list of frequencies; in blocks, to spare memory.
+
+    Each is a sum of its own, so that its bits depend on no other frequency of the list.
+    """
     theta, weights = _panels(breaks, order)
     out = np.empty(omega.size)
     for start in range(0, omega.size, 512):
         some = omega[start : start + 512]
-        frequency, angle = np.broadcast_arrays(some[:, None], theta)
-        out[start : start + 512] = np.asarray(function(frequency, angle, peak)) @ weights
+        frequency = np.repeat(some[:, None], theta.size, axis=1)
+        values = np.asarray(function(frequency, np.tile(theta, (some.size, 1)), peak))
+        out[start : start + 512] = np.sum(np.ascontiguousarray(values) * weights, axis=1)
     return out
 
 
@@ -398,25 +411,26 @@ def _circle_integral(
             "the spreading must have an integral over theta that quadrature can find: more than 0, and with every kink named in "
             f"breaks; got {coarse[i]:.12g} and {fine[i]:.12g} at omega = {probes[i]:g} rad/s"
         )
-    few = unique.size <= _MANY
-    values = (
-        _integrals(function, unique, peak, breaks)
-        if few
-        else _tabulated(function, unique, peak, breaks)
-    )
+    values = _tabulated(function, unique, peak, breaks)
+    if not np.all(values > 0.0):
+        raise ParameterError(
+            "the spreading must have an integral over theta that is more than 0, got "
+            f"{np.min(values):g} at omega = {unique[np.argmin(values)]:g} rad/s"
+        )
     return values[place].reshape(omega.shape)
 
 
 def _tabulated(function: Function, omega: Real, peak: float, breaks: tuple[float, ...]) -> Real:
     """
-    The integral at many frequencies (ascending), by Chebyshev interpolation in ln omega on panels
-    bisected until it holds.
+    Return the integral at many frequencies, by Chebyshev interpolation in ln omega.
 
-    A panel holds when its last three coefficients are under 1e-13 of the first. Both its ends are
-    nodes, so a jump of the base (Donelan-Banner steps at 0.95) cannot hide beyond the last one; it
-    is bisected down to a width of 1e-7, where the few frequencies inside are integrated one by one.
+    The panels are `_WIDEST` wide, counted from the peak, and are halved until the polynomial holds:
+    until its last three coefficients are under 1e-13 of the first. Which panel a frequency lies in,
+    and so the bits of its integral, depends on no other frequency of the list. Both ends of a panel
+    are nodes, so a jump of the base (Donelan-Banner steps at 0.95) cannot hide beyond the last one;
+    what lies in a panel that does not hold after `_HALVINGS` is integrated one by one.
     """
-    u = np.log(omega)
+    u = np.log(omega / peak)
     j = np.arange(_DEGREE + 1)
     x = np.cos(np.pi * j / _DEGREE)
     ends_halved = np.where((j == 0) | (j == _DEGREE), 0.5, 1.0)
@@ -427,41 +441,23 @@ def _tabulated(function: Function, omega: Real, peak: float, breaks: tuple[float
         * 2.0
         / _DEGREE
     )
-    out = np.empty_like(u)
-    pending = np.array([[u[0], u[-1]]])
-    while pending.size:
-        middle, half = 0.5 * pending.sum(axis=1), 0.5 * (pending[:, 1] - pending[:, 0])
-        first, last = (
-            np.searchsorted(u, pending[:, 0], "left"),
-            np.searchsorted(u, pending[:, 1], "left"),
-        )
-        last = np.where(pending[:, 1] >= u[-1], u.size, last)
-        # A panel with fewer frequencies than nodes is not worth a table; nor is one that has become
-        # a mere edge.
-        direct = (last - first <= _DEGREE) | (half <= 0.5e-7)
-        for i in np.flatnonzero(direct):
-            out[first[i] : last[i]] = _integrals(function, omega[first[i] : last[i]], peak, breaks)
-        keep = ~direct
-        middle, half, first, last, pending = (
-            middle[keep],
-            half[keep],
-            first[keep],
-            last[keep],
-            pending[keep],
-        )
-        if not half.size:
-            break
-        nodes = np.exp(middle[:, None] + half[:, None] * x)
-        c = (
-            _integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape)
-            @ to_coefficients.T
-        )
+    out: Real = np.empty(u.shape)
+    pending = np.arange(u.size)
+    for halvings in range(_HALVINGS):
+        width = _WIDEST * 0.5**halvings  # a power of 2: panels of all levels have exact ends
+        number, place = np.unique(np.floor(u[pending] / width), return_inverse=True)
+        middle = (number + 0.5) * width
+        nodes = peak * np.exp(middle[:, None] + 0.5 * width * x)
+        values = _integrals(function, nodes.ravel(), peak, breaks).reshape(nodes.shape)
+        c = np.sum(values[:, None, :] * to_coefficients, axis=2)
         holds = np.max(np.abs(c[:, -3:]), axis=1) <= 1e-13 * np.abs(c[:, 0])
-        for i in np.flatnonzero(holds):
-            inside = slice(first[i], last[i])
-            out[inside] = np.polynomial.chebyshev.chebval((u[inside] - middle[i]) / half[i], c[i])
-        broken, split = pending[~holds], middle[~holds]
-        pending = np.concatenate(
-            [np.column_stack([broken[:, 0], split]), np.column_stack([split, broken[:, 1]])]
+        done = holds[place]
+        inside, panel = pending[done], place[done]
+        out[inside] = np.polynomial.chebyshev.chebval(
+            (u[inside] - middle[panel]) / (0.5 * width), c[panel].T, tensor=False
         )
+        pending = pending[~done]
+        if not pending.size:
+            break
+    out[pending] = _integrals(function, omega[pending], peak, breaks)
     return out

@@ -47,7 +47,7 @@ def draw_dispersion(figure: "FigureBase", ocean: Ocean) -> None:
         x=0.01,
         ha="left",
     )
-    left, right = figure.subfigures(1, 2, width_ratios=(1.2, 1.0), squeeze=False)[0]
+    left, right = figure.subfigures(1, 2, width_ratios=(1.2, 1.0))
     _draw_wavenumbers(left, ocean, measured.k_max)
     above, under = right.subplots(2, 1, sharex=True)
     _draw_relation(above, ocean, measured)

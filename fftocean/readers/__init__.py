@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Final
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
 from fftocean.readers import (
+    bounded_reads,
+    dataset_layout,
     datawell,
-    files,
-    layout,
     ndbc,
     ndbc_archive,
     near_misses,
@@ -68,7 +68,7 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
         An xarray.Dataset with `efth` (time, freq, dir) [m2/Hz/degree], `freq` [Hz] ascending and
         `dir` [degrees] where waves come FROM, clockwise from north; without directions `ef` (time,
         freq) [m2/Hz]. `dpt` (time) is the depth [m] where it is known. Missing values are NaN and
-        counted in the attributes. `layout.py` has it in full.
+        counted in the attributes. `dataset_layout.py` has it in full.
 
     Raises:
         ReaderError: whatever is wrong with the file: the message names it, the line or variable,
@@ -81,15 +81,15 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
             f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})"
         )
     path = Path(os.fsdecode(path))
-    with files.refusing(path.name or str(path)):
+    with bounded_reads.refusing(path.name or str(path)):
         folder = "\0" not in str(path) and path.is_dir()
     if folder:
         path = _only_set(path)
-    files.require_file(path)
+    bounded_reads.require_file(path)
     try:
-        return layout.announce(_read(path, site, bins))
+        return dataset_layout.announce(_read(path, site, bins))
     except ReaderError as error:
-        text = files.printable(str(error))
+        text = bounded_reads.printable(str(error))
         if text == str(error):
             raise
         raise ReaderError(text) from error
@@ -103,7 +103,7 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
             return _ended(reader.files(path), reader.read(path, site, bins))
     if (what := near_misses.name(head)) is not None:
         raise ReaderError(f"{path.name} {what}")
-    for _ in files.lines(path):  # cut, binary, or one endless line? Then say so
+    for _ in bounded_reads.lines(path):  # cut, binary, or one endless line? Then say so
         break
     known = ", ".join(reader.name for reader in FORMATS)
     raise ReaderError(
@@ -118,7 +118,7 @@ def files_of(path: Path) -> list[Path]:
     Raises:
         ReaderError: no regular file, or one that cannot be read.
     """
-    files.require_file(path)
+    bounded_reads.require_file(path)
     head = Head.of(path)
     return next((list(reader.files(path)) for reader in FORMATS if reader.sniff(head)), [path])
 
@@ -130,7 +130,7 @@ def _only_set(folder: Path) -> Path:
     Raises:
         ReaderError: no set, or several; the message names them.
     """
-    with files.refusing(folder.name):
+    with bounded_reads.refusing(folder.name):
         names = []
         for entry in folder.iterdir():
             names.append(entry.name)
@@ -158,7 +158,7 @@ def _ended(read: list[Path], made: "Dataset") -> "Dataset":
     """Say in the attributes which of the text files that were read lack their final newline."""
     if "netCDF" in made.attrs["source_format"]:
         return made
-    if cut := [other.name for other in read if not files.has_final_newline(other)]:
+    if cut := [other.name for other in read if not bounded_reads.has_final_newline(other)]:
         made.attrs["unterminated"] = (
             f"{', '.join(cut)}: the last line has no end, and was taken as whole"
         )

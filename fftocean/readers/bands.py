@@ -75,7 +75,8 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
     bands = np.array(edges, dtype=np.float64)
     if bands.shape != (frequency.size, 2):
         raise ReaderError(
-            f"{where} must hold two edges for each of {frequency.size} frequencies, got shape {bands.shape}"
+            f"{where} must hold two edges for each of {frequency.size} frequencies, "
+            f"got shape {bands.shape}"
         )
     if not np.all(np.isfinite(bands)):
         raise ReaderError(f"{where} must be finite, got {bands[~np.isfinite(bands)][0]} Hz")
@@ -86,7 +87,8 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
         low, high, f = bands[i, 0], bands[i, 1], frequency[i]
         if not width[i] > 0.0 or high <= 0.0:
             raise ReaderError(
-                f"{where}: the band at {f:g} Hz must have a width above 0, got {low:g} to {high:g} Hz"
+                f"{where}: the band at {f:g} Hz must have a width above 0, "
+                f"got {low:g} to {high:g} Hz"
             )
         if not low - slack[i] <= f <= high + slack[i]:
             raise ReaderError(
@@ -94,7 +96,8 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
             )
         if i and low < bands[i - 1, 1] - _OVERLAP * (width[i] + width[i - 1]):
             raise ReaderError(
-                f"{where}: the band at {f:g} Hz must begin where the one below it ends, at {bands[i - 1, 1]:g} Hz, got {low:g} Hz"
+                f"{where}: the band at {f:g} Hz must begin where the one below it ends, "
+                f"at {bands[i - 1, 1]:g} Hz, got {low:g} Hz"
             )
     return bands
 

@@ -37,7 +37,8 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
     size = stream.seek(0, io.SEEK_END)
     if size > MOST_BYTES:
         raise ReaderError(
-            f"{name} must be at most {MOST_BYTES >> 20} MiB, got {size} bytes (cut out one place with xarray)"
+            f"{name} must be at most {MOST_BYTES >> 20} MiB, "
+            f"got {size} bytes (cut out one place with xarray)"
         )
     stream.seek(3)
     header = _Header(name, stream)
@@ -54,7 +55,8 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
         axes = [header.whole() for _ in range(header.whole_up_to(MOST_ITEMS, where))]
         if any(axis >= len(lengths) for axis in axes):
             raise ReaderError(
-                f"{where} must have dimensions that the file has, got number {max(axes)} of {len(lengths)}"
+                f"{where} must have dimensions that the file has, "
+                f"got number {max(axes)} of {len(lengths)}"
             )
         header.attributes()
         bytes_each = header.bytes_of_type(where)
@@ -68,7 +70,8 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
         total += bytes_each
         if begin + (bytes_each if axes and lengths[axes[0]] else 0) > size or total > size:
             raise ReaderError(
-                f"{where} must lie in the file, got {shape} values from byte {begin} on in {size} bytes: the file is cut short"
+                f"{where} must lie in the file, got {shape} values from byte {begin} on in "
+                f"{size} bytes: the file is cut short"
             )
     stream.seek(0)
 
@@ -104,7 +107,8 @@ class _Header:
         found, count = self.whole(), self.whole_up_to(MOST_ITEMS, self.name)
         if found not in (0, tag) or (found == 0 and count):
             raise ReaderError(
-                f"{self.name} cannot be read as netCDF: a list of its header has the tag {found}, not {tag}"
+                f"{self.name} cannot be read as netCDF: a list of its header has the tag "
+                f"{found}, not {tag}"
             )
         return count
 
@@ -113,7 +117,8 @@ class _Header:
         length = self.whole()
         if length > 4096:
             raise ReaderError(
-                f"{self.name} cannot be read as netCDF: a name must be at most 4096 bytes long, got {length}"
+                f"{self.name} cannot be read as netCDF: a name must be at most 4096 bytes long, "
+                f"got {length}"
             )
         return self._read(length + -length % 4)[:length].decode("utf-8", "replace")
 

@@ -20,7 +20,7 @@ import numpy as np
 
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout, moments
+from fftocean.readers import bounded_reads, dataset_layout, moments
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -52,17 +52,17 @@ def read(path: Path, *, bins: int) -> "Dataset":
     Raises:
         ReaderError: a line without its numbers, or a number that no sea has.
     """
-    rows = files.lines(path)
+    rows = bounded_reads.lines(path)
     header: list[float] = []
     table: list[list[float]] = []
     for where, line in rows:
         if len(header) < _HEADER:
-            header.append(files.number(where, line))
+            header.append(bounded_reads.number(where, line))
             continue
         tokens = [token.strip() for token in line.split(",")]
         if len(tokens) != 6:
             raise ReaderError(f"{where} must hold 6 numbers between commas, got {line!r:.40}")
-        numbers = [files.number(where, token) for token in tokens]
+        numbers = [bounded_reads.number(where, token) for token in tokens]
         if not -360.0 <= numbers[2] <= 720.0:
             raise ReaderError(
                 f"{where}: the direction must be between -360 and 720 degrees, got {tokens[2]}"
@@ -72,25 +72,25 @@ def read(path: Path, *, bins: int) -> "Dataset":
                 f"{where}: the spread must be between 0 and 180 degrees, got {tokens[3]}"
             )
         table.append(numbers)
-        if len(table) > layout.MAX_VALUES // bins:
-            raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
+        if len(table) > dataset_layout.MAX_VALUES // bins:
+            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if len(table) < 2:
         raise ReaderError(f"{path.name} must hold at least 2 frequencies, got {len(table)}")
     hs, largest = header[1] / 100.0, header[3]
-    if not 0.0 <= largest <= layout.LARGEST * 360.0:
+    if not 0.0 <= largest <= dataset_layout.LARGEST * 360.0:
         raise ReaderError(
             f"{path.name}: line 4 must be a density of at least 0 m2/Hz, got {largest:g}"
         )
-    kept, notes = layout.above_zero([row[0] for row in table])
+    kept, notes = dataset_layout.above_zero([row[0] for row in table])
     f, s, mean, spread, skewness, kurtosis = np.array(table)[kept].T
-    frequency, order = layout.frequencies(f"{path.name}: the frequencies", f)
-    density, counts = layout.densities(path.name, largest * s[np.newaxis, order], "m2/Hz")
+    frequency, order = dataset_layout.frequencies(f"{path.name}: the frequencies", f)
+    density, counts = dataset_layout.densities(path.name, largest * s[np.newaxis, order], "m2/Hz")
     c1, c2 = moments.from_centred(
         *(column[np.newaxis, order] for column in (mean, spread, skewness, kurtosis))
     )
     unfolded, done = moments.unfold(density, c1, c2, bins)
     m0 = np.nansum(density * np.gradient(frequency), axis=1)
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=path.name,
         source_format="Datawell .spt",
         frequency=frequency,
@@ -101,7 +101,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
             **counts,
             **notes,
             **done,
-            **layout.compare_heights(path.name, m0, np.array([hs]), 0.005),
+            **dataset_layout.compare_heights(path.name, m0, np.array([hs]), 0.005),
             "stated_hs": hs,
             "direction_reference": "true or magnetic north, as the receiver was set up",
             "sites": 1,

@@ -71,7 +71,8 @@ def require_sound(name: str, stream: IO[bytes]) -> list[str]:
     size = stream.seek(0, io.SEEK_END)
     if size > MOST_FILE_BYTES:
         raise ReaderError(
-            f"{name} must be at most {MOST_FILE_BYTES >> 30} GiB, got {size} bytes (cut out one place with xarray)"
+            f"{name} must be at most {MOST_FILE_BYTES >> 30} GiB, "
+            f"got {size} bytes (cut out one place with xarray)"
         )
     if isinstance(stream, io.BytesIO):
         longest = require_sound_heaps(name, stream.getvalue())
@@ -132,10 +133,8 @@ def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int
     h5py: Any = importlib.import_module("h5py")
     unread, axes = [], 0
     with h5py.File(stream, "r") as file:
-        file.attrs.get(
-            "_nc3_strict"
-            # where this fails, h5netcdf would leave a half-open file behind, and complaints on stderr
-        )
+        # Where this fails, h5netcdf would leave a half-open file behind, and complaints on stderr.
+        file.attrs.get("_nc3_strict")
         _require_sane_attributes(h5py, f"{name}: the file", file.id, size, longest)
         for path, item in _objects(h5py, name, file.id):
             where = f"{name}: variable {path}"
@@ -146,7 +145,8 @@ def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int
                     unread.append(path)
             if axes > MOST_AXIS_BYTES:
                 raise ReaderError(
-                    f"{name} must hold at most {MOST_AXIS_BYTES >> 20} MiB of axes, got more by variable {path}"
+                    f"{name} must hold at most {MOST_AXIS_BYTES >> 20} MiB of axes, "
+                    f"got more by variable {path}"
                 )
     return unread
 
@@ -165,7 +165,8 @@ def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
             path = folder + key.decode("utf-8", "replace")
             if count > MOST_OBJECTS:
                 raise ReaderError(
-                    f"{name} must hold at most {MOST_OBJECTS} variables and groups, got more (cut it with xarray)"
+                    f"{name} must hold at most {MOST_OBJECTS} variables and groups, "
+                    "got more (cut it with xarray)"
                 )
             kind = group.links.get_info(key).type
             if kind != h5py.h5l.TYPE_HARD:
@@ -174,7 +175,8 @@ def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
                     h5py.h5l.TYPE_EXTERNAL: "a link to another file",
                 }
                 raise ReaderError(
-                    f"{name}: variable {path} must lie in the file itself, got {words.get(kind, 'a user-defined link')}"
+                    f"{name}: variable {path} must lie in the file itself, "
+                    f"got {words.get(kind, 'a user-defined link')}"
                 )
             item = h5py.h5o.open(group, key)
             address = h5py.h5o.get_info(item).addr
@@ -223,20 +225,23 @@ def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
             code = plan.get_filter(i)[0]
             if code not in _FILTERS:
                 raise ReaderError(
-                    f"{where} must be compressed by a filter of HDF5's own ({', '.join(_FILTERS.values())}), "
+                    f"{where} must be compressed by a filter of HDF5's own "
+                    f"({', '.join(_FILTERS.values())}), "
                     f"got filter {code} (convert it with nccopy -d 1)"
                 )
         chunk = plan.get_chunk()
         if np.prod(chunk, dtype=np.float64) * width > MOST_CHUNK_BYTES:
             raise ReaderError(
-                f"{where} must have chunks of at most {MOST_CHUNK_BYTES >> 20} MiB, got {chunk} of {width} bytes each"
+                f"{where} must have chunks of at most {MOST_CHUNK_BYTES >> 20} MiB, "
+                f"got {chunk} of {width} bytes each"
             )
     declared = float(np.prod(shape or (0,), dtype=np.float64)) * width
     if len(shape or ()) != 1:
         return 0
     if declared > 2**20 + MOST_RATIO * size:
         raise ReaderError(
-            f"{where} must not be larger than its file can hold, got {shape} of {width} bytes each in {size} bytes"
+            f"{where} must not be larger than its file can hold, "
+            f"got {shape} of {width} bytes each in {size} bytes"
         )
     return int(declared)
 

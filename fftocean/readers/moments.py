@@ -5,7 +5,7 @@ from typing import Any, Final
 import numpy as np
 
 from fftocean.arrays import Complex, Real
-from fftocean.readers.entropy import maximum_entropy
+from fftocean.readers.maximum_entropy import maximum_entropy
 
 METHOD: Final = "maximum entropy (Kobune & Hashimoto 1986)"
 _CHUNK: Final = 64  # records unfolded at a time: what they take stays in the cache

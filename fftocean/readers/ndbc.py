@@ -5,7 +5,7 @@ archive ("historical").
 Realtime: a set of five, `.data_spec` with S(f) and `.swdir .swdir2 .swr1 .swr2` with the mean
 directions a1, a2 and the coherences r1, r2 of D = (1/pi)(1/2 + r1 cos(theta - a1) + r2 cos 2(theta
 - a2)), directions FROM, clockwise from north. That series, cut after two terms, goes negative; here
-  its two moments are unfolded by maximum entropy instead (`entropy.py`).
+  its two moments are unfolded by maximum entropy instead (`maximum_entropy.py`).
 Historical: S(f) alone.
 
 Source: NDBC, Measurement Descriptions and Units; Earle, NDBC Technical Document 96-01 (1996).
@@ -23,7 +23,7 @@ import numpy as np
 from fftocean.arrays import Complex, Integer, Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout, near_misses
+from fftocean.readers import bounded_reads, dataset_layout, near_misses
 from fftocean.readers.moments import compass, unfold
 from fftocean.readers.reader import Reader
 
@@ -47,12 +47,12 @@ class _Column:
 # 99 is a direction like any other, but no coherence, and as a density to the last decimal it is a
 # fill value, not a storm.
 _KINDS: Final = {
-    ".data_spec": _Column("spec_1", "m2/Hz", 360.0 * layout.LARGEST, (99.0, 999.0, 9999.0)),
+    ".data_spec": _Column("spec_1", "m2/Hz", 360.0 * dataset_layout.LARGEST, (99.0, 999.0, 9999.0)),
     ".swdir": _Column("alpha1_1", "degrees", 360.0, (999.0, 9999.0)),
     ".swdir2": _Column("alpha2_1", "degrees", 360.0, (999.0, 9999.0)),
     ".swr1": _Column(
         "r1_1", "", 1.1, (99.0, 999.0, 9999.0)
-    ),  # beyond 1 by noise; `entropy` draws it in
+    ),  # beyond 1 by noise; `maximum_entropy` draws it in
     ".swr2": _Column("r2_1", "", 1.1, (99.0, 999.0, 9999.0)),
 }
 _DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re.DOTALL)
@@ -86,7 +86,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
         ReaderError: a file of another kind, a set with a file missing, or broken lines.
     """
     path = _set_of(path)
-    _, header = next(files.lines(path))
+    _, header = next(bounded_reads.lines(path))
     realtime = any(column.word in header for column in _KINDS.values())
     if not realtime:
         return _read_historical(path)
@@ -101,7 +101,8 @@ def read(path: Path, *, bins: int) -> "Dataset":
     if len(there) < len(beside):
         absent = ", ".join(stem + suffix for suffix in beside if suffix not in there)
         raise ReaderError(
-            f"{path.name} must have all four files of directions beside it, or none; missing: {absent}"
+            f"{path.name} must have all four files of directions beside it, "
+            f"or none; missing: {absent}"
         )
     moments = [_table(other, _KINDS[suffix]) for suffix, other in beside.items() if other]
     return _directed(spectrum, moments, bins)
@@ -128,7 +129,8 @@ def _set_of(path: Path) -> Path:
     found = _sibling(path, stem + ".data_spec")
     if found is None:
         raise ReaderError(
-            f"{path.name} must have {stem}.data_spec beside it, which holds the densities; it is missing"
+            f"{path.name} must have {stem}.data_spec beside it, "
+            "which holds the densities; it is missing"
         )
     return found
 
@@ -152,16 +154,17 @@ def _sibling(path: Path, name: str) -> Path | None:
 def _read_historical(path: Path) -> "Dataset":
     if re.match(r"[0-9a-z]{5}[dijk][0-9]", path.name.lower()):
         raise ReaderError(
-            f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds directions or coherences"
+            f"{path.name} must hold densities S(f) (44004w2000.txt); by its name it holds "
+            "directions or coherences"
         )
     return _undirected(_table(path, _KINDS[".data_spec"]), "NDBC historical text")
 
 
 def _undirected(table: _Table, source_format: str) -> "Dataset":
     where = f"{table.name}: the header"
-    frequency, order = layout.frequencies(where, table.frequency)
-    density, counts = layout.densities(table.name, table.values[:, order], "m2/Hz")
-    return layout.dataset(
+    frequency, order = dataset_layout.frequencies(where, table.frequency)
+    density, counts = dataset_layout.densities(table.name, table.values[:, order], "m2/Hz")
+    return dataset_layout.dataset(
         source=table.name,
         source_format=source_format,
         frequency=frequency,
@@ -174,7 +177,9 @@ def _undirected(table: _Table, source_format: str) -> "Dataset":
 def _directed(
     spectrum: _Table, moments: list[_Table], bins: int, source_format: str = "NDBC realtime text"
 ) -> "Dataset":
-    frequency, order = layout.frequencies(f"{spectrum.name}: the frequencies", spectrum.frequency)
+    frequency, order = dataset_layout.frequencies(
+        f"{spectrum.name}: the frequencies", spectrum.frequency
+    )
     for table in moments:
         if not np.array_equal(table.frequency, spectrum.frequency):
             raise ReaderError(
@@ -190,14 +195,15 @@ def _directed(
     s, a1, a2, r1, r2 = (
         table.values[np.searchsorted(table.time, time)][:, order] for table in (spectrum, *moments)
     )
-    if s.size * bins > layout.MAX_VALUES:
+    if s.size * bins > dataset_layout.MAX_VALUES:
         raise ReaderError(
-            f"{spectrum.name} must have at most {layout.MAX_VALUES} values, got {s.shape} by {bins} bins (ask for fewer bins)"
+            f"{spectrum.name} must have at most {dataset_layout.MAX_VALUES} values, "
+            f"got {s.shape} by {bins} bins (ask for fewer bins)"
         )
-    s, counts = layout.densities(spectrum.name, s, "m2/Hz")
+    s, counts = dataset_layout.densities(spectrum.name, s, "m2/Hz")
     c1, c2 = _moment(r1, a1, 1), _moment(r2, a2, 2)
     density, done = unfold(s, c1, c2, bins)
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=spectrum.name,
         source_format=source_format,
         frequency=frequency,
@@ -228,7 +234,7 @@ def _datetimes(seconds: Integer) -> Any:
 
 def _table(path: Path, column: _Column, hint: str = "") -> _Table:
     """Read one file whole."""
-    rows = files.lines(path)
+    rows = bounded_reads.lines(path)
     where, header = next(rows)
     match = _DATE.match(header)
     if not match:
@@ -239,7 +245,7 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
         held = next(c.word for c in _KINDS.values() if c.word in match[3])
         raise ReaderError(f"{where} must announce {column.word}, got {held}{hint}")
     skip = date_fields + ("Sep_Freq" in match[3])
-    head = None if realtime else [files.number(where, token) for token in match[3].split()]
+    head = None if realtime else [bounded_reads.number(where, token) for token in match[3].split()]
     records: dict[int, Real] = {}
     announced: list[float] = []
     repeated = 0
@@ -259,8 +265,8 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
         numbers = np.fromiter(_values(where, values, column), dtype=np.float64, count=len(values))
         repeated += seconds in records
         records.setdefault(seconds, numbers)
-        if len(records) * len(f) > layout.MAX_VALUES:
-            raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
+        if len(records) * len(f) > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if not records:
         raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
     times = sorted(records)
@@ -278,14 +284,15 @@ def _pairs(where: str, tokens: list[str]) -> tuple[list[str], list[float]]:
     bracketed = tokens[1::2]
     if len(tokens) % 2 or not all(t.startswith("(") and t.endswith(")") for t in bracketed):
         raise ReaderError(
-            f"{where} must hold pairs like 0.060 (0.063) after the date, got {' '.join(tokens[-2:])!r:.40} last: is it cut?"
+            f"{where} must hold pairs like 0.060 (0.063) after the date, "
+            f"got {' '.join(tokens[-2:])!r:.40} last: is it cut?"
         )
-    return tokens[0::2], [files.number(where, token[1:-1]) for token in bracketed]
+    return tokens[0::2], [bounded_reads.number(where, token[1:-1]) for token in bracketed]
 
 
 def _values(where: str, tokens: list[str], column: _Column) -> Iterator[float]:
     for token in tokens:
-        value = np.nan if token == "MM" else files.number(where, token)
+        value = np.nan if token == "MM" else bounded_reads.number(where, token)
         if value in column.fills:
             value = np.nan
         if value < -1e-12 or value > column.high:
@@ -303,7 +310,8 @@ def _seconds(where: str, tokens: list[str], fields: int) -> int:
     """
     if len(tokens) < fields or not all(re.fullmatch(r"[0-9]{1,4}", t) for t in tokens):
         raise ReaderError(
-            f"{where} must begin with a date in {fields} whole numbers, got {' '.join(tokens)!r:.40}"
+            f"{where} must begin with a date in {fields} whole numbers, "
+            f"got {' '.join(tokens)!r:.40}"
         )
     year, *rest = (int(t) for t in tokens)
     try:
@@ -327,7 +335,8 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
 READER: Final = Reader(
     name="NDBC text",
     extensions=(".data_spec", ".txt"),
-    description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), or a year of S(f).",
+    description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), "
+    "or a year of S(f).",
     sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
     read=_read,
     files=files_of,

@@ -28,11 +28,11 @@ from fftocean.errors import ParameterError, ReaderError
 from fftocean.limits import Count
 from fftocean.readers import (
     bands,
+    bounded_reads,
     circular,
     classic,
-    files,
+    dataset_layout,
     hdf5,
-    layout,
     moments,
     package,
     units,
@@ -94,11 +94,12 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             unknown or at odds.
         ParameterError: `site` is not in the file.
     """
-    xr = layout.science()
-    magic = files.head(path, 8)
+    xr = dataset_layout.science()
+    magic = bounded_reads.head(path, 8)
     if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
         raise ReaderError(
-            f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, got CDF version {magic[3]} (convert it with nccopy)"
+            f"{path.name} must be netCDF 3 (classic or 64-bit offset) or 4, "
+            f"got CDF version {magic[3]} (convert it with nccopy)"
         )
     modern = magic.startswith(hdf5.MAGIC)
     with _broken(path.name), warnings.catch_warnings():
@@ -107,7 +108,11 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
         )  # of two fill values, odd calendars: what matters is checked below
         # A stream of our own: what was checked is what is read, and the libraries cannot map the
         # file or leave it open where they fail.
-        with files.contents(path) if files.is_packed(path) else files.opened(path) as stream:
+        with (
+            bounded_reads.contents(path)
+            if bounded_reads.is_packed(path)
+            else bounded_reads.opened(path) as stream
+        ):
             unread: list[str] = []
             if modern:
                 unread = hdf5.require_sound(path.name, stream)
@@ -139,13 +144,14 @@ def _broken(name: str) -> Iterator[None]:
         raise
     except ImportError as error:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
-            raise layout.missing(error) from error
+            raise dataset_layout.missing(error) from error
         raise ReaderError(
             f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
         ) from error
     except Exception as error:
         raise ReaderError(
-            f"{name} cannot be read as netCDF: {type(error).__name__}: {str(error) or 'no reason given'!s:.200}"
+            f"{name} cannot be read as netCDF: {type(error).__name__}: "
+            f"{str(error) or 'no reason given'!s:.200}"
         ) from error
 
 
@@ -170,7 +176,8 @@ def tidy(
         time: one time only; all of them where None.
         source: what to call it in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
-        negative: what to do with negative densities: "refuse" or "clip", see `layout.densities`.
+        negative: what to do with negative densities: "refuse" or "clip", see
+            `dataset_layout.densities`.
         file_bytes: size of the file from which values are yet to be read, where there is one.
 
     Raises:
@@ -198,16 +205,18 @@ def tidy(
         directional = "dir" in axes
     if directional and "dir" not in axes:
         raise ReaderError(
-            f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), got {tuple(spectrum.dims)}"
+            f"{where} must have a direction dimension (a spectrum without is `ef`, in m2 s), "
+            f"got {tuple(spectrum.dims)}"
         )
 
     picked, notes = _pick(where, spectrum, axes, site=site, time=time)
     if file_bytes is not None:
         _require_sane_read(where, spectrum, picked, file_bytes)
     spectrum = spectrum.isel(picked)
-    if spectrum.size > layout.MAX_VALUES:
+    if spectrum.size > dataset_layout.MAX_VALUES:
         raise ReaderError(
-            f"{where} must have at most {layout.MAX_VALUES} values at one place, got {spectrum.size} (open and cut it with xarray)"
+            f"{where} must have at most {dataset_layout.MAX_VALUES} values at one place, "
+            f"got {spectrum.size} (open and cut it with xarray)"
         )
     order = [
         axes[role]
@@ -216,13 +225,13 @@ def tidy(
     ]
     values = _numbers(where, spectrum.transpose(*order))
     with np.errstate(invalid="ignore"):
-        values[np.abs(values) > layout.FILL] = np.nan
+        values[np.abs(values) > dataset_layout.FILL] = np.nan
     if "time" not in axes or axes["time"] not in spectrum.dims:
         values = values[np.newaxis]
 
     there, f = _frequency(raw, axes, family, source)
-    kept, left_out = layout.above_zero(f)
-    frequency, f_order = layout.frequencies(there, f[kept])
+    kept, left_out = dataset_layout.above_zero(f)
+    frequency, f_order = dataset_layout.frequencies(there, f[kept])
     f_order = np.flatnonzero(kept)[f_order]
     notes |= left_out
     edges = _bands(raw, axes["freq"], frequency, f_order, source)
@@ -241,19 +250,20 @@ def tidy(
                 else "come from there, and so it is taken: the attribute is left over"
             )
             notes["direction_note"] = (
-                f"{there} says that waves go to there, in a layout in which they come from there: they {taken}"
+                f"{there} says that waves go to there, in a layout in which they come from "
+                f"there: they {taken}"
             )
         values, bearing, repeated = package.once_round(values, bearing)
         notes |= repeated
         if goes_to:
             bearing = np.mod(bearing, 360.0) + 180.0
-        direction, d_order = layout.directions(there, bearing)
+        direction, d_order = dataset_layout.directions(there, bearing)
         values = values[:, :, d_order]
     if family.log10:
         values, empty = _from_log10(where, values)
         notes["below_threshold_values"] = empty
     unit = "m2/Hz/degree" if directional else "m2/Hz"
-    density, counts = layout.densities(where, values, unit, negative=negative)
+    density, counts = dataset_layout.densities(where, values, unit, negative=negative)
     if not directional:
 
         def at_place(variable: "DataArray") -> Real:
@@ -268,7 +278,7 @@ def tidy(
             density, done = moments.unfold(density, *pair, bins)
             direction = moments.compass(bins)
             notes |= done
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=source if source != "the dataset" else str(raw.attrs.get("source", source)),
         source_format=str(
             raw.attrs.get("source_format", circular.FAMILIES.get(str(spectrum.name), family.name))
@@ -288,7 +298,7 @@ def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Rea
     """The numbers of one place, (time, f), NaN where they are fill values."""
     values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
     with np.errstate(invalid="ignore"):
-        values[np.abs(values) > layout.FILL] = np.nan
+        values[np.abs(values) > dataset_layout.FILL] = np.nan
     return np.atleast_2d(values)
 
 
@@ -301,7 +311,8 @@ def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
     if len(found) != 1:
         held = ", ".join(str(name) for name in found or raw.data_vars) or "nothing"
         raise ReaderError(
-            f"{source} must hold one wave spectrum (efth, d2fd, or a variable with its standard_name), got {held:.200}"
+            f"{source} must hold one wave spectrum (efth, d2fd, "
+            f"or a variable with its standard_name), got {held:.200}"
         )
     return raw[found[0]], _SPECTRA[raw[found[0]].attrs["standard_name"]]
 
@@ -376,7 +387,8 @@ def _require_sane_read(
         )  # whole chunks are unpacked
     if read > _MOST_READ or read > 2**20 + hdf5.MOST_RATIO * file_bytes:
         raise ReaderError(
-            f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} MiB, and no more than its file "
+            f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} "
+            "MiB, and no more than its file "
             f"of {file_bytes} bytes can hold, got {read >> 20} MiB (cut out the place with xarray)"
         )
 
@@ -478,7 +490,8 @@ def _direction(
         if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
             if turn > 4.0 * np.pi + 1e-3:
                 raise ReaderError(
-                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in degrees?"
+                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in "
+                    "degrees?"
                 )
             values = np.degrees(values)
         elif unit is None or not unit.is_(rad=1):
@@ -498,7 +511,8 @@ def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
         return None
     if values.min() < 1.0 or values.max() > most:
         raise ReaderError(
-            f"{where} must hold bin numbers between 1 and {most}, got {values.min():g} to {values.max():g}"
+            f"{where} must hold bin numbers between 1 and {most}, "
+            f"got {values.min():g} to {values.max():g}"
         )
     return values
 
@@ -519,13 +533,15 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
             said[False] = f"{key} {text!r:.60}"
     if len(said) == 2:
         raise ReaderError(
-            f"{where} must say one way, where waves come from or where they go to, got {said[False]} and {said[True]}"
+            f"{where} must say one way, where waves come from or where they go to, "
+            f"got {said[False]} and {said[True]}"
         )
     if said:
         return next(iter(said))
     if family.goes_to is None:
         raise ReaderError(
-            f"{where} must say whether waves come from there or go there (standard_name sea_surface_wave_from_direction or _to_direction)"
+            f"{where} must say whether waves come from there or go there (standard_name "
+            "sea_surface_wave_from_direction or _to_direction)"
         )
     return family.goes_to
 
@@ -561,7 +577,8 @@ def _require_sane_packing(where: str, variable: "DataArray") -> None:
                 else f"of a size up to {high:g}"
             )
             raise ReaderError(
-                f"{where}: attribute {key} must be a number {rule}, got {variable.encoding.get(key)!r:.40}"
+                f"{where}: attribute {key} must be a number {rule}, "
+                f"got {variable.encoding.get(key)!r:.40}"
             )
 
 
@@ -621,7 +638,8 @@ def _unit(where: str, text: Any, directional: bool) -> float:
     right = {"m": 2, "s": 1, "rad": -1} if directional else {"m": 2, "s": 1}
     if unit is None or not unit.is_(**right):
         raise ReaderError(
-            f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, got {text!r:.60}"
+            f"{where} must have units m2/Hz{' per degree or radian' if directional else ''}, "
+            f"got {text!r:.60}"
         )
     return unit.scale * (np.pi / 180.0 if directional else 1.0)
 
@@ -643,7 +661,8 @@ def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
     if words & {"ten", "10", "log10", "lg", "decadic", "common"}:
         return units.Unit(base=10.0)
     raise ReaderError(
-        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), got {said!r:.80}"
+        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), "
+        f"got {said!r:.80}"
     )
 
 
@@ -653,7 +672,7 @@ def _from_log10(where: str, values: Real) -> tuple[Real, int]:
     0, but where a whole spectrum is missing (land, ice) it stays missing.
     """
     with np.errstate(invalid="ignore"):
-        wrong = values > np.log10(layout.LARGEST * 180.0 / np.pi)
+        wrong = values > np.log10(dataset_layout.LARGEST * 180.0 / np.pi)
     if np.any(wrong):
         raise ReaderError(
             f"{where} must be log10 of a density, at most 7.7, got {values[wrong][0]}"
@@ -678,7 +697,8 @@ def _times(
     )
     if not np.issubdtype(times.dtype, np.datetime64):
         raise ReaderError(
-            f"{source}: variable {name} must be a time of the usual calendar with units like 'days since 1990-01-01', got {times.dtype}"
+            f"{source}: variable {name} must be a time of the usual calendar with units like "
+            f"'days since 1990-01-01', got {times.dtype}"
         )
     if np.any(np.isnat(times)):
         raise ReaderError(f"{source}: variable {name} must be a time everywhere, got a missing one")
@@ -731,7 +751,8 @@ def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float
 READER: Final = Reader(
     name="netCDF",
     extensions=(".nc",),
-    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, and what follows the CF conventions.",
+    description="Spectra of WAVEWATCH III, ERA5, the wavespectra package, NDBC, "
+    "and what follows the CF conventions.",
     sniff=lambda head: recognises(head.data),
     read=lambda path, site, bins: read(path, site=site, bins=bins),
 )

@@ -21,7 +21,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout
+from fftocean.readers import bounded_reads, dataset_layout
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class _Rows:
     def __init__(self, path: Path) -> None:
         self.name = path.name
         self.where = path.name
-        self._lines: Iterator[tuple[str, str]] = files.lines(path, blank=True)
+        self._lines: Iterator[tuple[str, str]] = bounded_reads.lines(path, blank=True)
 
     def maybe(self) -> list[str] | None:
         for where, line in self._lines:
@@ -68,17 +68,17 @@ class _Rows:
 
     def number(self, key: str) -> float:
         cells = self.keyed(key, key)
-        return files.number(self.where, cells[0])
+        return bounded_reads.number(self.where, cells[0])
 
     def count(self, key: str) -> int:
         cells = self.keyed(key, key)
-        return files.count(self.where, cells[0] or "nothing", _MOST)
+        return bounded_reads.count(self.where, cells[0] or "nothing", _MOST)
 
     def numbers(self, cells: list[str], count: int) -> list[float]:
         """Return the first `count` cells as numbers; sums may follow them."""
         if len(cells) < count:
             raise ReaderError(f"{self.where} must hold {count} numbers, got {len(cells)}")
-        return [files.number(self.where, cell) for cell in cells[:count]]
+        return [bounded_reads.number(self.where, cell) for cell in cells[:count]]
 
 
 def read(path: Path) -> "Dataset":
@@ -92,8 +92,8 @@ def read(path: Path) -> "Dataset":
     title = ",".join(rows.next("a title"))
     nf, nd, times = rows.count("nfreqs"), rows.count("ndir"), rows.count("nrecs")
     lat, lon, depth = (rows.number(key) for key in ("Latitude", "Longitude", "Depth"))
-    if nf * nd * times > layout.MAX_VALUES:
-        raise ReaderError(f"{path.name}: more values than fit ({layout.MAX_VALUES})")
+    if nf * nd * times > dataset_layout.MAX_VALUES:
+        raise ReaderError(f"{path.name}: more values than fit ({dataset_layout.MAX_VALUES})")
     seconds: list[np.datetime64] = []
     tables: list[Real] = []
     heights: list[float] = []
@@ -119,18 +119,18 @@ def read(path: Path) -> "Dataset":
         raise ReaderError(
             f"{rows.where} must be the end, after {times} records, got {extra[0]!r:.40}"
         )
-    which, repeated = layout.in_order(np.array(seconds))
+    which, repeated = dataset_layout.in_order(np.array(seconds))
     energy, hs = np.array(tables)[which], np.array(heights)[which]
-    frequency, f_order = layout.frequencies(f"{path.name}: freq", frequency)
-    bearing, d_order = layout.directions(f"{path.name}: the directions", direction)
+    frequency, f_order = dataset_layout.frequencies(f"{path.name}: freq", frequency)
+    bearing, d_order = dataset_layout.directions(f"{path.name}: the directions", direction)
     energy = energy[:, f_order][:, :, d_order]
     edges = np.concatenate([frequency[:1], 0.5 * (frequency[1:] + frequency[:-1]), frequency[-1:]])
     step = _step(path.name, bearing)
-    density, counts = layout.densities(
+    density, counts = dataset_layout.densities(
         path.name, energy / (np.diff(edges)[:, np.newaxis] * step), "m2/Hz/degree"
     )
     m0 = np.sum(energy, axis=(1, 2))
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=path.name,
         source_format="Octopus",
         frequency=frequency,
@@ -142,7 +142,7 @@ def read(path: Path) -> "Dataset":
         bands=np.stack([edges[:-1], edges[1:]], axis=1),
         notes={
             **counts,
-            **layout.compare_heights(path.name, m0, hs, 0.01),
+            **dataset_layout.compare_heights(path.name, m0, hs, 0.01),
             "title": title[:200],
             "repeated_times": repeated,
             "sites": 1,
@@ -175,7 +175,7 @@ def _bulk(rows: _Rows) -> tuple[np.datetime64, float]:
         raise ReaderError(f"{rows.where} must begin with a time between 1900 and 2200, got {text}")
     hs = np.nan
     if "hsig" in names:
-        hs = files.number(rows.where, cells[names.index("hsig")])
+        hs = bounded_reads.number(rows.where, cells[names.index("hsig")])
     return np.datetime64(time, "s"), float(hs)
 
 

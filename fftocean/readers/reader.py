@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fftocean.readers import files
+from fftocean.readers import bounded_reads
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -24,7 +24,7 @@ class Head:
     @classmethod
     def of(cls, path: Path) -> "Head":
         """Return the head of a file, plain or gzip."""
-        return cls(path, files.head(path, HEAD_BYTES))
+        return cls(path, bounded_reads.head(path, HEAD_BYTES))
 
     @property
     def lines(self) -> list[str]:

@@ -21,7 +21,7 @@ from fftocean.physics.spectra import TabulatedSpectrum
 from fftocean.physics.spreading import Spreading
 from fftocean.physics.tabulated import TabulatedSpreading, bin_widths
 from fftocean.readers import bands
-from fftocean.readers.layout import announce
+from fftocean.readers.dataset_layout import announce
 from fftocean.readers.netcdf import tidy
 
 if TYPE_CHECKING:
@@ -96,7 +96,8 @@ class Realised:
         if "efth" in spectrum:
             if direction is not None or spreading is not None:
                 raise ParameterError(
-                    f"a spectrum with directions takes no others, got direction={direction!r}, spreading={spreading!r}"
+                    f"a spectrum with directions takes no others, got direction={direction!r}, "
+                    f"spreading={spreading!r}"
                 )
             compass, density = _whole_circle(
                 np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]), notes
@@ -110,8 +111,10 @@ class Realised:
         else:
             if direction is None or spreading is None:
                 raise ParameterError(
-                    "a spectrum without directions needs direction (toward, counter-clockwise from +x, degrees) and spreading "
-                    f"(DonelanBanner(), CosinePower(s=...), ...), got direction={direction!r}, spreading={spreading!r}"
+                    "a spectrum without directions needs direction (toward, "
+                    "counter-clockwise from +x, degrees) and spreading "
+                    f"(DonelanBanner(), CosinePower(s=...), ...), got direction={direction!r}, "
+                    f"spreading={spreading!r}"
                 )
             total = np.asarray(spectrum["ef"].values[0])
             measured = ~np.isnan(total)
@@ -120,7 +123,8 @@ class Realised:
         frequency = frequency[measured]
         if frequency.size < 2:
             raise ReaderError(
-                f"time {time} must have at least 2 frequencies that are not missing (land, ice, a silent buoy?), got {frequency.size}"
+                f"time {time} must have at least 2 frequencies that are not missing (land, ice, "
+                f"a silent buoy?), got {frequency.size}"
             )
         if missing := int(np.count_nonzero(~measured)):
             notes.append(f"{missing} missing frequencies were bridged, or left out at the ends")
@@ -130,7 +134,8 @@ class Realised:
         hs = 4.0 * math.sqrt(m0)
         if hs > SIGNIFICANT_WAVE_HEIGHT.high:
             raise ReaderError(
-                f"time {time}: the significant wave height must be {SIGNIFICANT_WAVE_HEIGHT.rule}, got {hs:g} (in other units?)"
+                f"time {time}: the significant wave height must be "
+                f"{SIGNIFICANT_WAVE_HEIGHT.rule}, got {hs:g} (in other units?)"
             )
         if not m0 > 0.0:
             warnings.warn(
@@ -146,7 +151,8 @@ class Realised:
         if lines.matched < 2:
             kept = "Hs and Tm01" if lines.matched else "Hs"
             notes.append(
-                f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' own sums, and not Tm02"
+                f"the energy lies in so few frequencies that the sea keeps {kept} of the bands' "
+                "own sums, and not Tm02"
             )
         if compass is not None:
             toward = (
@@ -180,7 +186,9 @@ class Realised:
 
 _COUNTED: Final = {
     "rounded_negatives": "values a rounding below 0 were taken as 0",
-    "below_threshold_values": "values that the file leaves out for being almost nothing were taken as 0",
+    "below_threshold_values": (
+        "values that the file leaves out for being almost nothing were taken as 0"
+    ),
     "limited_moments": "pairs of directional moments that no sea can have were drawn in",
     "undirected_densities": "densities without a direction were spread all round",
 }
@@ -211,7 +219,10 @@ def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
             notes.append(f"{count} {words}")
     f = np.asarray(spectrum["freq"].values)
     if f[0] > 0.15 and f[-1] > 3.0:
-        text = f"frequencies go from {f[0]:.3g} to {f[-1]:.3g} Hz, which is rare at sea: are they in rad/s?"
+        text = (
+            f"frequencies go from {f[0]:.3g} to {f[-1]:.3g} Hz, which is rare at sea: "
+            "are they in rad/s?"
+        )
         warnings.warn(text, SeaWarning, stacklevel=4)
         notes.append(text)
     return notes
@@ -277,7 +288,8 @@ def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real,
     if not wide.size:
         return compass, density
     notes.append(
-        f"directions leave out {float(np.sum(gaps[wide] - 2.0 * step)):g} degrees of the circle: nothing comes from there"
+        f"directions leave out {float(np.sum(gaps[wide] - 2.0 * step)):g} degrees of the "
+        "circle: nothing comes from there"
     )
     ends = np.concatenate([compass[wide] + step, compass[(wide + 1) % compass.size] - step]) % 360.0
     silent = np.all(np.isnan(density), axis=1, keepdims=True)

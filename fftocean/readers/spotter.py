@@ -20,7 +20,7 @@ import numpy as np
 from fftocean.arrays import Complex, Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import bands, files, layout, moments
+from fftocean.readers import bands, bounded_reads, dataset_layout, moments
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -83,10 +83,10 @@ def read(path: Path, *, bins: int) -> "Dataset":
         raise ReaderError(
             f"{path.name}: Epoch Time must be seconds since 1970, got {time[wrong][0]}"
         )
-    which, repeated = layout.in_order(np.rint(time))
+    which, repeated = dataset_layout.in_order(np.rint(time))
     records = {name: values[which] for name, values in records.items()}
-    frequency, order = layout.frequencies(f"{path.name}: f", f[0])
-    density, counts = layout.densities(
+    frequency, order = dataset_layout.frequencies(f"{path.name}: f", f[0])
+    density, counts = dataset_layout.densities(
         f"{path.name}: varianceDensity", records["varianceDensity"][:, order], "m2/Hz"
     )
     notes: dict[str, Any] = {**counts, "repeated_times": repeated, "sites": 1}
@@ -98,7 +98,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
             raise ReaderError(f"{path.name}: df must be the same in all lines, got others")
         edges = bands.of_widths(f"{path.name}: df", frequency, width)
     if "hs" in columns:
-        notes |= layout.compare_heights(
+        notes |= dataset_layout.compare_heights(
             path.name, np.nansum(density * width, axis=1), records["hs"][:, 0], 5e-4
         )
     c1, c2 = _moments(path.name, columns, records)
@@ -107,7 +107,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
         density, done = moments.unfold(density, c1[:, order], c2[:, order], bins)
         direction = moments.compass(bins)
         notes |= done
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=path.name,
         source_format="Sofar Spotter CSV",
         frequency=frequency,
@@ -156,7 +156,7 @@ def _moments(
 
 def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Real]]:
     """Return which columns hold what, and the numbers of each by record."""
-    rows = files.lines(path)
+    rows = bounded_reads.lines(path)
     where, header = next(rows)
     names = [re.sub(r"\(.*", "", name).strip().lstrip("\ufeff") for name in header.split(",")]
     columns = _columns(where, names)
@@ -173,12 +173,12 @@ def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Rea
             [
                 np.nan
                 if cells[i] in _MISSING
-                else files.number(f"{where}, column {names[i]},", cells[i])
+                else bounded_reads.number(f"{where}, column {names[i]},", cells[i])
                 for i in wanted
             ]
         )
-        if len(records) * count * bins > layout.MAX_VALUES:
-            raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
+        if len(records) * count * bins > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if not records:
         raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
     table, made, at = np.array(records), {}, 0

@@ -15,7 +15,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout
+from fftocean.readers import bounded_reads, dataset_layout
 from fftocean.readers.reader import Reader
 
 if TYPE_CHECKING:
@@ -40,14 +40,15 @@ class _Lines:
 
     def __init__(self, path: Path) -> None:
         self.name = path.name
-        self._lines: Iterator[tuple[str, str]] = files.lines(path)
+        self._lines: Iterator[tuple[str, str]] = bounded_reads.lines(path)
         self.where = path.name
 
     def next(self, wanted: str) -> str:
         line = self.maybe()
         if line is None:
             raise ReaderError(
-                f"{self.name} ends after {self.where.rpartition(': ')[2]}, where {wanted} must follow: the file is cut short"
+                f"{self.name} ends after {self.where.rpartition(': ')[2]}, "
+                f"where {wanted} must follow: the file is cut short"
             )
         return line
 
@@ -63,16 +64,17 @@ class _Lines:
         A count, then as many lines; of each the first `columns` numbers (a name may follow a
         place).
         """
-        rows = files.count(self.where, self.next(f"the number of {wanted}"), _MOST)
+        rows = bounded_reads.count(self.where, self.next(f"the number of {wanted}"), _MOST)
         return np.array([self._row(wanted, columns) for _ in range(rows)])
 
     def _row(self, wanted: str, columns: int) -> list[float]:
         tokens = self.next(wanted).split()
         if len(tokens) < columns:
             raise ReaderError(
-                f"{self.where} must hold {columns} numbers for {wanted}, got {' '.join(tokens)!r:.40}"
+                f"{self.where} must hold {columns} numbers for {wanted}, "
+                f"got {' '.join(tokens)!r:.40}"
             )
-        return [files.number(self.where, token) for token in tokens[:columns]]
+        return [bounded_reads.number(self.where, token) for token in tokens[:columns]]
 
 
 def read(path: Path, *, site: int) -> "Dataset":
@@ -95,7 +97,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     keyword = lines.next("TIME or LONLAT").split()[0]
     dated = keyword == "TIME"
     if dated:
-        code = files.count(lines.where, lines.next("the time coding option"), 6)
+        code = bounded_reads.count(lines.where, lines.next("the time coding option"), 6)
         if code != 1:
             raise ReaderError(
                 f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
@@ -110,7 +112,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     keyword = lines.next("AFREQ or RFREQ").split()[0]
     if keyword not in ("AFREQ", "RFREQ"):
         raise ReaderError(f"{lines.where} must be AFREQ or RFREQ, got {keyword!r:.40}")
-    frequency, f_order = layout.frequencies(
+    frequency, f_order = dataset_layout.frequencies(
         f"{lines.name}: {keyword}", lines.table("frequencies", 1)
     )
     keyword = lines.next("NDIR or CDIR").split()[0]
@@ -121,10 +123,11 @@ def read(path: Path, *, site: int) -> "Dataset":
     if keyword == "CDIR":
         bearings = 270.0 - bearings  # toward, counter-clockwise from x, which is taken as east
         bearings = np.where(np.abs(bearings) > 360.0, np.mod(bearings, 360.0), bearings)
-    direction, d_order = layout.directions(f"{lines.name}: {keyword}", bearings)
+    direction, d_order = dataset_layout.directions(f"{lines.name}: {keyword}", bearings)
     if frequency.size * direction.size > _MOST:
         raise ReaderError(
-            f"{lines.name} must have at most {_MOST} frequencies times directions, got {frequency.size} by {direction.size}"
+            f"{lines.name} must have at most {_MOST} frequencies times directions, "
+            f"got {frequency.size} by {direction.size}"
         )
     per_degree, fill = _quantity(lines)
 
@@ -143,15 +146,15 @@ def read(path: Path, *, site: int) -> "Dataset":
             block = _block(lines, keyword, shape, fill, wanted=place == site)
             if place == site:
                 blocks.append(block)
-        if len(blocks) * shape[0] * shape[1] > layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
+        if len(blocks) * shape[0] * shape[1] > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if not blocks:
         raise ReaderError(
             f"{lines.name} must hold at least one spectrum after its header, got none"
         )
     values = np.array(blocks)[:, f_order][:, :, d_order] * per_degree
-    density, counts = layout.densities(lines.name, values, "m2/Hz/degree")
-    return layout.dataset(
+    density, counts = dataset_layout.densities(lines.name, values, "m2/Hz/degree")
+    return dataset_layout.dataset(
         source=lines.name,
         source_format="SWAN 2-D ASCII",
         frequency=frequency,
@@ -168,16 +171,17 @@ def _quantity(lines: _Lines) -> tuple[float, float]:
     keyword = lines.next("QUANT").split()[0]
     if keyword != "QUANT":
         raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")
-    if files.count(lines.where, lines.next("the number of quantities"), 3) != 1:
+    if bounded_reads.count(lines.where, lines.next("the number of quantities"), 3) != 1:
         raise ReaderError(f"{lines.where}: a 2-D file must hold 1 quantity, got more")
     quantity = lines.next("VaDens or EnDens").split()[0]
     unit = lines.next("the unit").split()[0]
     known = {("VaDens", "m2/Hz/degr"): 1.0, ("EnDens", "J/m2/Hz/degr"): 1.0 / _ENERGY}
     if (quantity, unit) not in known:
         raise ReaderError(
-            f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in J/m2/Hz/degr, got {quantity} in {unit}"
+            f"{lines.where}: the quantity must be VaDens in m2/Hz/degr or EnDens in "
+            f"J/m2/Hz/degr, got {quantity} in {unit}"
         )
-    return known[quantity, unit], files.number(
+    return known[quantity, unit], bounded_reads.number(
         lines.where, lines.next("the exception value").split()[0]
     )
 
@@ -193,7 +197,7 @@ def _block(
         return np.full(shape if wanted else (0, 0), 0.0 if word == "ZERO" else np.nan)
     if word != "FACTOR":
         raise ReaderError(f"{lines.where} must be FACTOR, ZERO or NODATA, got {keyword!r:.40}")
-    factor = files.number(lines.where, lines.next("the factor"))
+    factor = bounded_reads.number(lines.where, lines.next("the factor"))
     if not factor >= 0.0:
         raise ReaderError(f"{lines.where}: the factor must be at least 0, got {factor}")
     block = np.empty(shape)
@@ -209,13 +213,14 @@ def _block(
             row[:] = [_density(lines.where, token, fill) for token in tokens]
     if factor == 0.0 and wanted and np.any(block > 0.0):
         raise ReaderError(
-            f"{lines.where}: the factor must be above 0 for densities that are not 0, got 0 (SWAN writes ZERO for a flat sea)"
+            f"{lines.where}: the factor must be above 0 for densities that are not 0, "
+            "got 0 (SWAN writes ZERO for a flat sea)"
         )
     return block * factor
 
 
 def _density(where: str, token: str, fill: float) -> float:
-    value = files.number(where, token)
+    value = bounded_reads.number(where, token)
     if value == fill:
         return float("nan")
     if value < 0.0:

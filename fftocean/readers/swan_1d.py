@@ -18,7 +18,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout, moments, swan
+from fftocean.readers import bounded_reads, dataset_layout, moments, swan
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def recognises(head: Head) -> bool:
     if not swan.recognises(head.first_line):
         return False
     axes = 0
-    for _, line in files.lines(head.path):
+    for _, line in bounded_reads.lines(head.path):
         word = line.split()[0]
         axes += word in ("AFREQ", "RFREQ")
         if word in ("QUANT", "NDIR", "CDIR"):
@@ -81,21 +81,21 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
             block = _block(lines, line, f.size, quantities, number=place + 1)
             if place == site:
                 blocks.append(block)
-        if len(blocks) * f.size * bins > layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
+        if len(blocks) * f.size * bins > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
     if not blocks:
         raise ReaderError(
             f"{lines.name} must hold at least one spectrum after its header, got none"
         )
     values = np.array(blocks)  # (time, f, quantity)
-    kept, notes = layout.above_zero(f)
-    frequency, order = layout.frequencies(f"{lines.name}: {keyword}", f[kept])
+    kept, notes = dataset_layout.above_zero(f)
+    frequency, order = dataset_layout.frequencies(f"{lines.name}: {keyword}", f[kept])
     values = values[:, kept][:, order]
     columns = {name: values[:, :, i] for i, (name, _, _) in enumerate(quantities)}
     name, scale = next(
         (name, scale) for name, scale, _ in quantities if name in ("VaDens", "EnDens")
     )
-    density, counts = layout.densities(lines.name, columns[name] * scale, "m2/Hz")
+    density, counts = dataset_layout.densities(lines.name, columns[name] * scale, "m2/Hz")
     direction = None
     mean = columns.get("NDIR", 270.0 - columns["CDIR"] if "CDIR" in columns else None)
     if mean is not None and "DSPRDEGR" in columns:
@@ -103,7 +103,7 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
         density, done = moments.unfold(density, c1, np.full_like(c1, np.nan), bins)
         direction = moments.compass(bins)
         notes |= done
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=lines.name,
         source_format="SWAN 1-D ASCII",
         frequency=frequency,
@@ -120,7 +120,7 @@ def _header(lines: swan._Lines) -> tuple[bool, tuple[str, str], Real]:
     keyword = lines.next("TIME or LONLAT").split()[0]
     dated = keyword == "TIME"
     if dated:
-        code = files.count(lines.where, lines.next("the time coding option"), 6)
+        code = bounded_reads.count(lines.where, lines.next("the time coding option"), 6)
         if code != 1:
             raise ReaderError(
                 f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
@@ -137,7 +137,7 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
     if keyword != "QUANT":
         raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")
     found = []
-    for _ in range(files.count(lines.where, lines.next("the number of quantities"), 3)):
+    for _ in range(bounded_reads.count(lines.where, lines.next("the number of quantities"), 3)):
         name = lines.next("a quantity").split()[0]
         if name not in _KINDS:
             raise ReaderError(f"{lines.where} must be one of {', '.join(_KINDS)}, got {name!r:.40}")
@@ -153,7 +153,11 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
         else:
             scale = 1.0
         found.append(
-            (name, scale, files.number(lines.where, lines.next("the exception value").split()[0]))
+            (
+                name,
+                scale,
+                bounded_reads.number(lines.where, lines.next("the exception value").split()[0]),
+            )
         )
     names = [name for name, _, _ in found]
     if (
@@ -198,7 +202,7 @@ def _block(
 
 
 def _value(where: str, token: str, name: str, scale: float, fill: float) -> float:  # noqa: ARG001
-    value = files.number(where, token)
+    value = bounded_reads.number(where, token)
     if value == fill:
         return float("nan")
     low, high = {"NDIR": (-360.0, 720.0), "CDIR": (-360.0, 720.0), "DSPRDEGR": (0.0, 180.0)}.get(

@@ -19,7 +19,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout
+from fftocean.readers import bounded_reads, dataset_layout
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def read(path: Path) -> "Dataset":
     Raises:
         ReaderError: a report of another type, keys that are missing, or counts that do not agree.
     """
-    rows = files.lines(path)
+    rows = bounded_reads.lines(path)
     where, title = next(rows)
     keys: dict[str, tuple[str, str]] = {}
     table: list[list[float]] = []
@@ -55,11 +55,13 @@ def read(path: Path) -> "Dataset":
             keys[" ".join(key.split()).upper()] = (where, value.strip())
         else:
             nf = nf or _count(path.name, keys, "NUMBER OF FREQUENCIES")
-            table.append([files.number(where, token) for token in line.replace(",", " ").split()])
+            table.append(
+                [bounded_reads.number(where, token) for token in line.replace(",", " ").split()]
+            )
             if len(table) > nf:
                 raise ReaderError(f"{where} must be the end, after {nf} rows, got more")
-            if len(table) * len(table[0]) > layout.MAX_VALUES:
-                raise ReaderError(f"{where}: more values than fit ({layout.MAX_VALUES})")
+            if len(table) * len(table[0]) > dataset_layout.MAX_VALUES:
+                raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
             if len(table[-1]) != len(table[0]):
                 raise ReaderError(
                     f"{where} must hold {len(table[0])} numbers, got {len(table[-1])}"
@@ -81,16 +83,16 @@ def read(path: Path) -> "Dataset":
         values = _column(path.name, values, f, spacing)
     else:
         values, direction = _directed(path.name, keys, values)
-    kept, notes = layout.above_zero(f)
-    frequency, order = layout.frequencies(f"{path.name}: the frequencies", f[kept])
+    kept, notes = dataset_layout.above_zero(f)
+    frequency, order = dataset_layout.frequencies(f"{path.name}: the frequencies", f[kept])
     values = values[np.newaxis, kept][:, order]
     unit = "m2/Hz" if direction is None else "m2/Hz/degree"
-    density, counts = layout.densities(path.name, values, unit)
+    density, counts = dataset_layout.densities(path.name, values, unit)
     if direction is not None:
-        direction, d_order = layout.directions(f"{path.name}: the directions", direction)
+        direction, d_order = dataset_layout.directions(f"{path.name}: the directions", direction)
         density = density[:, :, d_order]
         notes = {**notes, "direction_reference": "true or magnetic north, as the buoy was set up"}
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=path.name,
         source_format=f"TRIAXYS {'NONDIRSPEC' if direction is None else 'DIRSPEC'}",
         frequency=frequency,
@@ -111,7 +113,7 @@ def _directed(name: str, keys: dict[str, tuple[str, str]], values: Real) -> tupl
     match = re.match(r"(\S+)\s+TO\s+(\S+)\s+DEG", text, re.IGNORECASE)
     if not match:
         raise ReaderError(f"{where}: COLUMNS must be like 0.00 TO 360.00 DEG, got {text!r:.40}")
-    start, end = (files.number(where, match[i]) for i in (1, 2))
+    start, end = (bounded_reads.number(where, match[i]) for i in (1, 2))
     if count < 5 or abs(start + step * (count - 1) - end) > 1e-3 * max(abs(step), 1e-6):
         raise ReaderError(
             f"{where}: COLUMNS must be {count} directions {step:g} degrees apart, got {text!r:.40}"
@@ -155,14 +157,14 @@ def _value(name: str, keys: dict[str, tuple[str, str]], key: str) -> tuple[str, 
 
 def _number(name: str, keys: dict[str, tuple[str, str]], key: str) -> float:
     where, text = _value(name, keys, key)
-    return files.number(f"{where}: {key}", text)
+    return bounded_reads.number(f"{where}: {key}", text)
 
 
 def _count(name: str, keys: dict[str, tuple[str, str]], key: str) -> int:
     where, text = _value(name, keys, key)
     if not text:
         raise ReaderError(f"{where}: {key} must be a whole number, got nothing")
-    return files.count(f"{where}: {key}", text, _MOST)
+    return bounded_reads.count(f"{where}: {key}", text, _MOST)
 
 
 def _time(where: str, text: str) -> datetime:

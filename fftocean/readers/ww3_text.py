@@ -23,7 +23,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
 from fftocean.limits import Count
-from fftocean.readers import files, layout
+from fftocean.readers import bounded_reads, dataset_layout
 from fftocean.readers.reader import Head, Reader
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class _Lines:
     def __init__(self, path: Path) -> None:
         self.name = path.name
         self.where = path.name
-        self._lines: Iterator[tuple[str, str]] = files.lines(path)
+        self._lines: Iterator[tuple[str, str]] = bounded_reads.lines(path)
 
     def maybe(self) -> str | None:
         for where, line in self._lines:
@@ -114,7 +114,7 @@ def read(path: Path, *, site: int) -> "Dataset":
             f"got {nf}, {nd} and {points}"
         )
     site = Count("", 0, points - 1).check_whole("site", site)
-    frequency, f_order = layout.frequencies(
+    frequency, f_order = dataset_layout.frequencies(
         f"{path.name}: the frequencies", lines.numbers(nf, "frequencies")
     )
     toward = lines.numbers(nd, "directions")
@@ -123,7 +123,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     bearing: Real = np.mod(np.degrees(toward), 360.0) + 180.0
     if nd > 36 or np.ptp(np.diff(np.sort(np.mod(bearing, 360.0)))) > 0.0:
         bearing = _even(bearing)
-    direction, d_order = layout.directions(f"{path.name}: the directions", bearing)
+    direction, d_order = dataset_layout.directions(f"{path.name}: the directions", bearing)
     time: list[np.datetime64] = []
     tables: list[Real] = []
     depths: list[float] = []
@@ -148,16 +148,16 @@ def read(path: Path, *, site: int) -> "Dataset":
             time.append(moment)
             depths.append(numbers[2])
             tables.append(block.reshape(nd, nf).T)
-        if len(tables) * nf * nd > layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({layout.MAX_VALUES})")
+        if len(tables) * nf * nd > dataset_layout.MAX_VALUES:
+            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
         line = lines.maybe()
     if place is None:
         raise ReaderError(f"{path.name} must hold at least one time after its header, got none")
-    which, repeated = layout.in_order(np.array(time))
+    which, repeated = dataset_layout.in_order(np.array(time))
     values = np.array(tables)[which][:, f_order][:, :, d_order] * (np.pi / 180.0)
-    density, counts = layout.densities(path.name, values, "m2/Hz/degree")
+    density, counts = dataset_layout.densities(path.name, values, "m2/Hz/degree")
     depth = np.array(depths)[which]
-    return layout.dataset(
+    return dataset_layout.dataset(
         source=path.name,
         source_format="WAVEWATCH III transfer file",
         frequency=frequency,

@@ -64,7 +64,7 @@ def quick(monkeypatch):
 def some_statistics():
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     return dataclasses.replace(
-        still, ordered=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+        still, specified=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     )
 
 
@@ -235,6 +235,7 @@ def test_the_manifest_says_what_was_ordered_and_delivered(whole):
     assert manifest["statistics"]["loop"]["period"] == 16.0
 
 
+@pytest.mark.process
 def test_another_process_writes_the_same_bytes(whole, tmp_path):
     """
     The whole folder, picture and manifest too: no clock, no process number, no order of hashing
@@ -453,7 +454,7 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
     """
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
-    with pytest.raises(OutputError, match=rf"holds a {name} and is no bake"):
+    with pytest.raises(OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
     with pytest.raises(
@@ -599,7 +600,7 @@ def test_a_link_in_a_map_folder_s_place_leads_nowhere(tmp_path, outside, name, a
         fo.bake(job(), out, overwrite=overwrite)
     else:
         with pytest.raises(
-            OutputError, match=rf"{name} must be a folder of its own, and is a link"
+            OutputError, match=rf"{name} must be a folder, and is a link"
         ):
             fo.bake(job(), out, overwrite=overwrite)
         assert not (out / "manifest.json").exists()
@@ -931,6 +932,7 @@ def stopped(tmp_path_factory):
 
 
 @pytest.mark.parametrize("number", SIGNALS, ids=lambda n: n.name)
+@pytest.mark.process
 def test_a_stopped_bake_is_not_a_finished_one(stopped, number):
     """
     Ctrl-C is 130, SIGTERM 143, both without a traceback and with their temporary file removed;

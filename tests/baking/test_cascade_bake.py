@@ -21,8 +21,8 @@ from fftocean import statistics
 from fftocean.baking import cascade_setup as water
 from fftocean.baking.cascade import bake_tiles, estimate_tiles
 from fftocean.baking.folder import layout
-from fftocean.baking.folder.identity import checked
 from fftocean.baking.folder.lock import locked
+from fftocean.baking.folder.sealed import sealed
 from fftocean.baking.previews import sheets as preview
 from fftocean.baking.scene.maps import MAPS
 from fftocean.cli import main
@@ -179,7 +179,7 @@ def test_bounds_add_up_and_hold(tmp_path):
 def test_what_does_not_add_up_is_refused_before_anything_is_written(tmp_path, name):
     with pytest.raises(
         fo.JobError,
-        match=f"'{name}' cannot be had for tiles: it is not linear.*bake (derivative and )?stretch",
+        match=f"'{name}' cannot be baked for tiles: it is not linear.*bake (derivative and )?stretch",
     ):
         bake(tmp_path / "sea", JOB.replaced({"bake.maps": ["height", name]}))
     assert not (tmp_path / "sea").exists()
@@ -191,7 +191,7 @@ def test_other_refusals(tmp_path):
         (
             JOB.replaced({"bake.lookup": "eulerian"}),
             SMALL,
-            "'eulerian' cannot be had for tiles.*fo.Query",
+            "'eulerian' cannot be baked for tiles.*fo.Query",
         ),
         (JOB.replaced({"ocean.band_low": 0.1}), SMALL, "ocean.band_low must be left out"),
         (JOB, [(16, 100.0), (16, 1.0)], "must overlap"),
@@ -253,6 +253,7 @@ tiles.bake_tiles(job, [(16, 100.0), (16, 15.0)], folder, executor="serial", list
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs SIGKILL")
+@pytest.mark.process
 def test_killed_anywhere_the_same_command_comes_to_the_same_bytes(tmp_path):
     """Between the tiles, and within the second one; each time it goes on where it was."""
     folder = tmp_path / "sea"
@@ -263,7 +264,7 @@ def test_killed_anywhere_the_same_command_comes_to_the_same_bytes(tmp_path):
         assert done.returncode == -signal.SIGKILL, done.stderr.decode()
         assert not (folder / "cascade.json").exists()
         assert ("unfinished", "cascade.json") in told(folder)
-        with pytest.raises(fo.IntegrityError, match=r"cascade\.json is not there"):
+        with pytest.raises(fo.IntegrityError, match=r"cascade\.json does not exist"):
             fo.load(folder)
     bake(folder)
     bake(tmp_path / "undisturbed")
@@ -351,7 +352,7 @@ def relisted(folder, change):
     listed = json.loads((folder / "cascade.json").read_text())
     del listed["check"]
     change(listed)
-    (folder / "cascade.json").write_bytes(as_json(checked(listed)))
+    (folder / "cascade.json").write_bytes(as_json(sealed(listed)))
 
 
 def flip(path):
@@ -459,7 +460,7 @@ def test_a_tile_of_another_sea_is_found(copy, tmp_path):
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
     (copy / "cascade.json").unlink()
     flip(copy / "cascade-job.json")
-    with pytest.raises(fo.IntegrityError, match="does not say what it is of"):
+    with pytest.raises(fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"):
         fo.repair(copy, executor="serial")
 
 

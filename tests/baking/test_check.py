@@ -62,9 +62,9 @@ def quick():
     their own tests.
     """
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    ordered = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+    specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(baker, "measure", lambda _: dataclasses.replace(still, ordered=ordered))
+        patch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
         patch.setattr(preview, "tiling", lambda *_: b"\x89PNG a picture of the sea" * 40)
         yield
 
@@ -325,7 +325,7 @@ def test_an_unfinished_bake_is_said_to_be_one(exr, tmp_path):
 @pytest.mark.parametrize("name", ["none", "file"])
 def test_what_is_no_folder_is_an_output_error(tmp_path, name):
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="must be the folder of a bake"):
+    with pytest.raises(OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"):
         check(tmp_path / name)
 
 
@@ -428,10 +428,10 @@ def crooked(monkeypatch, name, bend):
     """Bake with a map that is bent before it is written."""
     real = maps.MAPS[name]
 
-    def draw(moment):
-        return bend(moment.frame.t, [np.array(channel) for channel in real.draw(moment)])
+    def compute(surface):
+        return bend(surface.frame.t, [np.array(channel) for channel in real.compute(surface)])
 
-    monkeypatch.setitem(maps.MAPS, name, dataclasses.replace(real, draw=draw))
+    monkeypatch.setitem(maps.MAPS, name, dataclasses.replace(real, compute=compute))
 
 
 @pytest.fixture
@@ -580,6 +580,6 @@ def test_repair_without_any_word_of_the_job_is_refused(exr):
         (exr / "job.json").read_bytes().replace(b'"ocean.seed": 1', b'"ocean.seed": 2')
     )
     with pytest.raises(
-        IntegrityError, match="cannot be repaired, for it does not say what it is of"
+        IntegrityError, match="cannot be repaired: neither manifest.json nor job.json is readable"
     ):
         repair(exr)

@@ -18,12 +18,10 @@ import pytest
 
 import fftocean as fo
 from fftocean.baking.folder.lock import locked
-from fftocean.baking.folder.plan import Order, Task, frames_of, tasks_of
-from fftocean.baking.scene import scene as frames
-from fftocean.baking.workers import choice as crews
-from fftocean.baking.workers import cluster
-from fftocean.baking.workers import local as executors
-from fftocean.baking.workers.choice import check_executor, crew_of
+from fftocean.baking.folder.plan import Plan, Task, frames_of, tasks_of
+from fftocean.baking.scene import scene as scenes
+from fftocean.baking.workers import choice, cluster, local
+from fftocean.baking.workers.choice import check_executor, choose_executor
 from fftocean.baking.workers.local import ATTEMPTS, Processes
 from fftocean.errors import FolderInUseError, JobError, OutputError
 from fftocean.host import cores
@@ -106,15 +104,15 @@ def test_a_worker_that_is_killed_is_replaced(expected, tmp_path, monkeypatch):
     kill -9, each of the first two workers once, in the middle of its work: the bake goes on, to the
     same bytes.
     """
-    killed, hired = [], []
-    real = executors._Hand.__init__
+    killed, started = [], []
+    real = local._Worker.__init__
     monkeypatch.setattr(
-        executors._Hand, "__init__", lambda self, *a: real(self, *a) or hired.append(self)
+        local._Worker, "__init__", lambda self, *a: real(self, *a) or started.append(self)
     )
 
     def listen(event):
         if event["event"] == "frame" and len(killed) < 2 and event["done"] in (3, 9):
-            killed.append(hired[len(killed)].process)
+            killed.append(started[len(killed)].process)
             killed[-1].kill()
             torn = (
                 tmp_path / f"out/height/.0003.png.{killed[-1].pid}-0a.tmp"
@@ -126,7 +124,7 @@ def test_a_worker_that_is_killed_is_replaced(expected, tmp_path, monkeypatch):
     )
     assert tree(tmp_path / "out") == expected
     assert len(killed) == 2
-    assert len(hired) == 4
+    assert len(started) == 4
 
 
 DOOMED = "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer); os._exit(3)"
@@ -134,10 +132,10 @@ DOOMED = "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys
 
 def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
     """Not begun for ever: an error that names the frames, and the exit code."""
-    monkeypatch.setattr(executors.worker, "BOOT", DOOMED)
+    monkeypatch.setattr(local.worker_process, "BOOT", DOOMED)
     with pytest.raises(
         OutputError,
-        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died of it, the last with exit code 3",
+        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died while baking it, the last with exit code 3",
     ):
         fo.bake(job(bake__maps=["foam"]), tmp_path / "out", executor="processes", workers=1)
     assert not (tmp_path / "out/manifest.json").exists()
@@ -237,7 +235,7 @@ def test_a_worker_ends_when_its_bake_is_gone():
     is doing.
     """
     process = subprocess.Popen(
-        [sys.executable, "-P", "-c", executors.worker.BOOT],
+        [sys.executable, "-P", "-c", local.worker_process.BOOT],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=environment(),
@@ -379,28 +377,28 @@ def test_without_dask_its_extra_is_named(tmp_path, monkeypatch):
 # What a worker is asked, and what it refuses
 
 
-def an_order(folder, token, **changes):
-    """An order as a bake gives it."""
+def plan_of(folder, token, **changes):
+    """Return a plan as a bake makes it."""
     from fftocean.baking.folder.identity import header_of
 
     order = job(bake__maps=["height"], **changes)
     header = header_of(
         order, frames=range(order.frames), downsample=1, backend=order.ocean().backend
     )
-    return Order(order, 1, header, tuple(range(order.frames)), str(folder), token)
+    return Plan(order, 1, header, tuple(range(order.frames)), str(folder), token)
 
 
 def test_a_task_may_be_done_again_by_anybody(tmp_path):
-    """The same entries, the same files; an order arrives as it was sent."""
+    """The same entries, the same files; a plan arrives as it was sent."""
     with locked(tmp_path) as hold:
-        order = an_order(tmp_path, hold.token)
-        first = list(frames.work(order, Task("frame", (3, 4))))
+        plan = plan_of(tmp_path, hold.token)
+        first = list(scenes.work(plan, Task("frame", (3, 4))))
         before = tree(tmp_path)
-        frames.leave()
-        assert list(frames.work(pickle.loads(pickle.dumps(order)), Task("frame", (3, 4)))) == first
+        scenes.clear_scene()
+        assert list(scenes.work(pickle.loads(pickle.dumps(plan)), Task("frame", (3, 4)))) == first
         assert tree(tmp_path) == before
         threads = [
-            threading.Thread(target=lambda: list(frames.work(order, Task("frame", (3, 4)))))
+            threading.Thread(target=lambda: list(scenes.work(plan, Task("frame", (3, 4)))))
             for _ in range(3)
         ]
         for thread in threads:
@@ -408,47 +406,47 @@ def test_a_task_may_be_done_again_by_anybody(tmp_path):
         for thread in threads:
             thread.join()
         assert tree(tmp_path) == before
-    frames.leave()
+    scenes.clear_scene()
 
 
 def test_threads_do_not_share_a_scene(tmp_path):
     """A scene reuses its frame: two threads with one would write each other's pictures."""
     with locked(tmp_path) as hold:
-        order, seen = an_order(tmp_path, hold.token), []
+        plan, seen = plan_of(tmp_path, hold.token), []
         threads = [
-            threading.Thread(target=lambda: seen.append(frames.scene_of(order))) for _ in range(2)
+            threading.Thread(target=lambda: seen.append(scenes.scene_of(plan))) for _ in range(2)
         ]
         for thread in threads:
             thread.start()
             thread.join()
         assert seen[0] is not seen[1]
-        assert frames.scene_of(order) is frames.scene_of(order)
-    frames.leave()
+        assert scenes.scene_of(plan) is scenes.scene_of(plan)
+    scenes.clear_scene()
 
 
 def test_a_worker_of_a_bake_that_was_given_up_writes_no_more(tmp_path):
     with locked(tmp_path) as hold:
-        order = an_order(tmp_path, hold.token)
+        plan = plan_of(tmp_path, hold.token)
     with pytest.raises(FolderInUseError, match="not held by this bake any more"):
-        list(frames.work(order, Task("frame", (0,))))
+        list(scenes.work(plan, Task("frame", (0,))))
     with locked(tmp_path), pytest.raises(FolderInUseError, match="not held by this bake any more"):
-        list(frames.work(order, Task("frame", (0,))))
+        list(scenes.work(plan, Task("frame", (0,))))
     assert not tree(tmp_path)
-    frames.leave()
+    scenes.clear_scene()
 
 
 def test_a_worker_with_other_libraries_refuses(tmp_path, monkeypatch):
     """It would write other bytes; the message says which library."""
     with locked(tmp_path) as hold:
-        order = an_order(tmp_path, hold.token)
-        frames.leave()
+        plan = plan_of(tmp_path, hold.token)
+        scenes.clear_scene()
         monkeypatch.setattr("fftocean.baking.folder.identity.library", lambda _: "FFTW 9.9")
         with pytest.raises(
             OutputError,
             match=r"a worker would not write the same bytes \(made_with\.fft: .* there, FFTW 9\.9 here\)",
         ):
-            list(frames.work(order, Task("frame", (0,))))
-    frames.leave()
+            list(scenes.work(plan, Task("frame", (0,))))
+    scenes.clear_scene()
 
 
 # Shares
@@ -526,25 +524,25 @@ def test_workers_that_cannot_be_are_refused(workers):
 
 def test_as_many_workers_as_processors_and_memory_allow(monkeypatch):
     assert 1 <= cores() <= (os.cpu_count() or 1)
-    from fftocean.baking.bake import crew_for, scene_for
+    from fftocean.baking.bake import choose_workers, scene_for
 
     scene = scene_for(job(ocean__n=64), 1, 1)
-    assert crew_for("processes", None, scene, 1000) == ("processes", cores())
-    assert crew_for("processes", 8, scene, 3) == ("processes", 3)  # no more than frames
-    assert crew_for("serial", 8, scene, 1000) == ("serial", 1)
-    assert crew_for("auto", 8, scene, 100)[0] == "serial"  # done before another had started
-    assert crew_for("auto", 8, scene, 100_000) == ("processes", 8)
+    assert choose_workers("processes", None, scene, 1000) == ("processes", cores())
+    assert choose_workers("processes", 8, scene, 3) == ("processes", 3)  # no more than frames
+    assert choose_workers("serial", 8, scene, 1000) == ("serial", 1)
+    assert choose_workers("auto", 8, scene, 100)[0] == "serial"  # done before another had started
+    assert choose_workers("auto", 8, scene, 100_000) == ("processes", 8)
     monkeypatch.setattr(
         "fftocean.baking.bake.available_memory",
         lambda: 2.5 * fo.ocean.memory_needed(scene.ocean.grid, "float32"),
     )
-    assert crew_for("processes", 8, scene, 1000) == ("processes", 2)
+    assert choose_workers("processes", 8, scene, 1000) == ("processes", 2)
     monkeypatch.setattr("fftocean.baking.bake.available_memory", lambda: float("inf"))
-    assert crew_for("processes", 8, scene, 1000) == ("processes", 8)
+    assert choose_workers("processes", 8, scene, 1000) == ("processes", 8)
 
 
-def test_names_are_crews():
-    assert crew_of("serial", 3, -1).name == "serial"
-    assert isinstance(crew_of("processes", 3, -1), Processes)
-    assert crew_of("dask", 3, -1).name == "dask"
-    assert set(crews.EXECUTORS) == {"auto", "serial", "processes", "dask"}
+def test_each_name_is_an_executor():
+    assert choose_executor("serial", 3, -1).name == "serial"
+    assert isinstance(choose_executor("processes", 3, -1), Processes)
+    assert choose_executor("dask", 3, -1).name == "dask"
+    assert set(choice.EXECUTORS) == {"auto", "serial", "processes", "dask"}

@@ -51,8 +51,8 @@ def job(**changes):
 def quick(monkeypatch):
     """No picture, and no integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
-    ordered = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
-    monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, ordered=ordered))
+    specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
+    monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
     monkeypatch.setattr(preview, "tiling", lambda *_: b"picture")
 
 
@@ -129,7 +129,7 @@ def test_stopped_after_any_write_it_goes_on_to_the_same_bytes(name, tmp_path, mo
         assert "manifest.json" not in left
         kept = [
             entry["row"]["frame"]
-            for entry in entries_of(out / ".work/journal", claim(order))
+            for entry in entries_of(out / ".work/journal", identity(order))
             if "row" in entry
         ]
         assert frames_written(order, out) == sorted(set(range(2)) - set(kept))
@@ -139,12 +139,12 @@ def test_stopped_after_any_write_it_goes_on_to_the_same_bytes(name, tmp_path, mo
     assert tree(out) == expected
 
 
-def claim(order):
-    """Whose journal it is."""
+def identity(order):
+    """Return the SHA-256 of the header of a job's bake."""
     from fftocean.baking.folder.identity import header_of
-    from fftocean.baking.folder.plan import claim_of
+    from fftocean.baking.folder.plan import identity_of
 
-    return claim_of(
+    return identity_of(
         header_of(order, frames=range(order.frames), downsample=1, backend=order.ocean().backend)
     )
 
@@ -343,7 +343,7 @@ def test_a_worker_s_full_disk_is_that_of_the_bake(tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert caught.value.exit_code == 4
-    assert entries_of(tmp_path / "out/.work/journal", claim(order)) == []
+    assert entries_of(tmp_path / "out/.work/journal", identity(order)) == []
     assert not list(tmp_path.rglob("*.tmp"))
     assert frames_written(order, tmp_path / "out") == list(range(6))
 
@@ -511,11 +511,11 @@ def test_another_library_is_another_bake(tmp_path, key, monkeypatch):
     if name is None:
         monkeypatch.setattr("fftocean.baking.folder.identity.library", lambda _: "FFTW 9.9")
     else:
-        from fftocean.baking.folder import identity as room
+        from fftocean.baking.folder import identity as module
 
-        real = room._version
+        real = module._version
         monkeypatch.setattr(
-            room, "_version", lambda package: "99.9" if package == name else real(package)
+            module, "_version", lambda package: "99.9" if package == name else real(package)
         )
     with pytest.raises(OutputError, match=rf"made_with\.{key}: .* there, .*9\.9 here"):
         fo.bake(job(), tmp_path)

@@ -112,7 +112,7 @@ def test_a_file_that_lost_its_name_is_no_lock(tmp_path, monkeypatch):
     Its holder removes it between our opening it and our locking it: another could make a new one,
     and hold that.
     """
-    real, calls = lock._seized, []
+    real, calls = lock._try_lock, []
 
     def seized(descriptor):
         calls.append(descriptor)
@@ -120,7 +120,7 @@ def test_a_file_that_lost_its_name_is_no_lock(tmp_path, monkeypatch):
             (tmp_path / LOCK_FILE).unlink()
         return real(descriptor)
 
-    monkeypatch.setattr(lock, "_seized", seized)
+    monkeypatch.setattr(lock, "_try_lock", seized)
     with locked(tmp_path) as hold:
         assert os.path.samestat((tmp_path / LOCK_FILE).stat(), os.fstat(hold.descriptor))
     assert len(calls) == 2

@@ -94,7 +94,7 @@ def test_what_is_left_of_the_work_is_no_fault_of_a_finished_bake(tmp_path, monke
     def interrupted(_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(baker, "discard_work", interrupted)
+    monkeypatch.setattr(baker, "remove_workspace", interrupted)
     with pytest.raises(KeyboardInterrupt):
         bake(tmp_path)
     assert (tmp_path / layout.WORK_FOLDER).is_dir()

@@ -18,7 +18,7 @@ ALL = ["sheet", "animation", "tiling", "spectrum"]
 def test_every_picture_that_is_asked_for_is_there_and_listed(tmp_path):
     manifest = fo.bake(JOB.replaced({"bake.pictures": ALL}), tmp_path / "sea", executor="serial")
     for key, name in zip(
-        ("preview", "animation", "tiling", "spectrum"), layout.PICTURES, strict=True
+        ("preview", "animation", "tiling", "spectrum"), layout.PREVIEW_FILES, strict=True
     ):
         data = (tmp_path / "sea" / name).read_bytes()
         assert manifest[key] == {

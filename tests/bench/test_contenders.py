@@ -37,7 +37,7 @@ def shallow(dtype="float64"):
 def test_all_make_the_same_water(make):
     own = make()
     assert same_water(own, Textbook(own)) < 1e-13  # two double-precision transforms of 1e3 points
-    assert same_water(own, DirectSum(own)) < 1e-12  # DESIGN's bound for the chain in float64
+    assert same_water(own, DirectSum(own)) < 1e-12  # the bound of the chain in float64
     assert same_water(own, Careful(own)) < 1e-6  # it is float32 itself
     assert same_water(own, Fast(own)) == 0.0
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy import stats
 
 from fftocean.bench.fits import cost, crossover, n_log_n, power_law, square
 
@@ -23,6 +22,8 @@ def test_an_exact_power_is_found_exactly(exponent):
 
 def test_the_standard_error_is_that_of_linear_regression():
     """scipy.stats.linregress of the logarithms: another author's least squares."""
+    from scipy import stats  # which is slow to import
+
     y = noisy(5e-9 * SIZES**4, 0.2, 3)
     law, other = power_law(SIZES, y), stats.linregress(np.log(SIZES), np.log(y))
     assert law.exponent == pytest.approx(other.slope, rel=1e-12)

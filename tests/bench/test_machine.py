@@ -8,8 +8,8 @@ import pytest
 
 import fftocean as fo
 from fftocean import host
-from fftocean.arrays import available_memory
 from fftocean.bench import machine
+from fftocean.host import available_memory
 
 
 def test_the_machine_is_described_in_plain_data():
@@ -50,7 +50,7 @@ def test_lists_of_cores_are_counted(ranges, count):
 
 
 def test_a_system_without_such_files_is_described_too(monkeypatch):
-    monkeypatch.setattr(host, "read", lambda path: "")  # noqa: ARG005
+    monkeypatch.setattr(host, "read_system_file", lambda path: "")  # noqa: ARG005
     assert host.processor()
     assert machine.instructions() == []
     assert host.cores() >= 1

@@ -112,7 +112,10 @@ def hold(found):
     """
     apart = np.abs(found.seen - found.expected)
     place, channel = np.unravel_index(np.argmax(apart / found.tolerance), apart.shape)
-    said = f"{found.keys[channel]} is off by {apart[place, channel]:.3g} at place {place}, allowed {found.tolerance[place, channel]:.3g}"
+    said = (
+        f"{found.keys[channel]} is off by {apart[place, channel]:.3g} at place {place}, "
+        f"allowed {found.tolerance[place, channel]:.3g}"
+    )
     assert np.all(apart <= found.tolerance), said
     varied = np.ptp(found.expected, axis=0) > 10 * found.tolerance.max(axis=0)
     assert np.all(varied | (np.array(found.keys) == "normal_Y"))  # up is near 1 everywhere

@@ -72,7 +72,8 @@ def test_vertices_are_where_the_water_is_at_every_frame(blender, tmp_path, forma
     )
     apart = np.abs(moved[:FRAMES] - rest - expected)
     print(
-        f"Blender {said['version']} {format_}: largest {apart.max():.3g} m, allowed {rounding:.3g} m"
+        f"Blender {said['version']} {format_}: largest {apart.max():.3g} m, "
+        f"allowed {rounding:.3g} m"
     )
     assert apart.max() <= rounding
     assert np.array_equal(moved[FRAMES], moved[0])

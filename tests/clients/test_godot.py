@@ -139,7 +139,8 @@ def test_the_reader_finds_the_water_and_refuses_what_it_does_not_understand(godo
     expected, tolerance = must["heights"]
     found = np.array(answers["heights"])
     print(
-        f"Godot {answers['version']}: largest {np.abs(found - expected).max():.3g} m, allowed {tolerance:.3g} m"
+        f"Godot {answers['version']}: largest {np.abs(found - expected).max():.3g} m, "
+        f"allowed {tolerance:.3g} m"
     )
     assert np.abs(found - expected).max() <= tolerance
     assert answers["refused"] == ["lookup must be eulerian, got lagrangian", True]

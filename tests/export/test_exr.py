@@ -67,7 +67,8 @@ def test_pixels_are_the_fields_rounded_once_and_row_0_is_north(shape, dtype):
 
 def test_rounding_is_at_most_half_a_step():
     """
-    |stored - given| <= 0.5 ulp of the stored half, ties and the smallest subnormals (2^-24) included.
+    |stored - given| <= 0.5 ulp of the stored half, ties and the smallest subnormals (2^-24)
+    included.
     """
     steps = np.arange(-4096, 4096) * 2.0**-25  # every second one is a tie between two subnormals
     values = np.concatenate([steps, *(np.ravel(c) for c in fields((64, 64)))])[None, :]

@@ -240,8 +240,9 @@ def written(engine, form, name, truth, tile, lookup):
         scale = {"lo": float(whole[0]), "hi": float(whole[1])}
     parts = [formats.encode(form, p, **scale) for p in pixels]
     files = formats.assemble(
-        form, parts, stem="map", shape=(FRAMES, ny, nx, len(m.names)), profile=profile, kind=m.kind,
-        names=meaning(profile, m.kind, m.names), unit=unit_in(profile, m.kind, m.unit), size=size, loop=LOOP, start=START,
+        form, parts, stem="map", shape=(FRAMES, ny, nx, len(m.names)),
+        profile=profile, kind=m.kind, names=meaning(profile, m.kind, m.names),
+        unit=unit_in(profile, m.kind, m.unit), size=size, loop=LOOP, start=START,
         lookup=lookup, bounds={"horizontal": 1.5, "vertical": 2.5}, **scale,
     )  # fmt: skip
     if FORMATS[form].sidecar:

@@ -86,6 +86,7 @@ POINTS = [
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+@pytest.mark.process
 def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
     """
     One run of node over all profiles: at samples, between them, and far outside the tile; and a cut
@@ -104,17 +105,21 @@ def test_javascript_finds_the_water_in_every_engines_frame(tmp_path):
         "import { readFileSync } from 'node:fs';\n"
         "import { SeaHeights } from './sea_heights.mjs';\n"
         "const open = (name) => {\n"
-        "  const json = JSON.parse(readFileSync(`${name}/height.json`)), bytes = readFileSync(`${name}/${json.file}`);\n"
+        "  const json = JSON.parse(readFileSync(`${name}/height.json`)), "
+        "bytes = readFileSync(`${name}/${json.file}`);\n"
         "  return [json, bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length)];\n"
         "};\n"
-        f"const answers = {json.dumps(questions)}.map(([name, ...at]) => new SeaHeights(...open(name)).at(...at));\n"
+        f"const answers = {json.dumps(questions)}.map(([name, "
+        "...at]) => new SeaHeights(...open(name)).at(...at));\n"
         "const refused = [];\n"
         "const attempt = (change, cut) => {\n"
         "  const [json, bytes] = open('godot');\n"
-        "  try { new SeaHeights({ ...json, ...change }, bytes.slice(cut)); } catch (error) { refused.push(error.message); }\n"
+        "  try { new SeaHeights({ ...json, ...change }, bytes.slice(cut)); } catch (error) { "
+        "refused.push(error.message); }\n"
         "};\n"
         "attempt({}, 8);\n"
-        f"for (const change of {json.dumps([change for change, _ in REFUSED])}) attempt(change, 0);\n"
+        f"for (const change of {json.dumps([change for change, _ in REFUSED])}) attempt(change, "
+        "0);\n"
         "console.log(JSON.stringify({ answers, refused }));\n"
     )
     run = subprocess.run(

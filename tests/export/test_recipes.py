@@ -28,8 +28,9 @@ def files(engine, name="foam", **more):
         )
     ] * FRAMES
     return assemble(
-        "exr-atlas", parts, stem=name, shape=(FRAMES, ROWS, COLUMNS, len(m.names)), profile=profile, kind=m.kind,
-        names=meaning(profile, m.kind, m.names), unit=unit_in(profile, m.kind, m.unit), size=(40.0, 20.0), loop=12.0, start=1.5,
+        "exr-atlas", parts, stem=name, shape=(FRAMES, ROWS, COLUMNS, len(m.names)),
+        profile=profile, kind=m.kind, names=meaning(profile, m.kind, m.names),
+        unit=unit_in(profile, m.kind, m.unit), size=(40.0, 20.0), loop=12.0, start=1.5,
         bounds={"horizontal": 0.75, "vertical": 1.25}, **more,
     )  # fmt: skip
 

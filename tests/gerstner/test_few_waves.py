@@ -1145,7 +1145,7 @@ def test_what_no_sea_can_have_is_refused(make, message):
 
 
 def test_a_grid_that_cannot_fit_is_refused_before_it_is_made(monkeypatch):
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 1e6)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 1e6)
     with pytest.raises(ParameterError, match="a surface of 200 x 100 samples needs about"):
         MODELS["PMS"].waves.grid((200, 100), 100.0)
 

@@ -454,7 +454,7 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path, monkeypatch):
 
 def test_more_memory_than_there_is_is_refused_before_it_is_taken(monkeypatch):
     """The largest n, on a machine of 1 GiB: the message has the estimate."""
-    monkeypatch.setattr("fftocean.arrays.available_memory", lambda: 2.0**30)
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
     message = refused("[ocean]\nn = 65536\n", "ocean", "n = 65536 x 65536", "1.0 GiB are free")
     estimate = float(message.split("about ")[1].split(" GiB")[0])
     assert 8 * 4 * 65536**2 / 2**30 < estimate < 1000.0  # at least the eight fields

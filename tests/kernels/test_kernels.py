@@ -50,7 +50,7 @@ def test_phasors_in_single_precision():
 
 
 def waves_of(forward, backward, dtype):
-    """What `passes.turn_waves` wants."""
+    """What `passes.heights` wants."""
     sums = (
         forward.real + backward.real,
         forward.imag - backward.imag,
@@ -75,12 +75,12 @@ def test_waves_and_rates(dtype, eps):
         np.cos(angle).astype(dtype),
         np.sin(angle).astype(dtype),
     )
-    passes.turn_waves(*arguments, real, imag)
+    passes.heights(*arguments, real, imag)
     assert (
         np.max(np.abs(real + 1j * imag - (forward * phase + backward * np.conj(phase))))
         < 10 * 6 * eps
     )  # ten roundings of values to 6
-    passes.turn_rates(*arguments, omega.astype(dtype), real, imag)
+    passes.height_rates(*arguments, omega.astype(dtype), real, imag)
     assert (
         np.max(
             np.abs(real + 1j * imag - (-1j * omega * (forward * phase - backward * np.conj(phase))))
@@ -187,7 +187,7 @@ def test_turns_are_exact_at_any_time(t):
     amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((8, 6), (30.0, 50.0)), depth=4.0)
     frequency = _frequencies(amplitudes, 4)
     out = np.empty(frequency.shape)
-    passes.turns_at(frequency, t, out)
+    passes.phases_at(frequency, t, out)
     assert np.max(np.abs(out)) <= 0.5
     with mpmath.workdps(60):
         for f, turns in zip(frequency.ravel(), out.ravel(), strict=True):
@@ -211,7 +211,7 @@ def test_turns_in_a_loop_are_whole_numbers(step, count):
     """(cycles step mod count) / count, up to whole turns, by Python's own integers."""
     cycles = np.array([[1.0, 7.0, 1e6, 1e9 + 7, 160_000_000_003.0]])
     out = np.empty(cycles.shape)
-    passes.turns_in_loop(cycles, float(step), float(count), out)
+    passes.phases_in_loop(cycles, float(step), float(count), out)
     for c, turns in zip(cycles[0], out[0], strict=True):
         exact = int(c) * step % count
         assert round(turns * count) % count == exact

@@ -241,8 +241,8 @@ def test_newton_s_step_solves_the_linear_problem():
         RNG.uniform(-1, 1, (n, 2)),
         RNG.uniform(-0.2, 0.2, (n, 2, 2)),
     )
-    desk = np.zeros(interpolate.ROWS * block)
-    rows = desk.reshape(-1, block)
+    workspace = np.zeros(interpolate.ROWS * block)
+    rows = workspace.reshape(-1, block)
     s = moved[:, :n].T.copy()
     rows[2:4, :n], rows[4, :n], rows[5:9, :n] = at.T, np.arange(n), gradient.reshape(n, 4).T
     points, offsets, (heights, residuals), jacobians = (
@@ -253,7 +253,7 @@ def test_newton_s_step_solves_the_linear_problem():
     )
     rows[2:4, 2] = -s[2] / c  # this one is there
     at[2] = -s[2] / c
-    kept = query._step(c, 1e-9, 0, n, moved, desk, points, offsets, heights, residuals, jacobians)
+    kept = query._step(c, 1e-9, 0, n, moved, workspace, points, offsets, heights, residuals, jacobians)
     assert kept == 4
     assert list(points[:4]) == [0, 1, 3, 4]
     assert np.array_equal(offsets[2], s[2])

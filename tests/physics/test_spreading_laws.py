@@ -15,7 +15,14 @@ from fftocean.errors import ParameterError
 from fftocean.physics.moments import mean_direction_and_spread
 from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import PiersonMoskowitz
-from fftocean.physics.spreading import Blend, CosinePower, CosineSquared, DonelanBanner, Spreading
+from fftocean.physics.spreading import (
+    Blend,
+    CosinePower,
+    CosineSquared,
+    DonelanBanner,
+    LongCrested,
+    Spreading,
+)
 from fftocean.physics.spreading_laws import (
     SHARPEST,
     CosineN,
@@ -28,6 +35,7 @@ from fftocean.physics.spreading_laws import (
     _integrals,
     _tabulated,
 )
+from fftocean.physics.tabulated import TabulatedSpreading
 
 PEAK = 0.7
 AGED = [0.84, 1.17, 3.0, 5.0]  # U/c_p, from fully developed to young
@@ -308,16 +316,56 @@ def test_the_table_of_norms_is_the_norm(base, xi):
     )
 
 
-def test_many_frequencies_and_few_agree():
+EVERY = [
+    *LAWS,
+    CosineSquared(),
+    CosinePower(s=3.3),
+    CosinePower(s=1e6),
+    DonelanBanner(),
+    Blend(CosinePower(s=2.5), SwellElongation(xi=0.3), weight=0.3),
+    LongCrested(),
+    TabulatedSpreading(
+        frequency=[0.05, 0.1, 0.3],
+        direction=np.arange(0.0, 360.0, 30.0).tolist(),
+        density=np.random.default_rng(3).uniform(0.1, 1.0, (3, 12)).tolist(),
+    ),
+]
+
+
+@pytest.mark.parametrize("law", EVERY, ids=repr)
+def test_a_density_depends_on_no_other_frequency_of_its_batch(law):
+    """To the bit: alone, among 7 and among 3000, in any order and shape."""
+    rng = np.random.default_rng(2)
+    omega = PEAK * np.concatenate(
+        [rng.uniform(0.02, 20.0, 2950), np.geomspace(1e-4, 1e3, 45), [0.56, 0.95, 1.05, 1.6, 1.0]]
+    )
+    theta = np.concatenate(
+        [rng.uniform(-math.pi, math.pi, 2900), rng.uniform(-2e-3, 2e-3, 99), [0.0]]
+    )
+    rng.shuffle(omega)
+    many = law(omega, theta, PEAK)
+    assert np.array_equal(law(omega.reshape(100, 30), theta.reshape(100, 30), PEAK).ravel(), many)
+    some = np.arange(11, 3000, 427)
+    assert np.array_equal(law(omega[some], theta[some], PEAK), many[some])
+    assert np.array_equal(
+        law(omega[some][::-1, None], theta[None, some], PEAK).diagonal(offset=0),
+        law(omega[some][::-1], theta[some], PEAK),
+    )
+    for i in (*some, 0, 2999):
+        assert float(law(omega[i], theta[i], PEAK)) == many[i]
+
+
+def test_a_function_that_fades_to_nothing_is_refused():
     """
-    A million points go through the table, ten through the quadrature; order and shape do not
-    matter.
+    At the frequencies where it is 0 all round there is nothing to spread, wherever they stand in a
+    batch.
     """
-    law = SwellElongation(xi=0.8)
-    omega = PEAK * np.random.default_rng(2).uniform(0.2, 20.0, (500, 2000))
-    many = law(omega, 0.4, PEAK)
-    assert many.shape == omega.shape
-    assert law(omega[7, ::200], 0.4, PEAK) == pytest.approx(many[7, ::200], rel=1e-12)
+    law = CustomSpreading(lambda omega, theta, _peak: np.where(omega < 2.0, 1.0 + 0.0 * theta, 0.0))
+    assert law(1.9, 0.3, PEAK) == pytest.approx(0.5 / math.pi, rel=1e-12)
+    omega = np.full(999, 1.0)
+    omega[700] = 2.1
+    with pytest.raises(ParameterError, match="more than 0"):
+        law(omega, 0.3, PEAK)
 
 
 def test_custom_spreading_is_any_function_divided_by_its_integral():

@@ -12,11 +12,21 @@ import h5netcdf
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA, FREQUENCY, TO, era5, sea, write_ndbc, write_swan, write_wavespectra, ww3
+from spectrum_files import (
+    DATA,
+    FREQUENCY,
+    TO,
+    era5,
+    sea,
+    write_ndbc,
+    write_swan,
+    write_wavespectra,
+    ww3,
+)
 
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError
-from fftocean.readers import files
+from fftocean.readers import bounded_reads
 
 # --- what is no file of spectra at all
 
@@ -64,7 +74,8 @@ def test_impossible_names(path):
         (b"hello\n", "must be wave spectra in a known format .*, got 'hello'"),
         (b"hello", "must be wave spectra in a known format .*, got 'hello'"),
         (bytes(range(256)) * 8, "UTF-8|must be wave"),
-        (b"#YY  MM DD hh mm Sep_Freq < spec_1 >\n2020 01 01 00 00 9.999 1.0 \xff\xfe\n", "line 2 must be UTF-8 text, got the byte 0xff"),
+        (b"#YY  MM DD hh mm Sep_Freq < spec_1 >\n2020 01 01 00 00 9.999 1.0 \xff\xfe\n",
+         "line 2 must be UTF-8 text, got the byte 0xff"),
         (b"SWAN   1\n$ caf\xe9\n", "line 2 must be UTF-8"),
         (b"\x1f\x8b\x08\x00rubbish", "cannot be read"),
         (gzip.compress(b"SWAN   1\n" * 1000)[:40], "cannot be read"),
@@ -121,7 +132,7 @@ def test_a_bomb_of_short_lines(tmp_path):
 def test_no_more_is_unpacked_than_the_limit(name, tmp_path, monkeypatch):
     (tmp_path / "a.gz").write_bytes(gzip.compress((DATA / name).read_bytes()))
     assert "efth" in readers.open(tmp_path / "a.gz")
-    monkeypatch.setattr(files, "MAX_BYTES", 20_000)
+    monkeypatch.setattr(bounded_reads, "MAX_BYTES", 20_000)
     with pytest.raises(ReaderError, match=r"a\.gz.* at most 0 MiB"):
         readers.open(tmp_path / "a.gz")
 
@@ -181,7 +192,11 @@ def test_what_is_asked_for_must_be_there(name, given, message):
 
 # --- NDBC
 
-HISTORICAL = "YYYY MM DD hh   .050   .100   .150   .200\n2000 01 01 00   0.10   2.50   1.00   0.20\n2000 01 01 01   0.20   3.50   1.50   0.30\n"
+HISTORICAL = (
+    "YYYY MM DD hh   .050   .100   .150   .200\n"
+    "2000 01 01 00   0.10   2.50   1.00   0.20\n"
+    "2000 01 01 01   0.20   3.50   1.50   0.30\n"
+)
 
 
 def historical(tmp_path, *changes, name="44004w2000.txt"):
@@ -236,7 +251,11 @@ def test_a_coherence_of_99_is_missing(fill, suffix, tmp_path):
 
 def test_descending_frequencies_are_sorted(tmp_path):
     up = readers.open(historical(tmp_path))
-    down = "YYYY MM DD hh   .200   .150   .100   .050\n2000 01 01 00   0.20   1.00   2.50   0.10\n2000 01 01 01   0.30   1.50   3.50   0.20\n"
+    down = (
+        "YYYY MM DD hh   .200   .150   .100   .050\n"
+        "2000 01 01 00   0.20   1.00   2.50   0.10\n"
+        "2000 01 01 01   0.30   1.50   3.50   0.20\n"
+    )
     (tmp_path / "44004w2000.txt").write_text(down)
     assert readers.open(tmp_path / "44004w2000.txt").identical(up)
 
@@ -273,10 +292,13 @@ def test_negative_zero_point_nothing_is_rounding(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ([(".100", ".050")], r"the header must ascend or descend without repeats \[Hz\], got 0.05 twice"),
+        ([(".100", ".050")],
+         r"the header must ascend or descend without repeats \[Hz\], got 0.05 twice"),
         ([(".100", ".170")], "must ascend or descend without repeats .* got 0.17 before 0.15"),
         ([(".050", ".000")], "the header must be between 1e-06 and 100000 Hz, got 0.0"),
-        ([("   .100   .150   .200", ""), ("   2.50   1.00   0.20", ""), ("   3.50   1.50   0.30", "")], "at least 2 frequencies, got 1"),
+        ([("   .100   .150   .200", ""), ("   2.50   1.00   0.20", ""),
+          ("   3.50   1.50   0.30", "")],
+         "at least 2 frequencies, got 1"),
         ([("   .200", "")], "line 2 must hold 3 values after the date, got 4"),
         ([("   1.50", "")], "line 3 must hold 4 values after the date, got 3"),
         ([("2.50", "-0.001")], r"line 2: spec must be between 0 and 3.6e\+08 m2/Hz, got -0.001"),
@@ -286,11 +308,15 @@ def test_negative_zero_point_nothing_is_rounding(tmp_path):
         ([("2.50", "inf")], "line 2 must hold a number here, got 'inf'"),
         ([("2.50", "2_5")], "line 2 must hold a number here, got '2_5'"),
         ([("2.50", "٢")], "line 2 must hold a number here"),
-        ([("2000 01 01 01", "2000 13 01 01")], "line 3 must begin with a date, got '2000 13 01 01'"),
+        ([("2000 01 01 01", "2000 13 01 01")],
+         "line 3 must begin with a date, got '2000 13 01 01'"),
         ([("2000 01 01 01", "2000 01 01 xx")], "line 3 must begin with a date in 4 whole numbers"),
-        ([("2000 01 01 01", "0205 01 01 01")], "line 3 must begin with a date between 1900 and 2200"),
+        ([("2000 01 01 01", "0205 01 01 01")],
+         "line 3 must begin with a date between 1900 and 2200"),
         ([("2000 01 01 01", "\n2000 01 01 01")], "line 3 is empty"),
-        ([("0.30\n", "0.3")], "line 3 has no end, and its last number '0.3' has fewer decimals .* the file is cut short"),
+        ([("0.30\n", "0.3")],
+         "line 3 has no end, and its last number '0.3' has fewer decimals .* "
+         "the file is cut short"),
         ([("0.30\n", "0")], "line 3 has no end, and its last number '0' has fewer decimals"),
         ([("   0.30\n", "   ")], "line 3 must hold 4 values after the date, got 3"),
         ([(HISTORICAL.partition("\n")[2], "")], "at least one record after its header"),
@@ -312,9 +338,12 @@ def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
 @pytest.mark.parametrize(
     ("suffix", "old", "new", "message"),
     [
-        ("swr1", "0.90 (0.0", "90.0 (0.0", "12345.swr1: line 2: r1 must be between 0 and 1.1, got 90.0"),
-        ("swr2", "0.65 (0.0", "-0.65 (0.0", "12345.swr2: line 2: r2 must be between 0 and 1.1, got -0.65"),
-        ("swdir", "270.0 (0.0", "370.0 (0.0", "12345.swdir: line 2: alpha1 must be between 0 and 360 degrees, got 370.0"),
+        ("swr1", "0.90 (0.0", "90.0 (0.0",
+         "12345.swr1: line 2: r1 must be between 0 and 1.1, got 90.0"),
+        ("swr2", "0.65 (0.0", "-0.65 (0.0",
+         "12345.swr2: line 2: r2 must be between 0 and 1.1, got -0.65"),
+        ("swdir", "270.0 (0.0", "370.0 (0.0",
+         "12345.swdir: line 2: alpha1 must be between 0 and 360 degrees, got 370.0"),
         ("swdir2", "(0.035", "(0.036", "12345.swdir2 must have the frequencies of 12345.data_spec"),
         ("swr1", "r1_1", "alpha1_1", "12345.swr1: line 1 must announce r1_1, got alpha1_1"),
         ("swr1", "2020 01 01 00 40", "2020 01 01 01 40", "records of the same times, got none"),
@@ -322,7 +351,8 @@ def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
         ("data_spec", "(0.035)", "", "line 2 must hold pairs like"),
         ("data_spec", "(0.035)", "(0.350)", "without repeats"),
         ("data_spec", "(0.035)", "(0.000)", "must be between 1e-06 and 100000 Hz, got 0.0"),
-        ("data_spec", "9.999 0.000", "9.999 -0.001", "12345.data_spec: line 2: spec must be between 0"),
+        ("data_spec", "9.999 0.000", "9.999 -0.001",
+         "12345.data_spec: line 2: spec must be between 0"),
         ("data_spec", "#YY", "2020", "must be wave spectra in a known format"),
         ("swdir", "#YY", "2020", "12345.swdir: line 1 must be a header"),
     ],
@@ -399,10 +429,12 @@ def swan(tmp_path, *changes):
         ([("^AFREQ", "WAVES")], "line 8 must be AFREQ or RFREQ"),
         ([("^AFREQ\n    30", "AFREQ\n    29")], "must be NDIR or CDIR, got '0.5"),
         ([("^AFREQ\n    30", "AFREQ\n    31")], "must hold a number here, got 'NDIR'"),
-        ([("^AFREQ\n    30", "AFREQ\n    3O")], "must begin with a whole number between 1 and 1000000, got '3O'"),
+        ([("^AFREQ\n    30", "AFREQ\n    3O")],
+         "must begin with a whole number between 1 and 1000000, got '3O'"),
         ([("^AFREQ\n    30", "AFREQ\n    99999999999")], "must begin with a whole number"),
         ([("0.034530000000", "0.0")], "AFREQ must be between 1e-06 and 100000 Hz, got 0.0"),
-        ([("0.034530000000", "0.037983000000")], "AFREQ must ascend or descend without repeats .* twice"),
+        ([("0.034530000000", "0.037983000000")],
+         "AFREQ must ascend or descend without repeats .* twice"),
         ([("^187.5000", "202.5000")], "NDIR must hold each direction once .* got 202.5 twice"),
         ([("^187.5000", "1875.000")], "NDIR must be between -360 and 720 degrees, got 1875"),
         ([("^NDIR", "QUANT")], "must begin with a whole number between 1 and 3, got .24."),
@@ -413,12 +445,16 @@ def swan(tmp_path, *changes):
         ([("^20200101.000000", "2020-01-01")], "must begin with a time like"),
         ([("^FACTOR", "FACTORS")], "must be FACTOR, ZERO or NODATA, got 'FACTORS'"),
         ([("^FACTOR\n.*", "FACTOR\nNaN")], "must hold a number here, got 'NaN'"),
-        ([("^FACTOR\n.*", "FACTOR\n0.0")], "the factor must be above 0 for densities that are not 0"),
+        ([("^FACTOR\n.*", "FACTOR\n0.0")],
+         "the factor must be above 0 for densities that are not 0"),
         ([("^FACTOR\n.*", "FACTOR\n-1.0")], "the factor must be at least 0, got -1.0"),
         ([("^FACTOR\n.*", "FACTOR\n1e9")], "must be between 0 and 1e[+]06 m2/Hz/degree"),
-        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n-1 ")], r"a density must be at least 0 \(or -99, missing\), got -1"),
-        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n0 0 ")], "must hold 24 densities, one a direction, got 25"),
-        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n")], "must hold 24 densities, one a direction, got 47"),
+        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n-1 ")],
+         r"a density must be at least 0 \(or -99, missing\), got -1"),
+        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n0 0 ")],
+         "must hold 24 densities, one a direction, got 25"),
+        ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\n")],
+         "must hold 24 densities, one a direction, got 47"),
         ([("^FACTOR\n(.*)\n0 ", r"FACTOR\n\1\nO ")], "must hold a number here, got 'O'"),
         ([("^20200101(.|\n)*", "")], "must hold at least one spectrum"),
     ],
@@ -520,35 +556,53 @@ def put(value, *index):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda d: with_attrs(d, "efth", units="kg"), "variable efth must have units m2/Hz per degree or radian, got 'kg'"),
+        (lambda d: with_attrs(d, "efth", units="kg"),
+         "variable efth must have units m2/Hz per degree or radian, got 'kg'"),
         (lambda d: with_attrs(d, "efth", units=None), "variable efth must have units"),
         (lambda d: with_attrs(d, "efth", units="m2 s"), "variable efth must have units"),
         (lambda d: with_attrs(d, "efth", units="m s rad-1"), "variable efth must have units"),
         (lambda d: with_attrs(d, "efth", units="J/m2/Hz/degr"), "variable efth must have units"),
-        (lambda d: with_attrs(d, "frequency", units="rad/s"), "variable frequency must have units Hz or s-1, got 'rad/s'"),
+        (lambda d: with_attrs(d, "frequency", units="rad/s"),
+         "variable frequency must have units Hz or s-1, got 'rad/s'"),
         (lambda d: with_attrs(d, "frequency", units=None), "variable frequency must have units"),
-        (lambda d: with_attrs(d, "direction", units="grad"), "variable direction must have units degree or radian, got 'grad'"),
+        (lambda d: with_attrs(d, "direction", units="grad"),
+         "variable direction must have units degree or radian, got 'grad'"),
         (lambda d: with_attrs(d, "direction", units=None), "variable direction must have units"),
         (lambda d: with_values(d, "direction", np.radians), "is it in radians"),
-        (lambda d: with_attrs(d, "direction", standard_name=None, long_name=None), "must say whether waves come from there or go there"),
-        (lambda d: with_attrs(d, "direction", standard_name="sea_surface_wave_from_direction"), "must say one way"),
-        (lambda d: with_attrs(d, "direction", long_name="direction the waves come from"), "must say one way"),
-        (lambda d: with_attrs(d, "direction", standard_name="wind_to_direction"), "must be a wave direction, got standard_name 'wind_to"),
-        (lambda d: with_values(d, "direction", put(97.5, 1)), "variable direction must hold each direction once"),
-        (lambda d: with_values(d, "direction", put(np.nan, 1)), "variable direction must be between -360 and 720 degrees, got nan"),
-        (lambda d: d.isel(direction=slice(0, 3)), "variable direction must hold at least 4 directions, got 3"),
-        (lambda d: with_values(d, "frequency", put(-0.1, 0)), "variable frequency must be between 1e-06 and 100000 Hz, got -0.1"),
-        (lambda d: with_values(d, "frequency", put(0.0345, 1)), "variable frequency must ascend or descend without repeats"),
-        (lambda d: with_values(d, "frequency", put(np.nan, 3)), "variable frequency must be between .* got nan"),
+        (lambda d: with_attrs(d, "direction", standard_name=None, long_name=None),
+         "must say whether waves come from there or go there"),
+        (lambda d: with_attrs(d, "direction", standard_name="sea_surface_wave_from_direction"),
+         "must say one way"),
+        (lambda d: with_attrs(d, "direction", long_name="direction the waves come from"),
+         "must say one way"),
+        (lambda d: with_attrs(d, "direction", standard_name="wind_to_direction"),
+         "must be a wave direction, got standard_name 'wind_to"),
+        (lambda d: with_values(d, "direction", put(97.5, 1)),
+         "variable direction must hold each direction once"),
+        (lambda d: with_values(d, "direction", put(np.nan, 1)),
+         "variable direction must be between -360 and 720 degrees, got nan"),
+        (lambda d: d.isel(direction=slice(0, 3)),
+         "variable direction must hold at least 4 directions, got 3"),
+        (lambda d: with_values(d, "frequency", put(-0.1, 0)),
+         "variable frequency must be between 1e-06 and 100000 Hz, got -0.1"),
+        (lambda d: with_values(d, "frequency", put(0.0345, 1)),
+         "variable frequency must ascend or descend without repeats"),
+        (lambda d: with_values(d, "frequency", put(np.nan, 3)),
+         "variable frequency must be between .* got nan"),
         (lambda d: d.isel(frequency=slice(0, 1)), "at least 2 frequencies, got 1"),
-        (lambda d: with_values(d, "efth", put(-1e-3, 1, 0, 2, 3)), r"between 0 and 1e\+06 m2/Hz/degree, got -1.7\d*e-05 at \(1, 2, \d*\)"),
-        (lambda d: with_values(d, "efth", put(1e9, 1, 0, 2, 3)), "variable efth must be between 0 and"),
+        (lambda d: with_values(d, "efth", put(-1e-3, 1, 0, 2, 3)),
+         r"between 0 and 1e\+06 m2/Hz/degree, got -1.7\d*e-05 at \(1, 2, \d*\)"),
+        (lambda d: with_values(d, "efth", put(1e9, 1, 0, 2, 3)),
+         "variable efth must be between 0 and"),
         (lambda d: with_values(d, "efth", put(np.inf, 1, 0, 2, 3)), None),
-        (lambda d: d.drop_vars("direction"), "dimension direction must have a coordinate variable along itself"),
-        (lambda d: d.rename(efth="waves").assign(waves=("station", [1.0])), "must hold one wave spectrum .* got "),
+        (lambda d: d.drop_vars("direction"),
+         "dimension direction must have a coordinate variable along itself"),
+        (lambda d: d.rename(efth="waves").assign(waves=("station", [1.0])),
+         "must hold one wave spectrum .* got "),
         (lambda d: d.isel(time=slice(0, 0)), "must hold at least one time"),
         (lambda d: d.isel(station=slice(0, 0)), "must hold at least one place"),
-        (lambda d: d.assign_coords(time=("time", [1.0, 2.0])), "variable time must be a time of the usual calendar"),
+        (lambda d: d.assign_coords(time=("time", [1.0, 2.0])),
+         "variable time must be a time of the usual calendar"),
         (lambda d: d.assign(efth=d.efth.astype(str)), "variable efth must hold numbers"),
     ],
 )  # fmt: skip
@@ -591,11 +645,15 @@ def test_rounding_below_zero_is_forgiven_and_counted():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda d: with_values(d, "d2fd", lambda v: 10.0 ** (v + 10.0)), "must be log10 of a density, at most 7.7"),
+        (lambda d: with_values(d, "d2fd", lambda v: 10.0 ** (v + 10.0)),
+         "must be log10 of a density, at most 7.7"),
         (lambda d: with_attrs(d, "d2fd", units="m2 s"), "must have units"),
-        (lambda d: with_attrs(d, "d2fd", units="m2/Hz/degree"), r"must have units m\*\*2 s radian\*\*-1"),
-        (lambda d: with_values(d, "directionNumber", lambda v: v + 1.0), "must hold bin numbers between 1 and 24, got 2 to 25"),
-        (lambda d: with_values(d, "frequencyNumber", lambda v: v - 1.0), "must hold bin numbers between 1 and 30, got 0 to 29"),
+        (lambda d: with_attrs(d, "d2fd", units="m2/Hz/degree"),
+         r"must have units m\*\*2 s radian\*\*-1"),
+        (lambda d: with_values(d, "directionNumber", lambda v: v + 1.0),
+         "must hold bin numbers between 1 and 24, got 2 to 25"),
+        (lambda d: with_values(d, "frequencyNumber", lambda v: v - 1.0),
+         "must hold bin numbers between 1 and 30, got 0 to 29"),
         (lambda d: with_attrs(d, "directionNumber", long_name="coming from"), None),
     ],
 )  # fmt: skip
@@ -685,7 +743,8 @@ def test_radians_under_swans_degrees(keyword, count, tmp_path):
         if refused:
             with pytest.raises(
                 ReaderError,
-                match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* is it in radians\?",
+                match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* "
+                r"is it in radians\?",
             ):
                 readers.open(tmp_path / "a.spec")
         else:

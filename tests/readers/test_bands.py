@@ -9,7 +9,7 @@ import wavespectra  # noqa: F401  the accessor `spec`
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from written import DATA, FREQUENCY, TO, sea, ww3
+from spectrum_files import DATA, FREQUENCY, TO, sea, ww3
 
 from fftocean import readers
 from fftocean.errors import ReaderError

@@ -12,11 +12,11 @@ import tracemalloc
 import h5py
 import numpy as np
 import pytest
-from written import DATA, sea, write_swan, write_ww3
+from spectrum_files import DATA, sea, write_swan, write_ww3
 
 from fftocean import readers
 from fftocean.errors import ReaderError
-from fftocean.readers import classic, files, hdf5
+from fftocean.readers import bounded_reads, classic, hdf5
 
 
 def refused(path, message):
@@ -79,7 +79,8 @@ def test_external_storage(target, name, other):
     path = write(other / "a.nc", add) if name == "efth" else write(other / "a.nc", None, add)
     refused(
         path,
-        rf"variable {name} must lie in the file itself, got data in another file \(HDF5 external storage\)",
+        rf"variable {name} must lie in the file itself, got data in another file \(HDF5 "
+        rf"external storage\)",
     )
     (other / "a.nc.gz").write_bytes(gzip.compress(path.read_bytes()))
     refused(other / "a.nc.gz", f"variable {name} must lie in the file itself")
@@ -320,7 +321,7 @@ def test_a_pipe_put_in_place_of_a_file(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     with (
         pytest.raises(ReaderError, match="must be a regular file"),
-        files.opened(tmp_path / "pipe"),
+        bounded_reads.opened(tmp_path / "pipe"),
     ):
         pass
 

@@ -5,12 +5,12 @@ Whatever the wavespectra package hands out becomes a sea of the height that the 
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA, sea, ww3
+from spectrum_files import DATA, sea, ww3
 
 import fftocean as fo
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError, SeaWarning
-from fftocean.readers import layout
+from fftocean.readers import dataset_layout
 
 pytestmark = [pytest.mark.filterwarnings("ignore")]  # what the package warns of is its own
 STRAIGHT = {"direction": 0.0, "spreading": fo.CosineSquared()}
@@ -144,15 +144,16 @@ def test_clipping_in_closed_form():
     nothing to keep.
     """
     values = np.array([[[3.0, -1.0], [-3.0, 1.0], [np.nan, 2.0]]])
-    got, notes = layout.densities("x", values, "m2/Hz/degree", negative="clip")
+    got, notes = dataset_layout.densities("x", values, "m2/Hz/degree", negative="clip")
     assert got[0, :2].tolist() == [[2.0, 0.0], [0.0, 0.0]]
     assert got[0, 2, 1] == 2.0
     assert (notes["clipped_negatives"], notes["masked_values"]) == (2, 1)
-    got, notes = layout.densities("x", np.array([[1.0, -1.0]]), "m2/Hz", negative="clip")
+    got, notes = dataset_layout.densities("x", np.array([[1.0, -1.0]]), "m2/Hz", negative="clip")
     assert got.tolist() == [[1.0, 0.0]]
     assert "kept" not in notes["negative_note"]
     assert (
-        "negative_note" not in layout.densities("x", np.ones((1, 2)), "m2/Hz", negative="clip")[1]
+        "negative_note"
+        not in dataset_layout.densities("x", np.ones((1, 2)), "m2/Hz", negative="clip")[1]
     )
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA, FREQUENCY, TIMES, TO, era5, sea, write_ndbc, ww3
+from spectrum_files import DATA, FREQUENCY, TIMES, TO, era5, sea, write_ndbc, ww3
 
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError, SeaWarning
@@ -32,10 +32,10 @@ def test_at_the_points_it_is_the_source():
     It makes up for straight lines being wider than bands: (df/f)^2/6, 0.2 % of m2, where bands are
     10 % wide; most of it in the tail.
     """
-    order = sea(toward=200.0)
-    made = Realised.from_spectrum(ww3(order), time=0)
+    specified = sea(toward=200.0)
+    made = Realised.from_spectrum(ww3(specified), time=0)
     got = made.sea.density(2.0 * np.pi * FREQUENCY[:, None], np.radians(90.0 - TO))
-    want = order.density[0] * (180.0 / np.pi) / (2.0 * np.pi)
+    want = specified.density[0] * (180.0 / np.pi) / (2.0 * np.pi)
     some = want.sum(axis=1) > 1e-6 * want.max()
     factor = got.sum(axis=1)[some] / want.sum(axis=1)[some]
     assert factor == pytest.approx(np.ones(factor.size), abs=0.03)
@@ -48,11 +48,11 @@ def test_its_variance_is_the_sum_over_the_bands_of_the_source():
     """
     Sum of E df dtheta, df half way to the neighbours and symmetric at the ends, dtheta 15 degrees.
     """
-    order = sea()
-    made = Realised.from_spectrum(ww3(order), time=1)
+    specified = sea()
+    made = Realised.from_spectrum(ww3(specified), time=1)
     f = FREQUENCY
     df = np.concatenate([[f[1] - f[0]], 0.5 * (f[2:] - f[:-2]), [f[-1] - f[-2]]])
-    want = 4.0 * math.sqrt(np.sum(order.density[1] * df[:, None]) * 15.0)
+    want = 4.0 * math.sqrt(np.sum(specified.density[1] * df[:, None]) * 15.0)
     assert made.hs_source == pytest.approx(want, rel=1e-12)
     assert made.sea.hs == pytest.approx(want, rel=1e-9)
     # Over frequency and direction, by another rule: the trapezoid on eight panels to every straight
@@ -86,12 +86,12 @@ def test_a_known_sea_comes_back():
 
 
 def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
-    order = sea().density[0].copy()
-    order[12] = np.nan
-    order[14, 3] = np.nan
-    made = Realised.from_spectrum(by_hand(order))
+    specified = sea().density[0].copy()
+    specified[12] = np.nan
+    specified[14, 3] = np.nan
+    made = Realised.from_spectrum(by_hand(specified))
     f = np.delete(FREQUENCY, 12)
-    rest = np.nan_to_num(np.delete(order, 12, axis=0)).sum(axis=1) * 15.0
+    rest = np.nan_to_num(np.delete(specified, 12, axis=0)).sum(axis=1) * 15.0
     assert made.hs_source == pytest.approx(
         4.0 * math.sqrt(np.sum(rest * np.gradient(f))), rel=1e-12
     )
@@ -173,7 +173,7 @@ def test_depth_is_that_of_the_dataset_unless_it_is_said():
 
 
 def test_times_and_places_are_picked():
-    """The second time was ordered with twice the energy."""
+    """The second time is specified with twice the energy."""
     one, two = (sea_from_spectrum(ww3(sea()), time=t).variance for t in (0, 1))
     assert two == pytest.approx(2.0 * one, rel=1e-9)
     assert sea_from_spectrum(ww3(sea()), time=-1).variance == two

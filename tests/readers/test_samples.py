@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA
+from spectrum_files import DATA
 
 from fftocean import readers
 

@@ -1,6 +1,7 @@
 """
-Whether a bake is still what was written, and whether what was written is water: every fault by its
-name and the frame it is in.
+Check of a bake: unchanged files, and pixels that are a seamless, looping sea surface.
+
+Each problem is named with its kind, its file and its frame.
 """
 
 import functools
@@ -12,12 +13,13 @@ from typing import Any, Literal
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.baking.finished.containers import INSEPARABLE, still_says
+from fftocean.baking.finished.containers import INSEPARABLE, has_written_lines
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
-from fftocean.baking.folder.identity import HEADER, read_checked
+from fftocean.baking.folder.identity import HEADER
 from fftocean.baking.folder.lock import require_free
+from fftocean.baking.folder.sealed import read_sealed
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.files import digest, path_of, read_whole
@@ -39,27 +41,29 @@ Kind = Literal[
     "crest",
 ]
 """
-unfinished: there is no manifest.  manifest, job: those files were changed, or contradict
-themselves. missing, cut, swapped, changed: a file or a frame of it is not there; is shorter; holds
-another frame; has other bytes. extra: a file that would be taken for a frame.  values: what is no
-number, or cannot be decoded.  range: values beyond those promised. normal: normals that are not of
-length 1.  seam, loop: a step across the tile's edge, from the last frame to the first. crest:
-troughs that are sharper than crests.
+unfinished: the manifest does not exist. manifest, job: those files were changed, or contradict
+themselves. missing, cut, swapped, changed: a file, or a frame in it, does not exist; is shorter;
+holds another frame; has other bytes. extra: a file is named like one of the bake, and is not listed
+in the manifest. values: NaN, or data that cannot be decoded. range: values beyond the listed range.
+normal: normals whose length is not 1. seam, loop: a step across the tile's edge, or from the last
+frame to the first. crest: troughs that are sharper than crests.
 """
 
 ROUGHER = 2.0
 """
-How many times the roughest step inside a step across an edge may be. The sea is as rough there as
+Largest ratio of the step across an edge to the roughest step inside. The sea is as rough there as
 anywhere: of any two steps of a sea, all frames together, the roughest was at most 1.6 times the
 second (60 seas of 10 to 32 samples a side).
 """
 
-FEWEST = 8  # steps inside, before there is anything to compare with
+UNFINISHED = "it does not exist: the bake was stopped, and the same command resumes it"
+
+FEWEST = 8  # steps inside that the step across an edge is compared with
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is wrong."""
+    """One problem of a bake."""
 
     kind: Kind
     path: str  # in the folder
@@ -75,27 +79,26 @@ def check(
     folder: str | Path, *, progress: Callable[[int, int], None] | None = None
 ) -> tuple[Finding, ...]:
     """
-    Check a bake: whether every file is there and is what was written, and whether that is a sea.
+    Check that the files of a bake are unchanged, and that their pixels are a sea surface.
 
-    Of a cascade every tile is checked so, and that the tiles belong together.
+    Of a cascade every tile is checked, and that the tiles belong together.
 
     Args:
-        folder: that `bake` wrote, or the folder around the tiles of a cascade.
-        progress: called with (maps of frames looked at, all of them).
+        folder: the folder of a bake, or the one around the tiles of a cascade.
+        progress: called with (maps of frames checked, all of them).
 
     Returns:
-        What is wrong; nothing, if all is well.
+        The problems found; () if there are none.
 
     Raises:
-        FolderInUseError: a bake is under way there.
-        OutputError: a file is there and cannot be read.
+        FolderInUseError: another process bakes into the folder.
+        OutputError: the folder does not exist, or a file exists and cannot be read.
     """
     folder = path_of("folder", folder)
     require_free(folder)
     if not folder.is_dir():
-        raise OutputError(
-            f"{folder} must be the folder of a bake, and is {'no folder' if folder.exists() else 'not there'}"
-        )
+        reason = "is not a folder" if folder.exists() else "does not exist"
+        raise OutputError(f"{folder} must be the folder of a bake, and {reason}")
     return _cascade(folder, progress) if layout.is_cascade(folder) else _bake(folder, progress)
 
 
@@ -110,31 +113,30 @@ def _bake(folder: Path, progress: Callable[[int, int], None] | None) -> tuple[Fi
     for i, name in enumerate(contents.job.maps):
         done = i * len(contents.frames)
         found += _map(
-            contents, name, functools.partial(_tell, progress, done, total) if progress else None
+            contents, name, functools.partial(_report, progress, done, total) if progress else None
         )
     return (*found, *_extra(contents))
 
 
 def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple[Finding, ...]:
     """
-    Check the bake of a cascade: its job and list, each of its tiles, and that they belong together.
+    Check a baked cascade: its job and list, each of its tiles, and that they belong together.
     """
     found: list[Finding] = []
     header: dict[str, Any] | None = None
     listed: dict[str, Any] | None = None
     try:
-        header = read_checked(folder / layout.CASCADE_JOB)
+        header = read_sealed(folder / layout.CASCADE_JOB)
     except IntegrityError as error:
-        there = (folder / layout.CASCADE_JOB).is_file()
-        found.append(Finding("job" if there else "missing", layout.CASCADE_JOB, str(error)))
+        exists = (folder / layout.CASCADE_JOB).is_file()
+        found.append(Finding("job" if exists else "missing", layout.CASCADE_JOB, str(error)))
     try:
-        listed = read_checked(folder / layout.CASCADE_FILE)
+        listed = read_sealed(folder / layout.CASCADE_FILE)
     except IntegrityError as error:
         if (folder / layout.CASCADE_FILE).is_file():
             found.append(Finding("manifest", layout.CASCADE_FILE, str(error)))
         else:
-            why = "it is not there: the bake was stopped, and the same command goes on with it"
-            found.append(Finding("unfinished", layout.CASCADE_FILE, why))
+            found.append(Finding("unfinished", layout.CASCADE_FILE, UNFINISHED))
     names = layout.tile_folders(folder)
     known = {} if listed is None else {row["path"]: row for row in listed["tiles"]}
     for name in known:
@@ -143,7 +145,7 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
                 Finding(
                     "missing",
                     f"{name}/{layout.MANIFEST_FILE}",
-                    f"it is in the list of {layout.CASCADE_FILE}",
+                    f"it is listed in {layout.CASCADE_FILE} and does not exist",
                 )
             )
     for index, name in enumerate(names):
@@ -152,87 +154,87 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
                 Finding(
                     "extra",
                     name,
-                    f"it would be taken for a tile, and is not in {layout.CASCADE_FILE}",
+                    f"a tile that is not listed in {layout.CASCADE_FILE}",
                 )
             )
             continue
-        tell = functools.partial(_share, progress, index, len(names)) if progress else None
+        report = functools.partial(_report_tile, progress, index, len(names)) if progress else None
         require_free(folder / name)
         found += [
             replace(finding, path=f"{name}/{finding.path}")
-            for finding in _bake(folder / name, tell)
+            for finding in _bake(folder / name, report)
         ]
     if listed is not None:
         reference = {key: listed.get(key) for key in listing.HEADER} if header is None else header
         found += [
             Finding("manifest", path, detail)
-            for path, detail in listing.faults(folder, reference, listed)
+            for path, detail in listing.inconsistencies(folder, reference, listed)
         ]
-        for key in layout.DRAWN:
+        for key in layout.PREVIEWS:
             if key in listed and (
                 fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})
             ):
                 found.append(Finding(fault[0], listed[key]["path"], fault[1]))
     drawn = (
-        {listed[key]["path"] for key in layout.DRAWN if key in listed}
+        {listed[key]["path"] for key in layout.PREVIEWS if key in listed}
         if listed
-        else set(layout.PICTURES)
+        else set(layout.PREVIEW_FILES)
     )
-    for path in layout.leftovers(folder):
+    for path in layout.bake_files(folder):
         if (relative := path.relative_to(folder).as_posix()) not in drawn:
             found.append(
                 Finding(
                     "extra",
                     relative,
-                    f"it would be taken for a file of this bake, and is not in {layout.CASCADE_FILE}",
+                    f"not listed in {layout.CASCADE_FILE}",
                 )
             )
     for path in sorted(folder.glob(".*.[0-9]*.tmp")):
-        found.append(Finding("extra", path.name, "somebody was stopped while writing it"))
+        found.append(Finding("extra", path.name, "left-over temporary file"))
     return tuple(found)
 
 
-def _share(
+def _report_tile(
     progress: Callable[[int, int], None], index: int, tiles: int, done: int, total: int
 ) -> None:
-    """Tell how far all tiles are, each taken for as long as this one."""
+    """Report the progress of all tiles, taking each for as long as this one."""
     progress(index * total + done, tiles * total)
 
 
-def _tell(progress: Callable[[int, int], None], before: int, total: int, done: int) -> None:
+def _report(progress: Callable[[int, int], None], before: int, total: int, done: int) -> None:
     progress(before + done, total)
 
 
 def _without_manifest(folder: Path, why: str) -> Iterator[Finding]:
-    """All that can be said of a folder whose manifest is no help."""
+    """Yield the problems of a folder whose manifest is missing or damaged."""
     if (folder / layout.MANIFEST_FILE).is_file():
         yield Finding("manifest", layout.MANIFEST_FILE, why)
     elif (folder / layout.JOB_FILE).is_file():
         yield Finding(
             "unfinished",
             layout.MANIFEST_FILE,
-            "it is not there: the bake was stopped, and the same command goes on with it",
+            UNFINISHED,
         )
     else:
         yield Finding(
             "unfinished",
             layout.MANIFEST_FILE,
-            f"neither it nor {layout.JOB_FILE} is there: this is no bake",
+            f"neither it nor {layout.JOB_FILE} exists: this is no bake",
         )
     if (folder / layout.JOB_FILE).is_file():
         try:
-            read_checked(folder / layout.JOB_FILE)
+            read_sealed(folder / layout.JOB_FILE)
         except (IntegrityError, OutputError) as error:
             yield Finding("job", layout.JOB_FILE, str(error))
 
 
 def _job(folder: Path, contents: Contents) -> Iterator[Finding]:
-    """Whether the job's own file is there and is that of the manifest."""
+    """Yield a problem if the job's own file is missing, or is not that of the manifest."""
     try:
-        job = read_checked(folder / layout.JOB_FILE)
+        job = read_sealed(folder / layout.JOB_FILE)
     except (IntegrityError, OutputError) as error:
-        there = (folder / layout.JOB_FILE).is_file()
-        yield Finding("job" if there else "missing", layout.JOB_FILE, str(error))
+        exists = (folder / layout.JOB_FILE).is_file()
+        yield Finding("job" if exists else "missing", layout.JOB_FILE, str(error))
         return
     if job != {key: contents.manifest.get(key) for key in HEADER}:
         yield Finding("job", layout.JOB_FILE, "it is not the job of the manifest")
@@ -240,9 +242,9 @@ def _job(folder: Path, contents: Contents) -> Iterator[Finding]:
 
 def _beside(contents: Contents) -> Iterator[Finding]:
     """
-    Pictures, and what stands beside the frames; containers too, where no frame of theirs tells.
+    Yield the problems of previews and sidecars, and of containers whose frames are not checked.
     """
-    pictures = [contents.manifest[key] for key in layout.DRAWN if key in contents.manifest]
+    previews = [contents.manifest[key] for key in layout.PREVIEWS if key in contents.manifest]
     containers = (
         {layout.container(contents.form, name) for name in contents.job.maps}
         if contents.form.scope == "sequence"
@@ -251,21 +253,21 @@ def _beside(contents: Contents) -> Iterator[Finding]:
     beside = [
         entry for entries in contents.manifest.get("containers", {}).values() for entry in entries
     ]
-    for entry in [*pictures, *beside]:
+    for entry in [*previews, *beside]:
         path = entry["path"]
-        ours = path in layout.PICTURES or any(
+        is_known = path in layout.PREVIEW_FILES or any(
             path.startswith((f"{name}.", f"{name}/")) for name in contents.job.maps
         )
-        if not ours or ".." in path.split("/"):
+        if not is_known or ".." in path.split("/"):
             yield Finding(
                 "manifest",
                 layout.MANIFEST_FILE,
-                f"it lists {path!r:.80}, which is no file of a bake",
+                f"it lists {path!r:.80}, which is not named like a file of a bake",
             )
         elif path not in containers:
             data = contents.read(path)
             fault = _fault(data, entry, {})
-            if fault and not (data and still_says(contents, path, data)):
+            if fault and not (data and has_written_lines(contents, path, data)):
                 yield Finding(fault[0], path, fault[1])
 
 
@@ -273,10 +275,12 @@ def _fault(
     data: bytes | None, entry: Mapping[str, Any], known: Mapping[str, str]
 ) -> tuple[Kind, str] | None:
     """
-    What is wrong with some bytes, by size and checksum; `known` says whose checksums there are.
+    Return the problem of a file's bytes, by size and checksum, or None.
+
+    `known` names the frames by their checksums.
     """
     if data is None:
-        return "missing", "it is not there"
+        return "missing", "it does not exist"
     if (sha256 := digest(data)) == entry["sha256"]:
         return None
     if sha256 in known:
@@ -288,12 +292,12 @@ def _fault(
             "changed",
             f"it has {len(data)} bytes, {len(data) - entry['bytes']} more than were written",
         )
-    return "changed", "its bytes are not those that were written"
+    return "changed", "its bytes were changed after it was written"
 
 
 @dataclass(slots=True)
-class _Water:
-    """What is gathered of a map, frame by frame, to say at the end whether it is water."""
+class _Sequence:
+    """Sums over the frames of a map, for the checks of the whole sequence."""
 
     steps: list[float] = field(default_factory=list)  # from each frame to the next
     first: Real | None = None
@@ -305,16 +309,14 @@ class _Water:
     across: list[float] = field(
         default_factory=lambda: [0.0, 0.0]
     )  # and of the one across the tile's edge
-    sharpness: float = (
-        0.0  # sum of height times how far the water is drawn apart: negative where crests are sharp
-    )
-    strength: float = 0.0  # what that could be at most
+    sharpness: float = 0.0  # sum of height times divergence: negative where crests are sharp
+    strength: float = 0.0  # its largest possible magnitude
 
 
 def _map(contents: Contents, name: str, progress: Callable[[int], None] | None) -> list[Finding]:
-    """All that is wrong with a map."""
+    """Return the problems of a map."""
     found: list[Finding] = []
-    places, water = range(len(contents.frames)), _Water()
+    places, sequence = range(len(contents.frames)), _Sequence()
     known = {
         contents.entry(other, place)["sha256"]: f"{other} of frame {contents.frames[place]}"
         for other in contents.job.maps
@@ -326,7 +328,7 @@ def _map(contents: Contents, name: str, progress: Callable[[int], None] | None) 
         source = iter(parts)
     for place, data in zip(
         places, source, strict=False
-    ):  # none of a container that cannot be taken apart
+    ):  # none of a container whose frames cannot be separated
         entry, path, frame = (
             contents.entry(name, place),
             contents.path(name, place),
@@ -334,25 +336,25 @@ def _map(contents: Contents, name: str, progress: Callable[[int], None] | None) 
         )
         if fault := _fault(data, entry, known):
             found.append(Finding(fault[0], path, fault[1], name, frame))
-            water.unbroken = False
+            sequence.unbroken = False
         else:
-            assert data is not None  # else it were missing
+            assert data is not None  # else it is missing
             found += [
                 Finding(kind, path, detail, name, frame)
-                for kind, detail in _frame(contents, name, place, data, water)
+                for kind, detail in _frame(contents, name, place, data, sequence)
             ]
         if progress:
             progress(place + 1)
     return found + [
         Finding(kind, contents.path(name, 0), detail, name)
-        for kind, detail in _sequence(contents, name, water)
+        for kind, detail in _whole(contents, name, sequence)
     ]
 
 
 def _container(contents: Contents, name: str) -> tuple[list[Finding], list[bytes]]:
     """
-    What is wrong with a container as a whole, and its frames' parts, so far as they can be told
-    apart.
+    Return the problems of a container as a whole, and the parts of its frames if they can be
+    separated.
     """
     path = layout.container(contents.form, name)
     entry = next((e for e in contents.manifest["containers"][name] if e["path"] == path), None)
@@ -367,22 +369,22 @@ def _container(contents: Contents, name: str) -> tuple[list[Finding], list[bytes
     except IntegrityError as error:
         kind, detail = fault or ("values", str(error))
         return [Finding(kind, path, detail, name)], []
-    told = any(
+    damaged_part = any(
         digest(part) != contents.entry(name, place)["sha256"] for place, part in enumerate(parts)
     )
     return [
-        Finding(fault[0], path, f"{fault[1]}, though those of its frames are", name)
-    ] if fault and not told else [], parts
+        Finding(fault[0], path, f"{fault[1]}, though its frames are unchanged", name)
+    ] if fault and not damaged_part else [], parts
 
 
 def _frame(
-    contents: Contents, name: str, place: int, data: bytes, water: _Water
+    contents: Contents, name: str, place: int, data: bytes, sequence: _Sequence
 ) -> Iterator[tuple[Kind, str]]:
-    """What is wrong with a frame whose bytes are those that were written."""
+    """Yield the problems of a frame whose bytes are unchanged."""
     try:
         pixels = contents.pixels(name, data)
     except IntegrityError as error:
-        water.unbroken = False
+        sequence.unbroken = False
         yield "values", str(error)
         return
     half_step = _half_step(contents, name)
@@ -399,25 +401,25 @@ def _frame(
         if not off <= _length_error(contents):
             yield "normal", f"a normal's length is {off:.2g} off 1"
     for axis in (0, 1):
-        water.inside[axis] += np.mean(
+        sequence.inside[axis] += np.mean(
             np.square(np.diff(values, axis=axis), dtype=np.float64), axis=(1 - axis, 2)
         )
-        water.across[axis] += _rms(np.take(values, 0, axis) - np.take(values, -1, axis)) ** 2
+        sequence.across[axis] += _rms(np.take(values, 0, axis) - np.take(values, -1, axis)) ** 2
     if name == "displacement":
-        _weigh_crests(values, contents, water)
-    if water.first is None:
-        water.first = values
-    if water.last is not None:
-        water.steps.append(_rms(values - water.last))
-    water.last = values
+        _weigh_crests(values, contents, sequence)
+    if sequence.first is None:
+        sequence.first = values
+    if sequence.last is not None:
+        sequence.steps.append(_rms(values - sequence.last))
+    sequence.last = values
 
 
-def _sequence(contents: Contents, name: str, water: _Water) -> Iterator[tuple[Kind, str]]:
-    """What is wrong with all frames of a map together."""
+def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple[Kind, str]]:
+    """Yield the problems of all frames of a map together."""
     frames, count = contents.frames, contents.job.frames
     step = frames[1] - frames[0] if len(frames) > 1 else count
-    closes = water.unbroken and frames[0] + count - frames[-1] == step
-    first, last = water.first, water.last
+    closes = sequence.unbroken and frames[0] + count - frames[-1] == step
+    first, last = sequence.first, sequence.last
     if not closes or first is None or last is None:
         pass
     elif name == "foam":
@@ -425,15 +427,15 @@ def _sequence(contents: Contents, name: str, water: _Water) -> Iterator[tuple[Ki
             fault := _foam_forgotten(last, first, step / count, contents)
         ):
             yield "loop", fault
-    elif len(water.steps) >= FEWEST:
-        home, roughest = _rms(first - last), max(water.steps)
+    elif len(sequence.steps) >= FEWEST:
+        home, roughest = _rms(first - last), max(sequence.steps)
         if home > ROUGHER * roughest + _half_step(contents, name):
             yield (
                 "loop",
                 f"the step from the last frame to the first is {home / max(roughest, 1e-300):.1f} times the largest before",
             )
     for axis, edge in ((0, "north"), (1, "east")):
-        inside, across = np.atleast_1d(water.inside[axis]), water.across[axis]
+        inside, across = np.atleast_1d(sequence.inside[axis]), sequence.across[axis]
         if (
             inside.size >= FEWEST
             and across
@@ -444,17 +446,18 @@ def _sequence(contents: Contents, name: str, water: _Water) -> Iterator[tuple[Ki
                 "seam",
                 f"the step across the {edge} edge is {excess:.1f} times the roughest inside",
             )
-    if water.strength > 0.0 and water.sharpness > 0.0:
+    if sequence.strength > 0.0 and sequence.sharpness > 0.0:
         yield (
             "crest",
-            "the water is drawn together in the troughs and apart at the crests: an axis is mirrored",
+            "troughs are sharper than crests: an axis is mirrored",
         )
 
 
 def _foam_forgotten(last: Real, first: Real, share: float, contents: Contents) -> str | None:
     """
-    Foam comes at once, but goes no faster than it decays: what of the last frame's must be left in
-    the first, and is not.
+    Return a problem if foam of the last frame is missing in the first, or None.
+
+    Foam may grow at once, but goes no faster than it decays.
     """
     decay = np.exp(-share * contents.manifest["ocean"]["loop"] / contents.job.foam["tau"])
     left = (
@@ -474,12 +477,12 @@ def _rms(values: Real) -> float:
 
 
 def _half_step(contents: Contents, name: str) -> float:
-    """Half a step of what is stored, at the largest value: what a value may have moved."""
+    """Return half a step of the stored type at the largest value: the largest rounding error."""
     low, high = contents.range(name)
     if low is not None and high is not None:
         return 0.5 * (high - low) / 65535.0 + 1e-6 * max(
             abs(low), abs(high)
-        )  # and what float32 makes of it
+        )  # and the rounding to float32
     largest = max(abs(value) for value in contents.manifest["maps"][name]["range"])
     return (
         float(
@@ -493,27 +496,27 @@ def _half_step(contents: Contents, name: str) -> float:
 
 def _length_error(contents: Contents) -> float:
     """
-    How far three components rounded to what is stored can take a unit normal from length 1, and as
-    far again for its own rounding.
+    Return the largest error of a unit normal's length: that of rounding three components to the
+    stored type, and as much again for the normal's own rounding.
     """
     step = {"float16": 2.0**-12, "float32": 2.0**-22, "uint16": 1.0 / 65535.0}[contents.form.stored]
     packed = contents.profile.normals == "packed"  # n = 2 c - 1 doubles what c was rounded by
     return (4.0 if packed else 2.0) * float(np.sqrt(3.0)) * step
 
 
-def _weigh_crests(values: Real, contents: Contents, water: _Water) -> None:
-    """Put a displacement map on the scales: crests are sharp where high water is drawn together."""
+def _weigh_crests(values: Real, contents: Contents, sequence: _Sequence) -> None:
+    """Add a displacement map to the sum that is negative where crests are sharper than troughs."""
     v = values.astype(np.float64)
     lx, ly = contents.manifest["ocean"]["size"]
     along = (np.roll(v[..., 0], -1, 1) - np.roll(v[..., 0], 1, 1)) * (v.shape[1] / lx)
     up = (np.roll(v[..., 1], -1, 0) - np.roll(v[..., 1], 1, 0)) * (v.shape[0] / ly)
     apart = along + up
-    water.sharpness += float(np.sum(v[..., 2] * apart))
-    water.strength += float(np.sqrt(np.sum(v[..., 2] ** 2) * np.sum(apart**2)))
+    sequence.sharpness += float(np.sum(v[..., 2] * apart))
+    sequence.strength += float(np.sqrt(np.sum(v[..., 2] ** 2) * np.sum(apart**2)))
 
 
 def _extra(contents: Contents) -> Iterator[Finding]:
-    """Files that look like ours and are not in the manifest."""
+    """Yield the files that are named like those of a bake, and are not listed in the manifest."""
     listed = {
         contents.path(name, place)
         for name in contents.job.maps
@@ -524,19 +527,21 @@ def _extra(contents: Contents) -> Iterator[Finding]:
         for entries in contents.manifest.get("containers", {}).values()
         for entry in entries
     }
-    listed |= {contents.manifest[key]["path"] for key in layout.DRAWN if key in contents.manifest}
-    for path in layout.leftovers(contents.folder):
+    listed |= {
+        contents.manifest[key]["path"] for key in layout.PREVIEWS if key in contents.manifest
+    }
+    for path in layout.bake_files(contents.folder):
         relative = path.relative_to(contents.folder).as_posix()
         if relative not in listed:
             yield Finding(
                 "extra",
                 relative,
-                "it would be taken for a file of this bake, and is in no manifest",
+                "not listed in the manifest",
             )
-    for room in layout.rooms(contents.folder):
-        for path in sorted(room.glob(".*.[0-9]*.tmp")):
+    for inner in layout.folders_of(contents.folder):
+        for path in sorted(inner.glob(".*.[0-9]*.tmp")):
             yield Finding(
                 "extra",
                 path.relative_to(contents.folder).as_posix(),
-                "somebody was stopped while writing it",
+                "left-over temporary file",
             )

@@ -1,7 +1,4 @@
-"""
-Frames into containers, and back out of them: for the formats in which a file holds a whole
-sequence, and for what stands beside them.
-"""
+"""Containers, which hold all frames of a map, and sidecars: their assembly and separation."""
 
 import contextlib
 import math
@@ -12,12 +9,12 @@ from typing import Any
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import played
 from fftocean.baking.folder import layout
-from fftocean.baking.folder.plan import Order
+from fftocean.baking.folder.plan import Plan
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.errors import FFTOceanError, IntegrityError
 from fftocean.export import formats, profiles, recipes
-from fftocean.files import digest, make_rooms, read_whole, write_whole
+from fftocean.files import digest, make_parents, read_whole, write_whole
 
 INSEPARABLE = tuple(
     form.name
@@ -25,31 +22,30 @@ INSEPARABLE = tuple(
     if form.container and not form.container.separable
 )
 """
-Containers whose frames cannot be told apart once they are bent: their rows are compressed across
-all frames.
+Containers whose frames cannot be separated once they are damaged: they are compressed across all
+frames.
 """
 
 FREE = (".import",)
-"""Sidecars that engines rewrite: what they become is not ours to judge."""
+"""Sidecars that engines rewrite; lines that they add are no fault."""
 
 
 def assemble(
-    folder: Path, order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]
+    folder: Path, plan: Plan, scene: Scene, rows: Sequence[Mapping[str, Any]]
 ) -> dict[str, list[dict[str, Any]]]:
     """
-    Write each map's container, or what stands beside its files; return them by map, with sizes and
-    checksums.
+    Write the containers and sidecars of each map; return their entries by map.
 
     Raises:
         OutputError: a file cannot be written.
-        IntegrityError: a part is not any more what it was when it was written.
+        IntegrityError: a part was changed after it was written.
     """
-    loop = played(order, scene, len(rows))
+    loop = played(plan, scene, len(rows))
     bounds = _bounds(scene, rows)
     written: dict[str, list[dict[str, Any]]] = {}
     for name in scene.job.maps:
         m = MAPS[name]
-        low, high = order.ranges.get(name, (None, None))
+        low, high = plan.ranges.get(name, (None, None))
         files = formats.assemble(
             scene.form.name,
             _parts(folder, scene, name, rows) if scene.form.scope == "sequence" else (),
@@ -63,7 +59,7 @@ def assemble(
             loop=loop,
             start=rows[0]["t"],
             closes=rows[0]["frame"] + scene.job.frames - rows[-1]["frame"]
-            == (order.step if len(rows) > 1 else scene.job.frames),
+            == (plan.step if len(rows) > 1 else scene.job.frames),
             lookup=scene.job.lookup,
             bounds=bounds,
             lo=low,
@@ -74,7 +70,7 @@ def assemble(
             {
                 "path": path,
                 "bytes": len(data),
-                "sha256": write_whole(make_rooms(folder, path), data),
+                "sha256": write_whole(make_parents(folder, path), data),
             }
             for path, data in sorted(files.items())
         ]
@@ -85,7 +81,7 @@ def assemble(
 
 def _bounds(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float] | None:
     """
-    Return how far the water goes, for culling [m]; None for a tile that holds a band of the waves.
+    Return bounds of the displacement, for culling [m]; None for a tile that holds a band of waves.
 
     The other tiles move the same mesh: `cascade.json` has the sums of all bounds.
     """
@@ -101,32 +97,30 @@ def _bounds(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]
 def _parts(
     folder: Path, scene: Scene, name: str, rows: Sequence[Mapping[str, Any]]
 ) -> Iterator[bytes]:
-    """Each frame's payload, read back and held against what was written."""
+    """Yield each frame's payload, read back and compared with its checksum."""
     for place, row in enumerate(rows):
         file = layout.frame_file(scene.form, name, row["frame"], place)
         data = read_whole(folder / file)
         if data is None or digest(data) != row["files"][name]["sha256"]:
-            raise IntegrityError(f"{folder / file} is not what was written there; bake again")
+            raise IntegrityError(f"{folder / file} was changed after it was written; bake again")
         yield data
 
 
 def intact(contents: Contents) -> bool:
     """
-    Whether every container of a finished bake, and what stands beside it, is there and is what it
-    was.
+    Return whether every container and sidecar of a finished bake exists and is unchanged.
     """
     return all(
         (data := contents.read(entry["path"])) is not None
-        and (digest(data) == entry["sha256"] or still_says(contents, entry["path"], data))
+        and (digest(data) == entry["sha256"] or has_written_lines(contents, entry["path"], data))
         for entries in contents.manifest.get("containers", {}).values()
         for entry in entries
     )
 
 
-def still_says(contents: Contents, path: str, data: bytes) -> bool:
+def has_written_lines(contents: Contents, path: str, data: bytes) -> bool:
     """
-    Whether a file is a sidecar that an engine may rewrite, and still says all that it was written
-    with.
+    Return whether a file is a sidecar that an engine may rewrite, and still has all its lines.
     """
     if not path.endswith(FREE):
         return False
@@ -137,21 +131,19 @@ def still_says(contents: Contents, path: str, data: bytes) -> bool:
 
 def unpack(folder: Path, scene: Scene, manifest: Mapping[str, Any]) -> None:
     """
-    Put the parts of a finished bake's containers back where they were before, those that are still
-    what they were.
+    Write the unchanged parts of a finished bake's containers back to the files that they had while
+    it was baked.
     """
     for name in scene.job.maps if scene.form.name not in INSEPARABLE else ():
         data = read_whole(folder / layout.container(scene.form, name))
         if data is None:
             continue
-        with contextlib.suppress(
-            FFTOceanError
-        ):  # cut or bent, so that no part can be told from the others
+        with contextlib.suppress(FFTOceanError):  # damaged, so that its parts cannot be separated
             parts = payloads_in(scene, name, data, len(manifest["frames"]))
             for place, (row, part) in enumerate(zip(manifest["frames"], parts, strict=True)):
                 if digest(part) == row["files"][name]["sha256"]:
                     write_whole(
-                        make_rooms(
+                        make_parents(
                             folder, layout.frame_file(scene.form, name, row["frame"], place)
                         ),
                         part,
@@ -163,7 +155,7 @@ def payloads_in(scene: Scene, name: str, data: bytes, count: int) -> list[bytes]
     Return each frame's payload out of a container.
 
     Raises:
-        IntegrityError: it is cut or bent.
+        IntegrityError: the container is damaged.
     """
     shape = (count, *scene.ocean.grid.shape, len(MAPS[name].names))
     return formats.payloads(

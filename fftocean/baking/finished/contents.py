@@ -1,6 +1,8 @@
 """
-What a finished bake holds: its files, frame by frame, back out of every format, in the files' own
-frame or in ours.
+Contents of a finished bake: files and pixels of each map and frame, from every format.
+
+Pixels are returned as the file has them, in an engine's conventions, or restored to those of the
+package.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -26,13 +28,14 @@ from fftocean.job.job import Job
 @dataclass(frozen=True, slots=True)
 class Contents:
     """
-    A finished bake by its manifest. Where each file stands follows from the job; the manifest's own
-    paths are only compared.
+    A finished bake as its manifest describes it.
+
+    The path of each file follows from the job; the manifest's own paths are only compared.
     """
 
     folder: Path
     manifest: Mapping[str, Any]
-    job: Job  # as it is baked: made smaller already, where that was asked
+    job: Job  # as it is baked: downsampled already
     frames: tuple[int, ...]
     form: Format
     profile: Profile
@@ -41,16 +44,16 @@ class Contents:
     @classmethod
     def of(cls, folder: Path, manifest: Mapping[str, Any]) -> "Contents":
         """
-        Find out what a manifest says is there.
+        Return the contents that a manifest describes.
 
         Raises:
-            IntegrityError: it is not what a bake could have written.
+            IntegrityError: no bake could have written the manifest.
         """
         try:
-            ordered = Job.from_description(
+            original = Job.from_description(
                 manifest["job"], source=str(folder / layout.MANIFEST_FILE), at_sea=False
             )
-            job = ordered.downsampled(manifest["downsample"])
+            job = original.downsampled(manifest["downsample"])
             subset = manifest["subset"]
             frames = frames_of(None if subset == "all" else subset, job.frames)
             form = formats.FORMATS[job.format]
@@ -68,18 +71,18 @@ class Contents:
             AttributeError,
             IndexError,
         ) as error:
-            what = (
+            reason = (
                 f"{error}"
                 if isinstance(error, ParameterError)
                 else f"{type(error).__name__} {error}"
             )
             raise IntegrityError(
-                f"{folder / layout.MANIFEST_FILE} does not say what a bake's does: {what:.200}"
+                f"{folder / layout.MANIFEST_FILE} does not describe a bake: {reason:.200}"
             ) from None
         return found
 
     def _require_consistent(self) -> None:
-        """Whether what the manifest says twice it says alike."""
+        """Raise if redundant entries of the manifest disagree."""
         rows = self.manifest["frames"]
         if [row["frame"] for row in rows] != list(self.frames):
             raise ValueError("its frames are not those of its job")
@@ -96,12 +99,12 @@ class Contents:
                     raise ValueError(
                         f"{name} of frame {row['frame']} is not in {row['files'][name]['path']}"
                     )
-        beside = [
+        containers = [
             entry for entries in self.manifest.get("containers", {}).values() for entry in entries
         ]
         for entry in [
-            *beside,
-            *(self.manifest[key] for key in layout.DRAWN if key in self.manifest),
+            *containers,
+            *(self.manifest[key] for key in layout.PREVIEWS if key in self.manifest),
         ]:
             if not isinstance(entry["path"] + entry["sha256"], str) or entry["bytes"] < 0:
                 raise ValueError(f"a file is listed as {entry}")
@@ -124,32 +127,31 @@ class Contents:
                 raise ValueError(f"{key} is not that of its frames")
 
     def path(self, name: str, place: int) -> str:
-        """Where a map of the frame at a place of the sequence stands."""
+        """Return the file of a map, for the frame at a place of the sequence."""
         if self.form.scope == "sequence":
             return layout.container(self.form, name)
         return layout.frame_file(self.form, name, self.frames[place], place)
 
     def entry(self, name: str, place: int) -> Mapping[str, Any]:
-        """What the manifest says of it."""
+        """Return the manifest's entry of a map, for the frame at a place of the sequence."""
         found: Mapping[str, Any] = self.manifest["frames"][place]["files"][name]
         return found
 
     def levels(self, name: str) -> int:
-        """How many levels a map has."""
+        """Return the number of mip levels of a map."""
         return int(self.manifest["maps"][name]["levels"])
 
     def range(self, name: str) -> tuple[float | None, float | None]:
-        """What a scaled map is scaled by."""
+        """Return the range that a map is scaled by; (None, None) if it is not scaled."""
         scaled = self.manifest["maps"][name].get("scaled")
         return (None, None) if scaled is None else (scaled["low"], scaled["high"])
 
     def data(self, name: str, places: Sequence[int]) -> Iterator[bytes | None]:
         """
-        The bytes of a map's frames at some places of the sequence; None for one that is not there.
+        Yield the bytes of a map's frames at some places of the sequence; None for a missing file.
 
         Raises:
-            IntegrityError: a container is missing, or so cut or bent that its frames cannot be told
-                apart.
+            IntegrityError: a container is missing, or too damaged to separate its frames.
         """
         if self.form.scope == "frame":
             for place in places:
@@ -161,10 +163,10 @@ class Contents:
 
     def parts(self, name: str, data: bytes | None) -> list[bytes]:
         """
-        Each frame's part out of a container's bytes.
+        Return the part of each frame from a container's bytes.
 
         Raises:
-            IntegrityError: it is missing, or so cut or bent that its frames cannot be told apart.
+            IntegrityError: the container is missing, or too damaged to separate its frames.
         """
         shape = (len(self.frames), *self.shape, len(MAPS[name].names))
         return formats.payloads(
@@ -173,7 +175,7 @@ class Contents:
 
     def read(self, path: str) -> bytes | None:
         """
-        A file of the folder; None where there is none of that name, or a link on the way to it.
+        Return the bytes of a file of the folder; None if it does not exist, or lies behind a link.
         """
         at = self.folder
         for part in path.split("/")[:-1]:
@@ -184,11 +186,11 @@ class Contents:
 
     def pixels(self, name: str, data: bytes) -> npt.NDArray[Any]:
         """
-        A map of a frame as the file has it: (rows, columns, channels), in the type that is stored,
-        or float32.
+        Return a map of a frame as the file has it: (rows, columns, channels), in the stored type or
+        float32.
 
         Raises:
-            IntegrityError: it is cut or bent, or holds what is no number.
+            IntegrityError: the data are damaged, or hold NaN.
         """
         low, high = self.range(name)
         shape = (*self.shape, len(MAPS[name].names))
@@ -197,23 +199,24 @@ class Contents:
         )
 
     def restored(self, name: str, pixels: npt.NDArray[Any]) -> Real:
-        """The same in our own frame: row 0 south, our axes, metres; float32."""
+        """Return pixels in the conventions of the package: row 0 south, x east, metres; float32."""
         return profiles.restore(
             self.profile, MAPS[name].kind, np.ascontiguousarray(pixels, dtype=np.float32)
         )
 
     def chosen(self, frames: Sequence[int] | None) -> list[int]:
         """
-        The places of some frames of the loop; None is all.
+        Return the places of some frames of the loop; None is all of them.
 
         Raises:
-            JobError: one is not in the bake.
+            JobError: a frame is not in the bake.
         """
         if frames is None:
             return list(range(len(self.frames)))
         missing = [j for j in frames if j not in self.frames]
         if missing:
             raise JobError(
-                f"frames must be some of the {len(self.frames)} that were baked, got {missing[0]!r:.40}"
+                f"frames must be some of the {len(self.frames)} that were baked, "
+                f"got {missing[0]!r:.40}"
             )
         return [self.frames.index(j) for j in frames]

@@ -1,4 +1,4 @@
-"""A bake back as arrays: every format, every engine's conventions, one frame of reference: ours."""
+"""Bakes as arrays, whatever their format and engine, in the conventions of the package."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -7,26 +7,27 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike, require_memory, shortened
+from fftocean.arrays import Real, RealLike, shortened
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
 from fftocean.files import digest, path_of, read_whole
+from fftocean.host import require_memory
 from fftocean.kernels import interpolate
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bake:
     """
-    What was baked: `bake["height"]` is (frames, ny, nx, channels), float32, row 0 south, x east, y
+    Maps of a bake: `bake["height"]` is (frames, ny, nx, channels), float32, row 0 south, x east, y
     north, z up, SI.
     """
 
     maps: Mapping[str, Real]
     times: Real  # of the frames, (frames,) [s]
-    frames: tuple[int, ...]  # which of the loop's they are
+    frames: tuple[int, ...]  # their numbers in the loop
     manifest: Mapping[str, Any]
 
     def __repr__(self) -> str:
@@ -40,7 +41,7 @@ class Bake:
         Return a map by name.
 
         Raises:
-            JobError: it is not among those loaded.
+            JobError: the map is not among those loaded.
         """
         if name not in self.maps:
             raise JobError(f"maps loaded are {', '.join(self.maps)}, got {name!r:.60}")
@@ -49,7 +50,7 @@ class Bake:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BakedCascade:
-    """The tiles of a cascade that was baked, the largest first; each is a `Bake`."""
+    """Tiles of a baked cascade, the largest first; each is a `Bake`."""
 
     tiles: tuple[Bake, ...]
     manifest: Mapping[str, Any]  # the list, `cascade.json`
@@ -110,23 +111,23 @@ def load(
     verify: bool = True,
 ) -> Any:
     """
-    Read a finished bake: a `Bake`, or a `BakedCascade` of the folder around the tiles of one.
+    Load the maps of a finished bake.
 
     Args:
-        folder: that `bake` wrote.
-        maps: which; None is all of them.
-        frames: which, by their numbers in the loop; None is all of them.
-        verify: whether every file read must have the checksum that the manifest has for it.
+        folder: the folder of a bake, or the one around the tiles of a cascade.
+        maps: names of maps; None is all of them.
+        frames: numbers of frames in the loop; None is all of them.
+        verify: compare the checksum of every file that is read with the manifest's.
 
     Returns:
-        The maps as they were before they were turned into the engine's frame, as exactly as the
-        format holds them.
+        A `Bake`, or a `BakedCascade` for a cascade: maps in the conventions of the package, whatever
+        the engine, as precisely as the format stores them.
 
     Raises:
-        IntegrityError: the bake is not finished, or a file is missing or not what was written;
-            `check` names all of them.
-        OutputError: a file is there and cannot be read.
-        JobError: a map or a frame that was not baked.
+        IntegrityError: the bake is not finished, or a file is missing or was changed; `check` names
+            all problems.
+        OutputError: a file exists and cannot be read.
+        JobError: a map or a frame was not baked.
     """
     folder = path_of("folder", folder)
     if layout.is_cascade(folder):
@@ -146,7 +147,8 @@ def _tiles(
         path = folder / row["path"] / layout.MANIFEST_FILE
         if digest(read_whole(path) or b"") != row["sha256"]:
             raise IntegrityError(
-                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; `fftocean check` names all that is wrong"
+                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; "
+                "`fftocean check` names all problems"
             )
         tiles.append(_bake(folder / row["path"], names, chosen, verify))
     return BakedCascade(tuple(tiles), listed)
@@ -163,7 +165,8 @@ def _bake(
     for name in wanted:
         if name not in contents.job.maps:
             raise JobError(
-                f"maps must be some of {', '.join(contents.job.maps)}, which were baked, got {name!r:.60}"
+                f"maps must be some of {', '.join(contents.job.maps)}, which were baked, "
+                f"got {name!r:.60}"
             )
     places = contents.chosen(None if frames is None else list(frames))
     channels = sum(len(MAPS[name].names) for name in wanted)
@@ -177,19 +180,19 @@ def _bake(
 
 
 def _stack(contents: Contents, name: str, places: list[int], verify: bool) -> Real:
-    """The frames of a map at some places, one above the other."""
+    """Return the frames of a map at some places, as one array."""
     out = np.empty((len(places), *contents.shape, len(MAPS[name].names)), dtype=np.float32)
     i = 0
     try:
         for i, data in enumerate(contents.data(name, places)):
             if data is None:
-                raise IntegrityError("it is missing")
+                raise IntegrityError("the file is missing")
             if verify and digest(data) != contents.entry(name, places[i])["sha256"]:
-                raise IntegrityError("it is not what was written")
+                raise IntegrityError("the file was changed after it was written")
             out[i] = contents.restored(name, contents.pixels(name, data))
     except IntegrityError as error:
         path, frame = contents.folder / contents.path(name, places[i]), contents.frames[places[i]]
         raise IntegrityError(
-            f"{path}, frame {frame}: {error}; `fftocean check` names all that is wrong"
+            f"{path}, frame {frame}: {error}; `fftocean check` names all problems"
         ) from None
     return out

@@ -1,17 +1,13 @@
-"""
-The manifest: what a finished bake says of itself, written last, with a check over every one of its
-own bytes.
-"""
+"""Manifest of a finished bake: written last, with a checksum over all of its own bytes."""
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from fftocean.baking.folder.identity import checked, read_checked
 from fftocean.baking.folder.layout import MANIFEST_FILE
-from fftocean.baking.folder.plan import Order
+from fftocean.baking.folder.plan import Plan
+from fftocean.baking.folder.sealed import read_sealed, sealed
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.export import profiles, rules
@@ -21,7 +17,7 @@ from fftocean.statistics import Statistics
 
 
 def compose(
-    order: Order,
+    plan: Plan,
     scene: Scene,
     rows: Sequence[Mapping[str, Any]],
     *,
@@ -34,13 +30,13 @@ def compose(
     Return the manifest of a bake as plain data.
 
     Args:
-        order: what was asked.
-        scene: the water.
-        rows: one a frame, in order, as the workers gave them.
-        statistics: ordered beside delivered.
-        blend: what linear blending between two frames loses.
-        containers: the files that hold several frames, and those beside them, by map.
-        pictures: what there is to look at, by name.
+        plan: the plan of the bake.
+        scene: its scene.
+        rows: one a frame, in order, as the workers returned them.
+        statistics: specified and realised.
+        blend: loss by linear blending between two frames.
+        containers: files that hold several frames, and their sidecars, by map.
+        pictures: entries of the previews, by name.
     """
     job = scene.job
     shape = scene.ocean.grid.shape
@@ -49,7 +45,7 @@ def compose(
         m = MAPS[name]
         ranges = merged([row["files"][name]["range"] for row in rows])
         meaning = profiles.meaning(scene.profile, m.kind, m.names)
-        low, high = order.ranges.get(name, (None, None))
+        low, high = plan.ranges.get(name, (None, None))
         entries[name] = {
             "channels": {
                 letter: "1" if c is None else meaning[c]
@@ -68,12 +64,12 @@ def compose(
             "levels": scene.levels,
         }
     manifest = {
-        **order.header,
+        **plan.header,
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
-        "statistics": plain(statistics),  # ordered beside delivered
+        "statistics": statistics.as_plain(),  # specified and realised
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
-        "sampling": {**rules.sampling(scene.profile), "values": _numbers(order, scene, rows)},
+        "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),
         "extremes": {
             "unit": {"max_height": "m", "max_horizontal": "m", "min_jacobian": "1", "folded": "1"},
@@ -84,44 +80,37 @@ def compose(
         **pictures,
         "frames": list(rows),
     }
-    return checked(manifest)
+    return sealed(manifest)
 
 
-def _numbers(order: Order, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """The numbers that the sampling rules name."""
+def _numbers(plan: Plan, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """Return the numbers that the sampling rules name."""
     grid, count = scene.ocean.grid, len(rows)
     return rules.numbers(
         scene.profile,
         (grid.lx, grid.ly),
         (grid.nx, grid.ny),
         count,
-        played(order, scene, count),
+        played(plan, scene, count),
         rows[0]["t"],
     )
 
 
-def played(order: Order, scene: Scene, count: int) -> float:
-    """How long the frames that are there take to play through [s]."""
+def played(plan: Plan, scene: Scene, count: int) -> float:
+    """Return the time in which the baked frames play through [s]."""
     loop: float = scene.job.settings["ocean.loop"]
-    return loop if count == scene.job.frames else loop * order.step * count / scene.job.frames
+    return loop if count == scene.job.frames else loop * plan.step * count / scene.job.frames
 
 
 _LOOKUP = {
     "lagrangian": "lagrangian: a map is indexed by the undisplaced position",
-    "eulerian": "eulerian: a map is indexed by the place in the world; what is displaced by it is a height field",
+    "eulerian": "eulerian: a map is indexed by the place in the world; "
+    "what is displaced by it is a height field",
 }
 
 
-def plain(statistics: Statistics) -> dict[str, Any]:
-    """Statistics as plain data, None for a number that JSON has not."""
-    found = asdict(statistics)
-    if math.isinf(found["folding"]["largest_choppiness"]):
-        found["folding"]["largest_choppiness"] = None
-    return found
-
-
 def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
-    """The least and greatest of each channel over many frames."""
+    """Return the least and greatest value of each channel over many frames."""
     return [
         [min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)]
         for c in range(len(ranges[0]))
@@ -130,8 +119,9 @@ def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
 
 def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """
-    The extremes of the whole sequence; `largest_choppiness` is that at which nothing folds, None
-    where any is.
+    Return the extremes of the whole sequence.
+
+    `largest_choppiness` is the largest without folds, or None where no choppiness has folds.
     """
     limits = [c for row in rows if (c := row["extremes"]["largest_choppiness"]) is not None]
     return {
@@ -144,7 +134,7 @@ def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _tile(ocean: Ocean) -> dict[str, Any]:
-    """The tile in numbers."""
+    """Return the numbers of the tile."""
     grid = ocean.grid
     return {
         "n": [grid.nx, grid.ny],
@@ -159,7 +149,7 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
 
 
 def _stated(sea: Sea) -> dict[str, str]:
-    """By which spectrum or spreading depth and surface tension are stated, where one does."""
+    """Return the spectrum or spreading that sets depth and surface tension, where one does."""
     parts = {"depth": sea.depth_from, "surface_tension": sea.surface_tension_from}
     return {name: part for name, part in parts.items() if part is not None}
 
@@ -169,7 +159,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     Read the manifest of a finished bake.
 
     Raises:
-        OutputError: it cannot be read.
-        IntegrityError: there is none, or it is not, to the byte, what a bake wrote.
+        OutputError: the file cannot be read.
+        IntegrityError: the file does not exist, or one of its bytes was changed.
     """
-    return read_checked(folder / MANIFEST_FILE)
+    return read_sealed(folder / MANIFEST_FILE)

@@ -1,6 +1,5 @@
 """
-What a bake has done so far: a line for each thing that is finished, flushed to the disk, each with
-a check of its own.
+Journal of a bake: one line for each finished step, flushed to the disk, with a checksum of its own.
 """
 
 import contextlib
@@ -16,23 +15,26 @@ from fftocean.errors import OutputError
 from fftocean.files import read_whole, write_whole
 
 MAX_BYTES = 2**33  # a million frames of all maps, each about two thousand
+
 Entry = dict[str, Any]
+"""One finished step: {"foam": ...}, {"range": ...}, {"ranges": ...} or {"row": ...}."""
 
 
 class Journal:
     """
     A journal that is open for writing: one process writes it, line by line.
 
-    A line is `<check> <entry as JSON>`; the check is the beginning of the entry's SHA-256. A line
-    that is cut, bent or of another claim is as if it had never been written. What a line says was
-    on the disk before the line was.
+    A line is `<check> <entry as JSON>`; the check is the beginning of the entry's SHA-256. Lines
+    that are cut or changed, and those of another bake, are ignored. The result that a line records
+    is on the disk before the line is.
     """
 
-    def __init__(self, path: Path, claim: str, entries: list[Entry]) -> None:
-        """Write a new journal of what is known; `claim` says whose it is. Use as a context."""
+    def __init__(self, path: Path, identity: str, entries: list[Entry]) -> None:
+        """Write a journal of the bake with an identity that begins with known entries."""
         self.path = path
-        lines = [_line({"claim": claim}), *map(_line, entries)]
-        write_whole(path, b"".join(lines))  # without what was cut or bent
+        # the first line's key is part of the format of the journal
+        lines = [_line({"claim": identity}), *map(_line, entries)]
+        write_whole(path, b"".join(lines))  # without lines that were cut or changed
         try:
             self._descriptor = os.open(
                 path, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)
@@ -45,7 +47,7 @@ class Journal:
         Write a line and flush it to the disk.
 
         Raises:
-            OutputError: that failed; the line does not count, whole or not.
+            OutputError: the line could not be written; readers ignore it, whole or not.
         """
         view = memoryview(_line(entry))
         try:
@@ -70,29 +72,30 @@ class Journal:
             os.close(self._descriptor)
 
 
-def entries_of(path: Path, claim: str) -> list[Entry]:
+def entries_of(path: Path, identity: str) -> list[Entry]:
     """
-    Return every entry of a journal whose line is whole, in order; none where there is no journal,
-    or that of another claim.
+    Return every entry of a bake's journal whose line is whole, in order.
+
+    There are none where the file does not exist, or is the journal of another bake.
 
     Raises:
-        OutputError: it is there and cannot be read.
+        OutputError: the file exists and cannot be read.
     """
     data = read_whole(path, MAX_BYTES)
     first, *lines = (data or b"").splitlines(keepends=True) or [b""]
-    if _entry(first) != {"claim": claim}:
+    if _entry(first) != {"claim": identity}:
         return []
     return [entry for line in lines if (entry := _entry(line)) is not None]
 
 
 def _line(entry: Mapping[str, Any]) -> bytes:
-    """An entry as it stands in the journal."""
+    """Return the line of an entry."""
     text = json.dumps(entry, separators=(",", ":"), ensure_ascii=True, allow_nan=False).encode()
     return _check(text) + b" " + text + b"\n"
 
 
 def _entry(line: bytes) -> Entry | None:
-    """The entry of a line, if all of it is there and as it was written."""
+    """Return the entry of a line, or None where the line is cut or changed."""
     check, _, text = line.rstrip(b"\n").partition(b" ")
     if not line.endswith(b"\n") or check != _check(text):
         return None

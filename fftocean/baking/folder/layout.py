@@ -1,26 +1,24 @@
-"""Where each thing stands in a bake's folder, and which names there are ours."""
+"""Names of files and folders in the folder of a bake."""
 
 import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from fftocean.baking.scene.maps import MAPS
 from fftocean.export.formats import FORMATS, Format
 from fftocean.export.recipes import PAGES
+from fftocean.job.parameters import MAPS
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
 SHEET, ANIMATION, TILING, SPECTRUM = "preview.png", "preview.webp", "tiling.png", "spectrum.png"
-DRAWN = {
+PREVIEWS = {
     "preview": SHEET,
     "animation": ANIMATION,
     "tiling": TILING,
     "spectrum": SPECTRUM,
 }  # by their keys in the manifest
-PICTURES = tuple(DRAWN.values())
+PREVIEW_FILES = tuple(PREVIEWS.values())
 CASCADE_FILE, CASCADE_JOB = "cascade.json", "cascade-job.json"
-"""
-Of the folder around the tiles of a cascade: its list, written last, and its job, written first.
-"""
+"""List of a cascade's tiles, written last, and job of the cascade, written first."""
 JOURNAL, FOAM_STARTS = f"{WORK_FOLDER}/journal", f"{WORK_FOLDER}/foam.npy"
 SIDECARS = (
     ".json",
@@ -30,14 +28,13 @@ SIDECARS = (
 
 def frame_file(form: Format, name: str, frame: int, place: int) -> str:
     """
-    Return where a map of a frame is written: its own file, or the part that will stand in a
-    container.
+    Return the file of a map of one frame: its own, or the part from which a container is made.
 
     Args:
         form: the format.
         name: of the map.
-        frame: of the loop.
-        place: in the sequence.
+        frame: number in the loop.
+        place: position in the sequence that is baked.
     """
     if form.scope == "sequence":
         return f"{WORK_FOLDER}/{name}/{frame:04d}.part"
@@ -45,22 +42,22 @@ def frame_file(form: Format, name: str, frame: int, place: int) -> str:
 
 
 def container(form: Format, name: str) -> str:
-    """Where the container of a map stands."""
+    """Return the file or folder that holds all frames of a map."""
     return form.file.format(stem=name, frame=0)
 
 
 def foam_file(first: int) -> str:
-    """Where the foam that is made in the span from frame `first` on is kept meanwhile."""
+    """Return the file of the foam response of the span that begins at a frame, while baking."""
     return f"{WORK_FOLDER}/foam/{first:04d}.npy"
 
 
 def tile_folder(index: int) -> str:
-    """Return the name of the folder of a cascade's tile."""
+    """Return the folder of a cascade's tile."""
     return f"tile{index}"
 
 
 def is_cascade(folder: Path) -> bool:
-    """Return whether a folder is marked as that of a cascade."""
+    """Return whether a folder holds the job or the list of a cascade."""
     return any(os.path.lexists(folder / name) for name in (CASCADE_FILE, CASCADE_JOB))
 
 
@@ -79,34 +76,35 @@ def tile_folders(folder: Path) -> list[str]:
     return sorted((path.name for path in marked), key=lambda name: int(name[4:]))
 
 
-def rooms(folder: Path) -> Iterator[Path]:
+def folders_of(folder: Path) -> Iterator[Path]:
     """
-    Every folder of a bake that is there and is no link, the outermost first: nothing is done
-    through a link.
+    Yield every existing folder of a bake, the outermost first, links excepted.
+
+    Nothing is done through a link.
     """
     yield folder
-    for room in (
+    for inner in (
         folder / WORK_FOLDER,
         *(folder / name for name in MAPS),
         *(folder / f"{name}.zarr" for name in MAPS),
     ):
-        if room.is_dir() and not room.is_symlink():
-            yield room
-            for path, folders, _ in os.walk(room, followlinks=False):
+        if inner.is_dir() and not inner.is_symlink():
+            yield inner
+            for path, folders, _ in os.walk(inner, followlinks=False):
                 yield from (
                     Path(path) / name for name in folders if not (Path(path) / name).is_symlink()
                 )
 
 
-def leftovers(folder: Path) -> Iterator[Path]:
+def bake_files(folder: Path) -> Iterator[Path]:
     """
-    Every file in a folder that has a name of ours, of any job: frames, containers, what stands
-    beside them, pictures.
+    Yield every file in a folder that is named like one of a bake, of whatever job: frames,
+    containers, sidecars, previews.
     """
     suffixes = {form.suffix for form in FORMATS.values()}
-    for picture in PICTURES:
-        if os.path.lexists(folder / picture):
-            yield folder / picture
+    for preview in PREVIEW_FILES:
+        if os.path.lexists(folder / preview):
+            yield folder / preview
     for name in MAPS:
         for suffix in sorted({*suffixes, *SIDECARS}):
             path = folder / f"{name}{suffix}"
@@ -114,7 +112,7 @@ def leftovers(folder: Path) -> Iterator[Path]:
                 yield path
             elif path.is_dir():
                 yield from (p for p in sorted(path.rglob("*")) if p.is_symlink() or not p.is_dir())
-        room = folder / name
-        if room.is_dir() and not room.is_symlink():
+        inner = folder / name
+        if inner.is_dir() and not inner.is_symlink():
             for suffix in sorted(suffixes):
-                yield from sorted(room.glob(f"[0-9]*{suffix}"))
+                yield from sorted(inner.glob(f"[0-9]*{suffix}"))

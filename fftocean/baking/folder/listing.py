@@ -1,6 +1,4 @@
-"""
-Job and list of a cascade's bake: which tiles a folder holds, and what their manifests must say.
-"""
+"""Job and list of a baked cascade, and their agreement with the manifests of its tiles."""
 
 import os
 import shutil
@@ -12,26 +10,28 @@ from typing import Any
 
 import fftocean
 from fftocean.baking.folder import layout
-from fftocean.baking.folder.identity import differences, discard_work, read_checked
+from fftocean.baking.folder.identity import differences
+from fftocean.baking.folder.ownership import remove_workspace
+from fftocean.baking.folder.sealed import read_sealed
 from fftocean.cascade import tile_jobs
 from fftocean.cells import Band
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
-from fftocean.files import digest, read_json, read_whole, remove, sweep
+from fftocean.files import digest, read_json, read_whole, remove, remove_temporary_files
 from fftocean.grid import Grid
 from fftocean.job.job import Job, finite_or_word
 from fftocean.job.parameters import PARAMETERS
 
 REPLACED = ("ocean.n", "ocean.size", "ocean.band_low", "ocean.band_high")
 """
-Keys of a job whose values are those of the tiles instead; the seeds of tiles follow from its own.
+Keys of a job that each tile replaces; the seeds of tiles follow from the job's.
 """
 
 HEADER = ("tool", "version", "job", "units", "subset", "downsample", "inputs")
-"""What says which cascade a folder holds: all of its job's file, and the head of its list."""
+"""Keys of the header: all of `cascade-job.json`, and the beginning of `cascade.json`."""
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class TileJob:
     """One tile of a cascade, as a job of its own."""
 
     path: str  # of its folder in the cascade's
@@ -41,7 +41,7 @@ class Share:
     job: Job
 
     def row(self, data: bytes, manifest: Mapping[str, Any]) -> dict[str, Any]:
-        """Return what the list says of a tile, from its manifest and that file's bytes."""
+        """Return a tile's entry of the list, from its manifest and that file's bytes."""
         return {
             "path": self.path,
             "n": [self.grid.nx, self.grid.ny],
@@ -54,7 +54,7 @@ class Share:
         }
 
 
-def shares_of(job: Job, tiles: Sequence[Any]) -> list[Share]:
+def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
     """
     Return the tiles of a cascade as jobs.
 
@@ -62,7 +62,7 @@ def shares_of(job: Job, tiles: Sequence[Any]) -> list[Share]:
         JobError: tiles that cannot share a sea.
     """
     pictures = [name for name in job.pictures if name not in SUMMED]
-    shares = []
+    jobs = []
     try:
         grids = tile_jobs(tiles, job.settings["ocean.seed"])
     except ParameterError as error:
@@ -76,27 +76,25 @@ def shares_of(job: Job, tiles: Sequence[Any]) -> list[Share]:
             "ocean.band_high": band[1],
             "bake.pictures": pictures,
         }
-        shares.append(Share(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
-    return shares
+        jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
+    return jobs
 
 
 SUMMED = ("sheet", "animation")
-"""
-Pictures that show the water: of a cascade, that of all tiles together. The others show a tile.
-"""
+"""Previews of a cascade that show the sum of all tiles; the others show one tile."""
 
 
 def header_of(
-    job: Job, shares: Sequence[Share], *, frames: Sequence[int], downsample: int
+    job: Job, jobs: Sequence[TileJob], *, frames: Sequence[int], downsample: int
 ) -> dict[str, Any]:
     """
-    Return what says which cascade a bake is: its job, its tiles, and the measured files.
+    Return the header of a cascade: its job, its tiles, and the measured files.
 
-    The libraries stand in the manifests of the tiles.
+    The manifests of the tiles name the libraries.
     """
     step = frames[1] - frames[0] if len(frames) > 1 else 1
     described = {key: value for key, value in job.describe().items() if key not in REPLACED}
-    listed = [[[s.grid.nx, s.grid.ny], [s.grid.lx, s.grid.ly]] for s in shares]
+    listed = [[[s.grid.nx, s.grid.ny], [s.grid.lx, s.grid.ly]] for s in jobs]
     return {
         "tool": "fftocean",
         "version": fftocean.__version__,
@@ -115,7 +113,7 @@ def job_of(
     Return the job and the tiles that a header describes.
 
     Raises:
-        IntegrityError: it describes none.
+        IntegrityError: the header describes no cascade.
     """
     try:
         described = dict(header["job"])
@@ -130,19 +128,19 @@ def read_listing(folder: Path) -> dict[str, Any]:
     Read the list of a finished cascade.
 
     Raises:
-        OutputError: it cannot be read.
-        IntegrityError: there is none, or it is not, to the byte, what was written.
+        OutputError: the file cannot be read.
+        IntegrityError: the file does not exist, or one of its bytes was changed.
     """
-    return read_checked(folder / layout.CASCADE_FILE)
+    return read_sealed(folder / layout.CASCADE_FILE)
 
 
-def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
+def require_same_cascade(folder: Path, header: Mapping[str, Any]) -> None:
     """
-    Refuse a folder that holds anything but this cascade.
+    Raise if a folder holds anything but the cascade of this header.
 
     Raises:
-        OutputError: it holds another one, the bake of one tile, or files that this one would
-            replace.
+        OutputError: the folder holds another cascade, the bake of one tile, or files that this
+            cascade would replace.
     """
     other = "choose another folder, or --overwrite"
     for name in (layout.JOB_FILE, layout.MANIFEST_FILE):
@@ -150,73 +148,73 @@ def require_claimable(folder: Path, header: Mapping[str, Any]) -> None:
             raise OutputError(f"{folder} holds the bake of one tile ({name}); {other}")
     if not os.path.lexists(folder / layout.CASCADE_JOB):
         there = [layout.CASCADE_FILE] if os.path.lexists(folder / layout.CASCADE_FILE) else []
-        there += [path.relative_to(folder).as_posix() for path in layout.leftovers(folder)]
+        there += [path.relative_to(folder).as_posix() for path in layout.bake_files(folder)]
         there += layout.tile_folders(folder)
         if there:
-            raise OutputError(f"{folder} holds a {there[0]} and no {layout.CASCADE_JOB}; {other}")
+            raise OutputError(f"{folder} contains {there[0]} but no {layout.CASCADE_JOB}; {other}")
         return
     before = read_json(folder / layout.CASCADE_JOB)
     if changes := differences(before if isinstance(before, dict) else {}, header):
         raise OutputError(f"{folder} holds the cascade of another job ({changes:.400}); {other}")
 
 
-def discard(folder: Path) -> None:
+def remove_cascade(folder: Path) -> None:
     """
-    Remove a cascade's tiles, list, job and pictures from its folder; other files stay.
+    Remove a cascade's tiles, list, job and previews from its folder; other files stay.
 
     Raises:
         OutputError: one cannot be removed.
     """
     remove(folder / layout.CASCADE_FILE)
     for name in layout.tile_folders(folder):
-        discard_bake(folder / name)
-    for picture in layout.PICTURES:
+        remove_bake(folder / name)
+    for picture in layout.PREVIEW_FILES:
         remove(folder / picture)
     remove(folder / layout.CASCADE_JOB)
 
 
-def discard_bake(folder: Path) -> None:
+def remove_bake(folder: Path) -> None:
     """
-    Remove what a bake wrote to a folder, and the folder itself where nothing else is in it.
+    Remove the files of a bake from a folder, and the folder itself if it is empty then.
 
     Raises:
-        OutputError: something cannot be removed.
+        OutputError: a file cannot be removed.
     """
     remove(folder / layout.MANIFEST_FILE)
-    discard_work(folder)
-    for path in layout.leftovers(folder):
+    remove_workspace(folder)
+    for path in layout.bake_files(folder):
         remove(path)
     remove(folder / layout.JOB_FILE)
-    for room in reversed([*layout.rooms(folder)]):
-        sweep(room)
-        if not any(room.iterdir()):
-            shutil.rmtree(room, ignore_errors=True)
+    for inner in reversed([*layout.folders_of(folder)]):
+        remove_temporary_files(inner)
+        if not any(inner.iterdir()):
+            shutil.rmtree(inner, ignore_errors=True)
 
 
-def leave_cascade(folder: Path, *, overwrite: bool) -> None:
+def replace_cascade(folder: Path, *, overwrite: bool) -> None:
     """
-    Refuse to bake one tile over a cascade, or remove the cascade where it is to be overwritten.
+    Remove a cascade from a folder for the bake of one tile, or raise without `overwrite`.
 
     Raises:
-        OutputError: the folder holds a cascade and is not to be overwritten.
+        OutputError: the folder holds a cascade and `overwrite` is False.
     """
     if layout.is_cascade(folder):
         if not overwrite:
             raise OutputError(
                 f"{folder} holds the tiles of a cascade; choose another folder, or --overwrite"
             )
-        discard(folder)
+        remove_cascade(folder)
 
 
-def faults(
+def inconsistencies(
     folder: Path, header: Mapping[str, Any], listing: Mapping[str, Any]
 ) -> Iterator[tuple[str, str]]:
     """
-    Yield (path, detail) of what the list of a cascade and its tiles' manifests do not say alike.
+    Yield (path, detail) of each disagreement between the list of a cascade and its tiles.
 
     Checked: the job; that bands are disjoint and cover all wavenumbers; sizes, seeds and bands of
     the tiles, made again from the job; the SHA-256 of each manifest; that all tiles are of one sea,
-    loop, part of it and version; that bounds are the sums of the tiles' own.
+    loop, subset and version; that bounds are the sums of the tiles' bounds.
     """
     name = layout.CASCADE_FILE
     if any(header.get(key) != listing.get(key) for key in HEADER):
@@ -225,12 +223,12 @@ def faults(
     try:
         job, tiles = job_of(header, source=name, at_sea=False)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SeaWarning)  # said when it was baked
-            shares = shares_of(job, tiles)
+            warnings.simplefilter("ignore", SeaWarning)  # given when it was baked
+            jobs = jobs_of_tiles(job, tiles)
         rows = listing["tiles"]
         edges = [edge for row in rows for edge in map(float, row["band"])]
     except (JobError, IntegrityError, KeyError, TypeError, ValueError) as error:
-        yield name, f"it does not say what a cascade's does: {error!s:.200}"
+        yield name, f"it does not describe a cascade: {error!s:.200}"
         return
     if (
         edges[0] != 0.0
@@ -239,16 +237,16 @@ def faults(
         or edges != sorted(edges)
     ):
         yield name, f"the bands of its tiles do not adjoin from 0 to inf rad/m: {edges}"
-    if [row.get("path") for row in rows] != [share.path for share in shares]:
-        yield name, f"its tiles are not the {len(shares)} of its job"
+    if [row.get("path") for row in rows] != [tile.path for tile in jobs]:
+        yield name, f"its tiles are not the {len(jobs)} of its job"
         return
     bounds = {"max_height": 0.0, "max_horizontal": 0.0}
-    for share, row in zip(shares, rows, strict=True):
-        path = f"{share.path}/{layout.MANIFEST_FILE}"
+    for tile, row in zip(jobs, rows, strict=True):
+        path = f"{tile.path}/{layout.MANIFEST_FILE}"
         data = read_whole(folder / path)
         try:
-            manifest = read_checked(folder / path)
-            expected = share.row(data or b"", manifest)
+            manifest = read_sealed(folder / path)
+            expected = tile.row(data or b"", manifest)
             for key in bounds:
                 bounds[key] += manifest["extremes"][key]
         except (IntegrityError, KeyError, TypeError):
@@ -260,12 +258,13 @@ def faults(
             if key != "sha256" and row.get(key) != value:
                 yield (
                     name,
-                    f"{key} of {share.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
+                    f"{key} of {tile.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
                 )
-        if manifest["job"] != share.job.describe():
+        if manifest["job"] != tile.job.describe():
             yield (
                 path,
-                f"its job is not that of {share.path}: {_first_difference(share.job.describe(), manifest['job'])}",
+                f"its job is not that of {tile.path}: "
+                f"{_first_difference(tile.job.describe(), manifest['job'])}",
             )
         for key in ("version", "subset", "downsample", "inputs"):
             if manifest[key] != listing[key]:

@@ -1,4 +1,4 @@
-"""One bake a folder: a lock that the operating system takes back from whoever dies."""
+"""Lock on a bake's folder, which the operating system releases when its process ends."""
 
 import contextlib
 import errno
@@ -27,16 +27,15 @@ except ImportError:  # no Windows
     msvcrt = None
 
 LOCK_FILE = ".lock"
-PATIENCE = 1.0  # [s]: workers of a bake that was just killed are still on their way out
-_FAR = 1 << 30  # where Windows locks a byte: beyond all that is written, which others may then read
+PATIENCE = 1.0  # [s]: workers of a bake that was just killed need a moment to end
+_LOCK_OFFSET = 1 << 30  # byte that Windows locks: beyond the text, which others may then read
 _BUSY = (errno.EAGAIN, errno.EACCES, errno.EWOULDBLOCK, errno.EDEADLK)
 
 
 @dataclass(frozen=True, slots=True)
-class Hold:
+class FolderLock:
     """
-    A folder that is ours: the descriptor goes to workers on this machine, so that they hold it too;
-    the token to all others.
+    A lock that is held: workers on this machine inherit its descriptor, all others get its token.
     """
 
     descriptor: int
@@ -44,60 +43,59 @@ class Hold:
 
 
 @contextlib.contextmanager
-def locked(folder: Path) -> Iterator[Hold]:
+def locked(folder: Path) -> Iterator[FolderLock]:
     """
-    Hold a folder for this process.
+    Lock a folder for this process.
 
-    The lock goes with the last process that has the descriptor, however that one ends: a lock file
-    that nobody holds is stale.
+    The lock is released with the last process that has the descriptor, however that process ends: a
+    stale lock file never blocks.
 
     Raises:
-        FolderInUseError: another process holds it, and did so for `PATIENCE`; its process number
-            and host are named.
+        FolderInUseError: another process held the lock for `PATIENCE`; the message names its
+            number and host.
         OutputError: the lock file cannot be written.
     """
     path = folder / LOCK_FILE
-    descriptor = _acquired(path, time.monotonic() + PATIENCE)
+    descriptor = _acquire(path, time.monotonic() + PATIENCE)
     try:
-        yield Hold(descriptor, _signed(descriptor, path))
+        yield FolderLock(descriptor, _write_owner(descriptor, path))
     finally:
         try:
-            if (
-                os.name == "posix"
-                # while it is still held: nobody can take a file for the lock that has no name any more
-            ):
-                _forget(path)
+            if os.name == "posix":
+                # before the release: nobody can lock a file that has no name any more
+                _unlink(path)
         finally:
             os.close(descriptor)
         if os.name != "posix":  # Windows removes no open file
-            _forget(path)
+            _unlink(path)
 
 
-def _forget(path: Path) -> None:
+def _unlink(path: Path) -> None:
     with contextlib.suppress(OSError):
         path.unlink()
 
 
 def require_free(folder: Path) -> None:
     """
-    Refuse a folder that is in use, before anything takes time; what is free now may be taken later.
+    Raise if a folder is in use now; it may be locked later all the same.
 
     Raises:
-        FolderInUseError: another process holds it.
+        FolderInUseError: another process holds the lock.
     """
     path = folder / LOCK_FILE
     try:
-        there = stat.S_ISREG(path.stat(follow_symlinks=False).st_mode)
-    except OSError:  # a folder that cannot be is refused where it is made
-        there = False
-    if there:
-        os.close(_acquired(path, time.monotonic() + PATIENCE))
+        is_file = stat.S_ISREG(path.stat(follow_symlinks=False).st_mode)
+    except OSError:  # an impossible folder is refused when it is made
+        is_file = False
+    if is_file:
+        os.close(_acquire(path, time.monotonic() + PATIENCE))
 
 
-def _acquired(path: Path, deadline: float) -> int:
+def _acquire(path: Path, deadline: float) -> int:
     """
-    A descriptor of the lock file, locked; the file under that name, and not one that was removed
-    meanwhile.
+    Return a locked descriptor of the lock file.
+
+    It is that of the file under that name now, and not of one that was removed meanwhile.
     """
     while True:
         try:
@@ -105,12 +103,13 @@ def _acquired(path: Path, deadline: float) -> int:
         except OSError as error:
             raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
         try:
-            if _seized(descriptor):
+            if _try_lock(descriptor):
                 if _still_named(path, descriptor):
                     return descriptor
             elif time.monotonic() >= deadline:
                 raise FolderInUseError(
-                    f"{path.parent} is in use by another bake{_holder(path)}; wait for it, or choose another folder"
+                    f"{path.parent} is in use by another bake{_owner_in_words(path)}; "
+                    "wait for it, or choose another folder"
                 )
             else:
                 time.sleep(0.02)
@@ -125,13 +124,13 @@ def _acquired(path: Path, deadline: float) -> int:
         os.close(descriptor)
 
 
-def _seized(descriptor: int) -> bool:
-    """Whether the lock is ours now."""
+def _try_lock(descriptor: int) -> bool:
+    """Lock the file if it is free; return whether this process holds the lock."""
     try:
         if fcntl is not None:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         elif msvcrt is not None:
-            os.lseek(descriptor, _FAR, os.SEEK_SET)
+            os.lseek(descriptor, _LOCK_OFFSET, os.SEEK_SET)
             msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
         else:
             raise OSError(errno.ENOTSUP, "this system has no file locks")
@@ -144,7 +143,7 @@ def _seized(descriptor: int) -> bool:
 
 def _still_named(path: Path, descriptor: int) -> bool:
     """
-    Whether the name still leads to the file that was locked: its last holder may have removed it in
+    Return whether the path still names the locked file: its last owner may have removed it in
     between.
     """
     try:
@@ -153,8 +152,8 @@ def _still_named(path: Path, descriptor: int) -> bool:
         return False
 
 
-def _signed(descriptor: int, path: Path) -> str:
-    """Say who holds it, and return the token of this hold."""
+def _write_owner(descriptor: int, path: Path) -> str:
+    """Write process number, host and a new token into the lock file; return the token."""
     token = os.urandom(8).hex()
     try:
         os.ftruncate(descriptor, 0)
@@ -171,35 +170,35 @@ def _signed(descriptor: int, path: Path) -> str:
 
 def require_held(folder: Path, token: str) -> None:
     """
-    Refuse to go on for a bake that holds its folder no more: it was stopped, or another one took
-    over.
+    Raise if the bake with a token does not hold its folder any more.
 
-    For workers on other machines, which the operating system does not stop with it.
+    Workers on other machines call this: the operating system does not stop them with the bake.
 
     Raises:
-        FolderInUseError: the lock file is not there, or is that of another hold.
+        FolderInUseError: the lock file does not exist, or has another token.
     """
-    if _signature(folder / LOCK_FILE).get("token") != token:
+    if _read_owner(folder / LOCK_FILE).get("token") != token:
         raise FolderInUseError(
-            f"{folder} is not held by this bake any more, or is not the same folder on {socket.gethostname()}"
+            f"{folder} is not held by this bake any more, "
+            f"or is not the same folder on {socket.gethostname()}"
         )
 
 
-def _signature(path: Path) -> dict[str, Any]:
-    """What the holder wrote; nothing where that cannot be read."""
+def _read_owner(path: Path) -> dict[str, Any]:
+    """Return the contents of a lock file; {} where it cannot be read."""
     try:
         with path.open("rb") as file:
-            signature = json.loads(file.read(4096))
+            owner = json.loads(file.read(4096))
     except (OSError, ValueError):
         return {}
-    return signature if isinstance(signature, dict) else {}
+    return owner if isinstance(owner, dict) else {}
 
 
-def _holder(path: Path) -> str:
-    """Who signed, in words."""
-    signature = _signature(path)
+def _owner_in_words(path: Path) -> str:
+    """Return the owner of a lock in words, for a message."""
+    owner = _read_owner(path)
     return (
-        f", process {signature['pid']!s:.20} on {signature['host']!s:.80}"
-        if {"pid", "host"} <= set(signature)
+        f", process {owner['pid']!s:.20} on {owner['host']!s:.80}"
+        if {"pid", "host"} <= set(owner)
         else ""
     )

@@ -1,27 +1,21 @@
-"""
-What is known of a bake while it runs: what earlier runs say, what the disk bears out, what the
-journal and the listeners are told.
-"""
+"""Journal and progress events of one run of a bake."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from fftocean.baking.folder.journal import Journal
-from fftocean.baking.folder.plan import Entry
+from fftocean.baking.folder.journal import Entry, Journal
 from fftocean.files import digest, read_whole
 
 Progress = Callable[[int, int], None]
 """Called with (frames done, frames in all)."""
 
 Listen = Callable[[dict[str, Any]], None]
-"""
-Called with what happens, as plain data: {"event": "start" | "survey" | "frame" | "done", ...}.
-"""
+"""Called with each event as plain data: {"event": "start" | "survey" | "frame" | "done", ...}."""
 
 
-class Ledger:
-    """The books of one run."""
+class RunLog:
+    """Entries of earlier runs, the journal of this one, and its listeners."""
 
     def __init__(
         self,
@@ -35,25 +29,25 @@ class Ledger:
         self._journal, self._known = journal, known
         self._progress, self._listen = progress, listen
 
-    def claimed(self, kind: str) -> list[Any]:
-        """All that earlier runs say of one kind, in order."""
+    def recorded(self, kind: str) -> list[Any]:
+        """Return the values of all entries of one kind that earlier runs recorded, in order."""
         return [entry[kind] for entry in self._known if kind in entry]
 
-    def holds(self, path: str, sha256: str) -> bool:
-        """Whether a file is there and is what it was."""
+    def is_unchanged(self, path: str, sha256: str) -> bool:
+        """Return whether a file of the folder exists and has a checksum."""
         data = read_whole(self.folder / path)
         return data is not None and digest(data) == sha256
 
     def add(self, entry: Entry) -> None:
-        """Put down what is finished, and on the disk."""
+        """Record in the journal what is finished and on the disk."""
         self._journal.add(entry)
 
     def progress(self, done: int, total: int) -> None:
-        """Tell how far it is."""
+        """Report the number of frames done."""
         if self._progress:
             self._progress(done, total)
 
-    def say(self, event: str, **what: Any) -> None:
-        """Tell what happens."""
+    def report(self, event: str, **details: Any) -> None:
+        """Report an event to the listener."""
         if self._listen:
-            self._listen({"event": event, **what})
+            self._listen({"event": event, **details})

@@ -1,12 +1,11 @@
-"""The pictures beside a bake's maps: drawn, written, and listed for the manifest."""
+"""Previews of a bake: images of its ocean, written beside the maps."""
 
 import importlib.util
 from pathlib import Path
 from typing import Any
 
 from fftocean.baking.folder import layout
-from fftocean.baking.previews import sheets as preview
-from fftocean.baking.previews import whitecaps
+from fftocean.baking.previews import sheets, whitecaps
 from fftocean.baking.scene.scene import Scene
 from fftocean.errors import JobError, how_to_install
 from fftocean.files import write_whole
@@ -15,39 +14,39 @@ from fftocean.job.job import Job
 from fftocean.statistics import Statistics
 
 
-def draw(folder: Path, scene: Scene, statistics: Statistics) -> dict[str, dict[str, Any]]:
+def write_previews(folder: Path, scene: Scene, statistics: Statistics) -> dict[str, dict[str, Any]]:
     """
-    Draw the pictures that the job asks for.
+    Write the previews that the job asks for; return their entries of the manifest.
 
     Raises:
         OutputError: one cannot be written.
     """
-    frames, drawn = scene.job.frames, {}
+    frames, images = scene.job.frames, {}
     foam = foam_of(scene.job)
     if "sheet" in scene.job.pictures:
         text = caption(scene.job, statistics)
-        drawn["preview"] = (
+        images["preview"] = (
             layout.SHEET,
-            preview.contact_sheet(scene.ocean, frames, text, **foam),
+            sheets.contact_sheet(scene.ocean, frames, text, **foam),
         )
     if "animation" in scene.job.pictures:
-        drawn["animation"] = (layout.ANIMATION, preview.animation(scene.ocean, frames, **foam))
+        images["animation"] = (layout.ANIMATION, sheets.animation(scene.ocean, frames, **foam))
     if "tiling" in scene.job.pictures:
-        drawn["tiling"] = (layout.TILING, preview.tiling(scene.ocean, frames))
+        images["tiling"] = (layout.TILING, sheets.tiling(scene.ocean, frames))
     if "spectrum" in scene.job.pictures:
-        drawn["spectrum"] = (layout.SPECTRUM, _spectrum(scene))
+        images["spectrum"] = (layout.SPECTRUM, _spectrum(scene))
     return {
         key: {"path": name, "bytes": len(data), "sha256": write_whole(folder / name, data)}
-        for key, (name, data) in drawn.items()
+        for key, (name, data) in images.items()
     }
 
 
 def require_drawable(job: Job) -> None:
     """
-    Refuse, before anything is done, a picture for which something is not installed.
+    Raise if a package that a preview of the job needs is not installed.
 
     Raises:
-        JobError: the spectrum is asked for, and matplotlib is not installed.
+        JobError: the job has the preview "spectrum", and matplotlib is not installed.
     """
     if "spectrum" in job.pictures and importlib.util.find_spec("matplotlib") is None:
         raise JobError(
@@ -57,9 +56,9 @@ def require_drawable(job: Job) -> None:
 
 def foam_of(job: Job) -> dict[str, Any]:
     """
-    Return how the water of a job's pictures foams, as `preview.contact_sheet` takes it.
+    Return the foam of a job's previews, as arguments of `sheets.contact_sheet`.
 
-    A job that bakes foam shows its own; of another the whitecaps cover what they do under its wind.
+    A job that bakes foam shows that foam; another shows the whitecap cover at its wind speed.
     """
     foam = Foam(**job.foam)
     if "foam" in job.maps or not job.wind:
@@ -72,9 +71,9 @@ def caption(job: Job, statistics: Statistics, tiles: str | None = None) -> str:
     Return one line for the contact sheet: wind, wave height, period, tile and loop.
 
     Args:
-        job: what was baked.
+        job: the baked job.
         statistics: of its ocean, or of all tiles together.
-        tiles: the tiles of a cascade in words; None is the job's own tile.
+        tiles: the tiles of a cascade in words; None describes the job's own tile.
     """
     specified, g = statistics.ordered, job.settings
     assert specified is not None  # a job has a sea
@@ -83,7 +82,8 @@ def caption(job: Job, statistics: Statistics, tiles: str | None = None) -> str:
     size = g["ocean.size"]
     width = "x".join(f"{v:g}" for v in size) if isinstance(size, tuple) else f"{size:g}"
     sea = f"Hs {specified.hs:.2f} m specified, {statistics.hs:.2f} m realised"
-    return f"{wind}{sea}   Tp {specified.tp:.1f} s   {tiles or f'tile {width} m'}   loop {g['ocean.loop']:g} s"
+    tile = tiles or f"tile {width} m"
+    return f"{wind}{sea}   Tp {specified.tp:.1f} s   {tile}   loop {g['ocean.loop']:g} s"
 
 
 def beaufort_of(wind: float) -> int:
@@ -93,7 +93,7 @@ def beaufort_of(wind: float) -> int:
 
 
 def _spectrum(scene: Scene) -> bytes:
-    """Return the picture of the specified and the realised spectrum as a PNG."""
+    """Return the plot of the specified and the realised spectrum as a PNG."""
     from fftocean.plots import encoded, plot_job
 
     return encoded(plot_job(scene.ocean), ".png")

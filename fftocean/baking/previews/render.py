@@ -1,13 +1,13 @@
 """
-Pictures of water in perspective and from above, in linear light.
+Images of the sea surface in perspective and from above, in linear light.
 
 The camera stands at a fixed height with a fixed lens and the light is always the same, so that two
 seas can be compared by eye. Slopes are filtered as mean and covariance over what a pixel covers
 (Olano & Baker 2010): far water keeps its roughness. The Fresnel term of a rough sea is that of
 Bruneton, Neyret & Holzschuch (2010), the sun's glitter that of Gaussian facets (Cox & Munk 1954).
 
-All that is sampled is linear (displacement, height, slopes, displacement gradient), so that the
-water may be a sum of tiles: `Water.of(frames)` takes one frame or those of a cascade.
+All sampled quantities are linear (displacement, height, slopes, displacement gradient), so that the
+surface may be a sum of tiles: `Water.of(frames)` takes one frame or those of a cascade.
 """
 
 import functools
@@ -26,25 +26,25 @@ from fftocean.host import cores
 from fftocean.kernels import interpolate
 from fftocean.ocean import Frame
 
-Picture = npt.NDArray[np.float64]
+Image = npt.NDArray[np.float64]
 """(rows, columns, 3) linear light, row 0 at the top."""
 
 Flags = npt.NDArray[np.bool_]
 
 FIELDS = EIGHT
-"""The fields of a frame that a picture needs."""
+"""Fields of a frame that an image needs."""
 
 EYE = 10.0
 """Height of the camera above the water that it floats on [m], as from the bridge of a ship."""
 FOCAL, HORIZON_ROW = 0.9, 0.30
 """
-Focal length in picture widths, and where the horizon lies, as a share of the picture's height.
+Focal length in image widths, and height of the horizon, as a share of the image's height.
 """
 FARTHEST = 30e3
 """Distance of the last water that is drawn [m]."""
 
 BUOY_DISTANCE, BUOY_ACROSS, BUOY_HEIGHT, BUOY_RADIUS = 42.0, 0.20, 4.0, 0.28
-"""The spar buoy: how far away [m], tangent of its bearing, its height and radius [m]."""
+"""Spar buoy: distance [m], tangent of its bearing, height and radius [m]."""
 
 HORIZON, ZENITH, BODY, CREST = (
     np.array(c)
@@ -90,7 +90,7 @@ ALL_SLOPES, ONE = slice(0, 8), slice(0, 1)
 
 @dataclass(frozen=True, slots=True)
 class Water:
-    """The water at one moment, ready to be drawn."""
+    """The sea surface at one time, ready to render."""
 
     layers: tuple[Layer, ...]
     choppiness: float
@@ -182,7 +182,7 @@ def perspective(
     place: tuple[float, float] | None = None,
     finer: int = 2,
     taps: int = 2,
-) -> Picture:
+) -> Image:
     """
     Return the sea in perspective, looking north, the tiles repeated out to the horizon.
 
@@ -192,7 +192,7 @@ def perspective(
 
     Args:
         water: what is seen.
-        width, height: of the picture [pixels].
+        width, height: of the image [pixels].
         place: x and y of the camera [m]; None is `trough(water)`.
         finer: samples a pixel has, one above the other.
         taps: places along the line of sight that each sample averages.
@@ -203,16 +203,16 @@ def perspective(
     nearest = max(0.3 * EYE, 0.8 * EYE / steepest - 2.0 * water.hs)
     distance = np.geomspace(nearest, FARTHEST, max(200, int(1.6 * rows)))
     scene = _Scene(water, place or trough(water), focal, finer, taps, horizon, distance)
-    picture = np.empty((height, width, 3))
+    image = np.empty((height, width, 3))
 
     def draw(first: int) -> None:
         across = (np.arange(first, min(first + _STRIP, width)) + 0.5 - 0.5 * width) / focal
         light = scene.strip(across, rows).reshape(height, finer, across.size, 3)
-        picture[:, first : first + _STRIP] = _rolled_off(light).mean(axis=1)
+        image[:, first : first + _STRIP] = _rolled_off(light).mean(axis=1)
 
     with ThreadPoolExecutor(min(cores(), 8)) as threads:
         list(threads.map(draw, range(0, width, _STRIP)))
-    return _unrolled(picture)
+    return _unrolled(image)
 
 
 def trough(water: Water) -> tuple[float, float]:
@@ -264,7 +264,7 @@ class _Scene:
         found = _by_rows(self.water.layers, qx, qy, spacing, SURFACE if slopes else HEIGHT)
         return qx, qy, found[..., 0], found[..., 1:]
 
-    def strip(self, across: Real, rows: int) -> Picture:
+    def strip(self, across: Real, rows: int) -> Image:
         """Return some columns of the picture; `across` is the tangent of each one's bearing."""
         distance = self.distance[:, None]
         qx, qy, z, _ = self._surface(across[None, :] * distance, distance, self.spacing)
@@ -297,7 +297,7 @@ class _Scene:
 
     def _shaded(
         self, qx: Real, qy: Real, z: Real, far: Real, long: Real, across: Real, sky: Flags
-    ) -> Picture:
+    ) -> Image:
         """Return the light from the water that is seen, whose undisplaced positions are given."""
         shape = far.shape
         light = np.zeros((*shape, 3))
@@ -325,7 +325,7 @@ class _Scene:
         light[wet] = lit * (1.0 - haze) + 0.96 * HORIZON * haze
         return light
 
-    def _buoy(self, light: Picture, far: Real, sky: Flags, across: Real, rows: Real) -> None:
+    def _buoy(self, light: Image, far: Real, sky: Flags, across: Real, rows: Real) -> None:
         """Draw the buoy over what lies behind it: a pole with bands of 1 m, on a float."""
         z, tilt = self.buoy
         up = self.eye - z - (rows - self.horizon)[:, None] * BUOY_DISTANCE / self.steep
@@ -346,13 +346,13 @@ class _Scene:
         light[inside] += covered[inside][:, None] * (paint - light[inside])
 
 
-def from_above(water: Water, width: int, height: int) -> Picture:
+def from_above(water: Water, width: int, height: int) -> Image:
     """
     Return the first tile's area from high above its south, north up, with the sun in the north.
 
     Args:
         water: what is seen.
-        width, height: of the picture [pixels].
+        width, height: of the image [pixels].
     """
     lx, ly = water.layers[0].size
     ny, nx = height, width
@@ -375,7 +375,7 @@ def _averages(water: Water, x: Real, y: Real, footprint: Real) -> tuple[Real, Re
     return mean, _broken(_points((water.foam,), x, y, footprint, ONE)[:, 0], x, y, footprint)
 
 
-def shade(mean: Real, water: Water, view: Real, z: Real, foam: Real) -> Picture:
+def shade(mean: Real, water: Water, view: Real, z: Real, foam: Real) -> Image:
     """
     Return the light that comes from water toward the eye, (points, 3).
 
@@ -435,14 +435,14 @@ def shade(mean: Real, water: Water, view: Real, z: Real, foam: Real) -> Picture:
     crest = np.clip(z / 4.0, 0.0, 1.5)[:, None] * np.clip(0.3 + zy + 0.5, 0.2, 1.0)[:, None]
     body = (BODY + 0.30 * CREST * crest) * (0.5 + 1.1 * sunny)[:, None]
     f = fresnel[:, None]
-    light: Picture = (1.0 - f) * body + f * mirrored
+    light: Image = (1.0 - f) * body + f * mirrored
     light += np.minimum(GLITTER * glint, 0.5)[:, None] * SUNLIGHT
     white = FOAM_ALBEDO / math.pi * (SKYLIGHT + SUNLIGHT * sunny[:, None])
     light += foam[:, None] * (white - light)
     return light
 
 
-def developed(light: Picture) -> npt.NDArray[np.uint8]:
+def developed(light: Image) -> npt.NDArray[np.uint8]:
     """
     Return sRGB bytes of linear light: highlights rolled off, a dither of half a level at most.
 
@@ -468,24 +468,24 @@ def _dither() -> Real:
     return np.random.Generator(np.random.PCG64(7)).random((_DITHER, _DITHER)) - 0.5
 
 
-def _rolled_off(light: Picture) -> Picture:
+def _rolled_off(light: Image) -> Image:
     """
     Return light as a film takes it, 0..1: what is averaged over a pixel, so that edges stay smooth.
     """
-    result: Picture = 1.0 - np.exp(-1.9 * np.maximum(light, 0.0))
+    result: Image = 1.0 - np.exp(-1.9 * np.maximum(light, 0.0))
     return result
 
 
-def _unrolled(exposed: Picture) -> Picture:
+def _unrolled(exposed: Image) -> Image:
     """Return the light that `_rolled_off` was given."""
-    result: Picture = -np.log(np.maximum(1.0 - exposed, 1e-12)) / 1.9
+    result: Image = -np.log(np.maximum(1.0 - exposed, 1e-12)) / 1.9
     return result
 
 
-def _sky(elevation: Real) -> Picture:
+def _sky(elevation: Real) -> Image:
     """Return the sky's light at sines of elevation: bright at the horizon, blue overhead."""
     blend = (np.clip(elevation, 0.0, 1.0) ** 0.55)[..., None]
-    light: Picture = HORIZON * (1.0 - blend) + ZENITH * blend
+    light: Image = HORIZON * (1.0 - blend) + ZENITH * blend
     return light
 
 

@@ -1,8 +1,8 @@
 """
-Pictures to judge a bake by: a contact sheet, the loop in motion, and four tiles side by side.
+Preview images of a bake: contact sheet, animation of the loop, and four tiles side by side.
 
-All are made of the ocean itself, or of a cascade's tiles together, frame by frame; the same water
-gives the same bytes.
+All are rendered from the ocean itself, or from the sum of a cascade's tiles, frame by frame; the
+same ocean gives the same bytes.
 """
 
 import io
@@ -29,7 +29,7 @@ TILE, MARGIN = 400, 18
 BACKGROUND, BRIGHT, FAINT = (16, 20, 24), (225, 232, 238), (150, 162, 172)
 
 Sea = Ocean | Cascade
-"""What is drawn: one tile, or the sum of several."""
+"""One tile, or the sum of several."""
 
 
 def contact_sheet(
@@ -39,11 +39,11 @@ def contact_sheet(
     Draw a PNG: frame 0 in perspective above up to twelve frames of the loop from above, north up.
 
     Args:
-        ocean: what was baked.
-        frames: how many frames the loop has; the pictures are taken from among them.
+        ocean: the baked ocean or cascade.
+        frames: number of frames in the loop; the images show some of them.
         caption: one line of text.
-        foam: how water foams; None is the default.
-        cover: the share of the water that foam is to cover; None keeps the threshold of `foam`.
+        foam: parameters of foam; None is the default.
+        cover: share of the surface covered with foam; None keeps the threshold of `foam`.
     """
     from PIL import Image, ImageDraw, ImageFont
 
@@ -51,14 +51,14 @@ def contact_sheet(
     gap = (WIDTH - COLUMNS * THUMBNAIL) // (COLUMNS + 1)
     rows = math.ceil(len(shown) / COLUMNS)
     sheet = Image.new("RGB", (WIDTH, VIEW_HEIGHT + 40 + rows * (THUMBNAIL + 26) + 8), BACKGROUND)
-    moments = _Moments(ocean, frames, foam or Foam(), cover)
+    loop = _Frames(ocean, frames, foam or Foam(), cover)
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(17)
     small = ImageFont.load_default(13)
     scale = f"seen from {render.EYE:g} m above the water; the buoy's bands are 1 m high"
     draw.text((gap, VIEW_HEIGHT + 10), caption, fill=BRIGHT, font=font)
     tile = _grids(ocean)[0]
     size = _fitted(tile, THUMBNAIL)
-    for i, (j, water) in enumerate(zip(shown, moments.waters(shown), strict=True)):
+    for i, (j, water) in enumerate(zip(shown, loop.waters(shown), strict=True)):
         if i == 0:
             view = render.perspective(water, WIDTH, VIEW_HEIGHT)
             sheet.paste(Image.fromarray(render.developed(view)), (0, 0))
@@ -67,7 +67,7 @@ def contact_sheet(
         left = gap + (i % COLUMNS) * (THUMBNAIL + gap)
         top = VIEW_HEIGHT + 40 + (i // COLUMNS) * (THUMBNAIL + 26)
         sheet.paste(Image.fromarray(render.developed(above)), (left, top))
-        time = f"t = {moments.time(j):.2f} s"
+        time = f"t = {loop.time(j):.2f} s"
         draw.text((left + 1, top + THUMBNAIL + 4), time, fill=FAINT, font=small)
         if i == 0:
             _scale_bar(draw, tile, (left, top + THUMBNAIL), small)
@@ -78,11 +78,11 @@ def animation(
     ocean: Sea, frames: int, *, foam: Foam | None = None, cover: float | None = None
 ) -> bytes:
     """
-    Draw an animated WebP: the sea in perspective through its loop, in its own time, for ever.
+    Draw an animated WebP: the loop in perspective, in real time, repeated for ever.
 
     At most `FILM_FRAMES` of the frames are drawn, every second or third of them, so that neither
-    time nor size grow with the bake. A loop that is too long to be watched in its own time, 2 s a
-    frame, runs faster; one that is too quick, slower. Arguments are those of `contact_sheet`.
+    time nor size grow with the bake. Frames are shown for 20 ms to 2 s, so that a very long loop
+    runs faster than in reality, and a very short one slower. Arguments are those of `contact_sheet`.
 
     Raises:
         OutputError: this Pillow cannot write WebP.
@@ -97,16 +97,16 @@ def animation(
     period = _period(ocean)
     ends = [1000.0 * period * j / frames for j in [*shown, frames]]
     lasting = [min(max(round(end) - round(start), 20), 2000) for start, end in pairwise(ends)]
-    moments = _Moments(ocean, frames, foam or Foam(), cover)
+    loop = _Frames(ocean, frames, foam or Foam(), cover)
 
-    def pictures() -> Iterator[Any]:
+    def images() -> Iterator[Any]:
         place = None
-        for water in moments.waters(shown):
+        for water in loop.waters(shown):
             place = place or render.trough(water)
             view = render.perspective(water, *FILM, place=place, taps=1)
             yield Image.fromarray(render.developed(view))
 
-    film = pictures()
+    film = images()
     stream, first = io.BytesIO(), next(film)
     options = {"duration": lasting, "loop": 0, "quality": FILM_QUALITY, "method": 2}
     first.save(stream, format="WEBP", save_all=True, append_images=film, **options)
@@ -115,7 +115,7 @@ def animation(
 
 def tiling(ocean: Sea, frames: int) -> bytes:
     """
-    Draw a PNG of frame 0 from above, two tiles wide and two high; marks on the rim show the seams.
+    Draw a PNG of frame 0 from above, two tiles wide and two high; marks in the margin show the seams.
 
     Of a cascade the first tile is shown without the others, which do not repeat with it.
     """
@@ -137,8 +137,8 @@ def tiling(ocean: Sea, frames: int) -> bytes:
     return _png(sheet)
 
 
-class _Moments:
-    """The water of a loop, with its foam, ready to be drawn."""
+class _Frames:
+    """Frames of a loop with their foam, ready to render."""
 
     def __init__(self, ocean: Sea, frames: int, foam: Foam, cover: float | None) -> None:
         self.ocean, self.frames, self.foam, self.cover = ocean, frames, foam, cover
@@ -160,27 +160,27 @@ class _Moments:
         return self.period * j / self.frames
 
     def waters(self, shown: Sequence[int]) -> Iterator[Water]:
-        """Yield the water of some frames in rising order; foam goes from each to the next."""
+        """Yield the surface of some frames in rising order; foam goes on from each to the next."""
         caps, last = None, 0.0
         for j in shown:
             fields = self.ocean.loop_frame(j, self.frames, render.FIELDS)
             if caps is not None:
                 self._advance(caps, fields, last, self.time(j))
             elif self.foams:
-                caps = self._gathered(self.time(j))
+                caps = self._initial_foam(self.time(j))
             last = self.time(j)
             covered = None if caps is None else caps.coverage
             yield Water.of(fields, rest=self.rest, foam=covered)
 
-    def _gathered(self, t: float) -> Whitecaps:
-        """Return the foam at a time [s], made over the last few times in which foam decays."""
+    def _initial_foam(self, t: float) -> Whitecaps:
+        """Return the foam at a time [s], accumulated over the few decay times before it."""
         moments = [self._squeeze(t - i * self.step) for i in reversed(range(self.steps))]
         return Whitecaps.before(moments, self.step, self.foam, self.cover)
 
     def _advance(
         self, caps: Whitecaps, fields: Frame | Sequence[Frame], start: float, stop: float
     ) -> None:
-        """Let foam go on from one time to another, whose frame is at hand already [s]."""
+        """Advance foam from one time to another, whose frame is given [s]."""
         parts = min(max(1, math.ceil((stop - start) / self.step)), self.steps)
         step = (stop - start) / parts
         for i in range(1, parts):
@@ -203,12 +203,12 @@ def _grids(ocean: Sea) -> list[Grid]:
 
 def _period(ocean: Sea) -> float:
     """Return the period of a sea's loop [s]."""
-    assert ocean.loop is not None  # what is baked is a loop
+    assert ocean.loop is not None  # only loops are baked
     return ocean.loop
 
 
 def _scale_bar(draw: Any, tile: Grid, corner: tuple[int, int], font: Any) -> None:
-    """Draw a bar of a round length, about a quarter of the tile, over a picture from above."""
+    """Draw a bar of a round length, about a quarter of the tile, over an image from above."""
     longer = max(tile.lx, tile.ly)
     ten = 10.0 ** math.floor(math.log10(longer / 3.0))
     length = max(step * ten for step in (1.0, 2.0, 5.0) if step * ten <= longer / 3.0)
@@ -219,12 +219,12 @@ def _scale_bar(draw: Any, tile: Grid, corner: tuple[int, int], font: Any) -> Non
 
 def _spread(frames: int, most: int) -> list[int]:
     """Return at most so many of a loop's frames, evenly spread, the first among them."""
-    pictures = min(most, frames)
-    return [i * frames // pictures for i in range(pictures)]
+    count = min(most, frames)
+    return [i * frames // count for i in range(count)]
 
 
 def _fitted(grid: Grid, side: int) -> tuple[int, int]:
-    """Return width and height in pixels of the tile's picture, the longer of them `side`."""
+    """Return width and height in pixels of the tile's image, the longer of them `side`."""
     longer = max(grid.lx, grid.ly)
     return max(1, round(side * grid.lx / longer)), max(1, round(side * grid.ly / longer))
 

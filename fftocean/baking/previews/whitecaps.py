@@ -1,8 +1,8 @@
 """
-Foam for a picture: the foam of a sea at one moment, or from one frame of a loop to the next.
+Foam of preview images: at one time, or from one frame of a loop to the next.
 
-The model is that of `fftocean.foam`, in steps as coarse as a picture allows. It is fed by the sum
-of the tiles' displacement gradients, as the water breaks where the sum folds.
+The model is that of `fftocean.foam`, in steps as coarse as an image allows. Its input is the sum of
+the tiles' displacement gradients, as waves break where the sum folds.
 """
 
 import math
@@ -20,7 +20,7 @@ SIDE = 256
 SIDE_OF_SUM = 384
 """The same for a sum of tiles: the smaller ones are sampled over the largest."""
 MEMORY, STEPS = 3.0, 42
-"""Decay times that foam is followed for before the first picture, and steps that are taken."""
+"""Decay times that foam is followed for before the first image, and number of steps."""
 _CALIBRATED = 4096  # points that the threshold is found from
 
 
@@ -57,7 +57,7 @@ def squeeze(frames: Frame | Sequence[Frame]) -> Real:
 
 
 class Whitecaps:
-    """The foam of a sea in rising order of time: `add` moves it on, `coverage` is what is seen."""
+    """Foam of a sea in rising order of time: `add` advances it, `coverage` is its visible share."""
 
     def __init__(self, foam: Foam) -> None:
         self.foam = foam
@@ -94,7 +94,7 @@ class Whitecaps:
 
     @property
     def coverage(self) -> Real:
-        """The share of the water that is covered, (ny, nx) in 0..1."""
+        """Share of the surface that is covered, (ny, nx) in 0..1."""
         assert self._state is not None  # something was added
         result: Real = -np.expm1(-self._state)
         return result

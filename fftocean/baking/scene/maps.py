@@ -1,26 +1,29 @@
 """
-From a frame to the pictures that are written: which field goes into which channel, in what unit,
-and what smaller levels hold.
+Maps of a frame: fields, channels, units and mip levels of each.
+
+A map is one row of `MAPS`, with its functions. Its name stands in `job.parameters.MAPS` too, which
+the command line reads without loading this module; an import fails where the two differ.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 
 from fftocean import mips
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError
-from fftocean.export.profiles import Kind
+from fftocean.export.profiles import CHANNELS, Kind
+from fftocean.fields import GEOMETRY
 from fftocean.frame import BY_PLACE, NOT_BY_PLACE, EulerianFrame, Frame
+from fftocean.job import parameters
 from fftocean.ocean import Ocean
-
-GEOMETRY = ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy")
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """What there is of the water at one moment."""
+class Surface:
+    """Input of a map's functions: the surface at one time."""
 
     frame: Frame | EulerianFrame
     foam: Real | None  # coverage, (ny, nx), 0..1
@@ -30,12 +33,12 @@ class Moment:
 @dataclass(frozen=True, slots=True)
 class Map:
     """
-    A picture of the sea, in our own frame: row 0 south, x east, y north, z up, SI.
+    A quantity on the grid, before an engine's conventions: row 0 south, x east, y north, z up, SI.
 
-    `channels` and `levels` take a frame that has the fields `needed`; where foam is shown, its
-    coverage, (ny, nx) in 0..1; and, where slope covariance is, that of the waves too short for the
-    tile, from `unresolved`. A frame of `Eulerian` has no displacement and no stretch: a map that
-    shows them has fields of its own for it, `by_place`, and draws them as 0.
+    `channels` and `levels` take a frame that has the fields `needed`; for foam, its coverage,
+    (ny, nx) in 0..1; and for the slope covariance, that of the waves too short for the tile, from
+    `unresolved`. A frame of `Eulerian` has no displacement and no stretch: a map of those names the
+    fields that it needs instead, `by_place`, and sets the others to 0.
     """
 
     needs: tuple[str, ...]  # fields of a frame
@@ -43,9 +46,11 @@ class Map:
     names: tuple[str, ...]  # of the channels
     unit: str
     caption: str
-    draw: Callable[[Moment], Iterable[Real]]  # the channels, each (ny, nx)
-    needs_levels: tuple[str, ...] = ()  # further fields, for levels
-    draw_levels: Callable[[Moment], list[Real]] | None = None  # where they are more than box means
+    compute: Callable[[Surface], Iterable[Real]]  # the channels, each (ny, nx)
+    needs_levels: tuple[str, ...] = ()  # further fields, for mip levels
+    compute_levels: Callable[[Surface], list[Real]] | None = (
+        None  # where they are more than box means
+    )
     by_place: tuple[str, ...] | None = (
         None  # the fields needed of an `EulerianFrame`, where they are others
     )
@@ -61,34 +66,34 @@ class Map:
     def channels(
         self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None
     ) -> Real:
-        """Return the picture, (ny, nx, channels), float32, C-contiguous."""
-        return _stacked(self.draw(Moment(frame, foam, unresolved)))
+        """Return the map, (ny, nx, channels), float32, C-contiguous."""
+        return _stacked(self.compute(Surface(frame, foam, unresolved)))
 
     def levels(
         self, frame: Frame | EulerianFrame, foam: Real | None = None, unresolved: Real | None = None
     ) -> list[Real]:
         """
-        Return the picture and its smaller levels down to one texel, each (rows, columns, channels),
-        float32, C-contiguous.
+        Return the mip levels of the map, from the whole down to one texel, each (rows, columns,
+        channels), float32, C-contiguous.
         """
-        moment = Moment(frame, foam, unresolved)
+        surface = Surface(frame, foam, unresolved)
         levels = (
-            self.draw_levels(moment)
-            if self.draw_levels
-            else mips.chain(_stacked(self.draw(moment)))
+            self.compute_levels(surface)
+            if self.compute_levels
+            else mips.chain(_stacked(self.compute(surface)))
         )
         return [np.ascontiguousarray(level, dtype=np.float32) for level in levels]
 
 
-def _foam(moment: Moment) -> Real:
-    assert moment.foam is not None  # whoever asks for the map brings the foam
-    return moment.foam
+def _foam(surface: Surface) -> Real:
+    assert surface.foam is not None  # given by every caller that bakes the map
+    return surface.foam
 
 
-def _unresolved(moment: Moment) -> list[Real]:
-    """Three channels of one value each."""
-    values = np.zeros(3) if moment.unresolved is None else moment.unresolved
-    return [np.full(moment.frame.grid.shape, value) for value in values]
+def _unresolved(surface: Surface) -> list[Real]:
+    """Return three channels of one value each."""
+    values = np.zeros(3) if surface.unresolved is None else surface.unresolved
+    return [np.full(surface.frame.grid.shape, value) for value in values]
 
 
 MAPS: dict[str, Map] = {
@@ -146,16 +151,47 @@ MAPS: dict[str, Map] = {
 """
 Every map that can be baked. By lookup:
 
-"lagrangian": texel (i, j) is about the water that is AT REST at x, y; displacement tells where it
-is now. "eulerian": about the water that is NOW at x, y, and the surface is a plain height field
-over x and y: displacement is (0, 0, height) and the stretches of the derivative map are 0, so that
-what is displaced and lit by these maps is the same surface, and the slopes are dz/dx and dz/dy of
-it. Normals are the surface's own, jacobian, foam and velocity those of the water that is there. A
-height field has no stretch map.
+"lagrangian": texel (i, j) describes the water whose REST position is x, y; its displacement leads
+to its position now. "eulerian": texel (i, j) describes the water that is NOW at x, y, and the
+surface is a height field over x and y: displacement is (0, 0, height) and the stretches of the
+derivative map are 0, so that these maps displace and light the same surface, and the slopes are its
+dz/dx and dz/dy. Normals are those of the surface; jacobian, foam and velocity those of the water at
+that place. A height field has no stretch map.
 
-Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by the undisplaced
-position: see `tiles`.
+Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by rest position: see
+`cascade_setup`.
 """
+
+
+def require_registered(table: Mapping[str, Map], names: Iterable[str]) -> None:
+    """
+    Raise if a table of maps and the names that a job may give differ, or a row is incomplete.
+
+    Raises:
+        ImportError: a name has no row, a row no name, or a map has no channel, no caption, channels
+            of a number that its kind does not have, or levels without their fields.
+    """
+    rows, names = set(table), set(names)
+    if rows != names:
+        raise ImportError(
+            f"job.parameters.MAPS and scene.maps.MAPS must have the same names, and differ in "
+            f"{', '.join(sorted(rows ^ names))}"
+        )
+    for name, row in table.items():
+        if row.kind not in get_args(Kind):
+            raise ImportError(f"the map {name!r} has no known kind, got {row.kind!r}")
+        if not row.names or len(row.names) != CHANNELS.get(row.kind, len(row.names)):
+            raise ImportError(
+                f"the map {name!r} of kind {row.kind} must have "
+                f"{CHANNELS.get(row.kind, 'some')} channels, got {len(row.names)}"
+            )
+        if not row.caption or not callable(row.compute):
+            raise ImportError(f"the map {name!r} must have a caption and a function for channels")
+        if row.needs_levels and row.compute_levels is None:
+            raise ImportError(f"the map {name!r} has fields for mip levels and no function of them")
+
+
+require_registered(MAPS, parameters.MAPS)
 
 
 def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) -> tuple[str, ...]:
@@ -163,7 +199,7 @@ def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) 
     Return the fields to ask of a frame for some maps, with their levels or without.
 
     Raises:
-        ParameterError: a map that an eulerian frame cannot show.
+        ParameterError: a map that an eulerian frame does not have.
     """
     fields: dict[str, None] = {}
     for name in names:
@@ -184,7 +220,7 @@ def unresolved(ocean: Ocean) -> Real:
 
 
 def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
-    """The horizontal displacement, choppiness applied; 0 by place."""
+    """Return the horizontal displacement, choppiness applied; 0 for an eulerian frame."""
     if isinstance(frame, EulerianFrame):
         nothing = np.zeros_like(frame.height)
         return nothing, nothing
@@ -192,7 +228,7 @@ def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
 
 
 def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
-    """The stretch along x and along y, choppiness applied; 0 by place."""
+    """Return the stretch along x and along y, choppiness applied; 0 for an eulerian frame."""
     if isinstance(frame, EulerianFrame):
         nothing = np.zeros_like(frame.slope_x)
         return nothing, nothing
@@ -200,13 +236,13 @@ def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
 
 
 def _gradient(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real]:
-    """The gradient of the horizontal displacement, choppiness applied: xx, xy, yy."""
+    """Return the gradient of the horizontal displacement, choppiness applied: xx, xy, yy."""
     c = frame.choppiness
     return frame["stretch_xx"] * c, frame["stretch_xy"] * c, frame["stretch_yy"] * c
 
 
 def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Real]:
-    """The slopes and stretches of the surface; by place, those of a height field."""
+    """Return slopes and stretches of the surface; of an eulerian frame, those of a height field."""
     if isinstance(frame, EulerianFrame):
         nothing = np.zeros_like(frame.slope_x)
         return frame.slope_x, frame.slope_y, nothing, nothing, nothing
@@ -214,5 +250,5 @@ def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Rea
 
 
 def _stacked(channels: Iterable[Real]) -> Real:
-    """Channels side by side, float32."""
+    """Return channels side by side, float32."""
     return np.stack([channel.astype(np.float32, copy=False) for channel in channels], axis=-1)

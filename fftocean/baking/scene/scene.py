@@ -1,6 +1,7 @@
 """
-From an order to files, a frame at a time: all that a worker does, wherever it is. The same task
-gives the same bytes.
+Frames of a job, rendered to maps and written to files: the work of every worker, wherever it runs.
+
+The same task gives the same bytes.
 """
 
 import io
@@ -12,18 +13,19 @@ from typing import Any
 
 import numpy as np
 
-from fftocean import foam as foam_room
+from fftocean import foam as foam_module
 from fftocean.arrays import Real
 from fftocean.baking.folder import layout
 from fftocean.baking.folder.identity import differences, header_of
+from fftocean.baking.folder.journal import Entry
 from fftocean.baking.folder.lock import require_held
-from fftocean.baking.folder.plan import Entry, Order, Task
+from fftocean.baking.folder.plan import Plan, Task
 from fftocean.baking.scene import maps
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import OutputError
 from fftocean.eulerian import Eulerian
 from fftocean.export import engines, exr, formats, profiles
-from fftocean.files import make_rooms, write_whole
+from fftocean.files import make_parents, write_whole
 from fftocean.foam import Foam
 from fftocean.frame import EulerianFrame, Frame
 from fftocean.job.job import Job
@@ -33,13 +35,14 @@ from fftocean.products import folding
 
 STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
 EXTREMES = ("height", "displace_x", "displace_y", *STRETCHES)
-"""The fields that bound the water, for culling and for folds, whichever maps are written."""
+"""Fields that give bounds and folds of the surface, whichever maps are written."""
 
 
 class Scene:
     """
-    The water of a job, set up once: every map of any frame, in the frame and unit of the files. For
-    one thread.
+    Ocean, foam and file conventions of a job, set up once to render maps of any frame.
+
+    Not thread-safe: each thread has its own.
     """
 
     def __init__(self, job: Job) -> None:
@@ -61,11 +64,11 @@ class Scene:
 
     @property
     def levels(self) -> int:
-        """How many levels each map has, down to one sample where smaller ones are asked for."""
+        """Number of mip levels of each map: down to one sample, or 1 without mips."""
         return max(self.ocean.grid.shape).bit_length() if self.job.mips else 1
 
     def frame(self, j: int) -> Frame | EulerianFrame:
-        """The j-th frame of the loop; good until the next."""
+        """Return the j-th frame of the loop; the next call may overwrite its arrays."""
         if self._eulerian is not None:
             return self._eulerian.loop_frame(j, self.job.frames, self._needs)
         self._frame = self.ocean.loop_frame(j, self.job.frames, self._needs, out=self._frame)
@@ -73,11 +76,10 @@ class Scene:
 
     def extremes(self, j: int, frame: Frame | EulerianFrame) -> dict[str, float | None]:
         """
-        How far the water of the j-th frame goes, for culling, and its folds, which the maps of
-        every lookup have.
+        Return bounds of the displacements of the j-th frame, for culling, and its folds.
 
-        By place the water is a height field over its samples, and only the upper sheet of a fold is
-        seen: its folds are those of the displaced surface that it shows.
+        An eulerian frame is a height field, of which only the upper sheet of a fold is seen. Its
+        folds are those of the displaced surface.
         """
         if isinstance(frame, EulerianFrame):
             moved, water = 0.0, self.ocean.loop_frame(j, self.job.frames, STRETCHES)
@@ -96,53 +98,52 @@ class Scene:
 
     def foam_states(self, frames: Sequence[int], folder: Path) -> Iterator[Real | None]:
         """
-        The foam at some frames of one span, in order, each good until the next; None where no map
-        shows it.
+        Yield the foam at some frames of one span, in order; None where no map shows foam.
+
+        Each array is valid until the next is made.
         """
         if "foam" not in self.job.maps:
             yield from (None for _ in frames)
             return
-        span = frames[0] // foam_room.SPAN
+        span = frames[0] // foam_module.SPAN
         start = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)[span]
         for j, state in self.foam.states(
-            self.ocean, self.job.frames, start, span * foam_room.SPAN, frames[-1] + 1
+            self.ocean, self.job.frames, start, span * foam_module.SPAN, frames[-1] + 1
         ):
             if j in frames:
                 yield state
 
-    def pictures(
+    def maps(
         self, frame: Frame | EulerianFrame, state: Real | None
     ) -> Iterator[tuple[str, list[Real]]]:
         """
-        Each map of a frame as its file has it, (rows, columns, channels) float32: the map, and its
-        smaller levels where asked for.
+        Yield the name and the levels of each map of a frame, in the conventions of the files.
+
+        A level is (rows, columns, channels), float32. Without mips there is one.
         """
         coverage = None
         if state is not None:
-            coverage = foam_room.coverage(
+            coverage = foam_module.coverage(
                 state if self._eulerian is None else self._eulerian.resample(state)
             )
         for name in self.job.maps:
             m = MAPS[name]
-            moment = frame, coverage, self._unresolved
-            levels = m.levels(*moment) if self.job.mips else [m.channels(*moment)]
+            state_now = frame, coverage, self._unresolved
+            levels = m.levels(*state_now) if self.job.mips else [m.channels(*state_now)]
             yield name, [profiles.arrange(self.profile, m.kind, level) for level in levels]
 
-    def stored(self, pictures: list[Real]) -> list[Real]:
+    def stored(self, levels: list[Real]) -> list[Real]:
         """
-        The same in the precision of the format: halves are packed here; all else, and what no half
-        can hold, is the encoder's affair.
+        Return levels in the precision of the format, if that is half; else as they are.
+
+        The encoder converts to all other types, and refuses values too large for a half.
         """
-        return (
-            [_halves(picture) for picture in pictures]
-            if self.form.stored == "float16"
-            else pictures
-        )
+        return [_halves(level) for level in levels] if self.form.stored == "float16" else levels
 
 
-def _halves(picture: Real) -> Real:
-    """Floats rounded to the nearest half; as they are, where one is too large or no number."""
-    floats = np.ascontiguousarray(picture, dtype=np.float32)
+def _halves(values: Real) -> Real:
+    """Return values rounded to halves; unchanged if one is NaN or too large for a half."""
+    floats = np.ascontiguousarray(values, dtype=np.float32)
     if not max(-float(floats.min()), float(floats.max())) <= exr.HALF_MAX:
         return floats
     out = np.empty(floats.shape, dtype=np.uint16)
@@ -150,68 +151,67 @@ def _halves(picture: Real) -> Real:
     return out.view(np.float16)
 
 
-_desk = threading.local()  # each thread has its own scene, as it has plans and buffers
+_thread = threading.local()  # each thread has its own scene
 
 
-def seat(claim: str, scene: Scene) -> None:
-    """Let this thread work on a scene that it has already."""
-    _desk.held = claim, scene
+def set_scene(identity: str, scene: Scene) -> None:
+    """Let this thread use a scene for the plan of an identity."""
+    _thread.scene = identity, scene
 
 
-def leave() -> None:
-    """Give back the memory of this thread's scene."""
-    _desk.__dict__.clear()
+def clear_scene() -> None:
+    """Release this thread's scene."""
+    _thread.__dict__.clear()
 
 
-def scene_of(order: Order) -> Scene:
+def scene_of(plan: Plan) -> Scene:
     """
-    Return this thread's scene of an order, set up anew only where it last worked on another one.
+    Return this thread's scene of a plan, set up anew if its last plan was another one.
 
     Raises:
-        OutputError: this process would not write the same bytes: other libraries, or another
-            measured file.
+        OutputError: this process would write other bytes, as its libraries or measured files are
+            others.
     """
-    claim, scene = getattr(_desk, "held", ("", None))
-    if scene is None or claim != order.claim:
-        scene = Scene(order.job.downsampled(order.downsample))
+    identity, scene = getattr(_thread, "scene", ("", None))
+    if scene is None or identity != plan.identity:
+        scene = Scene(plan.job.downsampled(plan.downsample))
         mine = header_of(
-            order.job, frames=order.frames, downsample=order.downsample, backend=scene.ocean.backend
+            plan.job, frames=plan.frames, downsample=plan.downsample, backend=scene.ocean.backend
         )
-        if changes := differences(order.header, mine):
+        if changes := differences(plan.header, mine):
             raise OutputError(f"a worker would not write the same bytes ({changes:.400})")
-        seat(order.claim, scene)
+        set_scene(plan.identity, scene)
     return scene
 
 
-def work(order: Order, task: Task) -> Iterator[Entry]:
+def work(plan: Plan, task: Task) -> Iterator[Entry]:
     """
-    Carry out a task, and yield what the journal is to have of it, each when it is on the disk. It
-    may be done again, by anybody.
+    Carry out a task; yield an entry for the journal when its result is on the disk.
+
+    A task may be repeated, by any worker.
 
     Raises:
-        OutputError: a file cannot be written, or a value not be stored in it; `FolderInUseError`,
-            where the bake was given up.
+        OutputError: a file cannot be written, or cannot store a value.
+        FolderInUseError: the bake was stopped, or another one has the folder.
     """
-    scene, folder = scene_of(order), Path(order.folder)
+    scene, folder = scene_of(plan), Path(plan.folder)
     if task.kind == "foam":
-        yield _foam_made(scene, folder, task.frames, order.token)
+        yield _write_foam(scene, folder, task.frames, plan.token)
         return
     for j, state in zip(task.frames, scene.foam_states(task.frames, folder), strict=True):
-        require_held(folder, order.token)
+        require_held(folder, plan.token)
         frame = scene.frame(j)
         if task.kind == "range":
             yield {
                 "range": {
                     "frame": j,
-                    "maps": {
-                        name: _range_of(levels) for name, levels in scene.pictures(frame, state)
-                    },
+                    "maps": {name: _range_of(levels) for name, levels in scene.maps(frame, state)},
                 }
             }
         else:
             files = {
-                name: _written(order, scene, folder, name, j, levels)
-                for name, levels in scene.pictures(frame, state)
+                name: _write_map(plan, scene, folder, name, j, levels)
+                for name, levels in scene.maps(frame, state)
             }
             yield {
                 "row": {
@@ -223,8 +223,8 @@ def work(order: Order, task: Task) -> Iterator[Entry]:
             }
 
 
-def _foam_made(scene: Scene, folder: Path, frames: Sequence[int], token: str) -> Entry:
-    """What a span of the loop makes of foam, kept in a file."""
+def _write_foam(scene: Scene, folder: Path, frames: Sequence[int], token: str) -> Entry:
+    """Write the foam response of a span of the loop; return its entry."""
     require_held(folder, token)
     first, stop = frames[0], frames[-1] + 1
     stream = io.BytesIO()
@@ -236,24 +236,24 @@ def _foam_made(scene: Scene, folder: Path, frames: Sequence[int], token: str) ->
         "foam": {
             "first": first,
             "path": file,
-            "sha256": write_whole(make_rooms(folder, file), stream.getbuffer()),
+            "sha256": write_whole(make_parents(folder, file), stream.getbuffer()),
         }
     }
 
 
-def _written(
-    order: Order, scene: Scene, folder: Path, name: str, j: int, levels: list[Real]
+def _write_map(
+    plan: Plan, scene: Scene, folder: Path, name: str, j: int, levels: list[Real]
 ) -> dict[str, Any]:
-    """Write a map of a frame; what the manifest says of it."""
-    place = order.place(j)
+    """Write a map of a frame; return its entry of the manifest."""
+    place = plan.place(j)
     file = layout.frame_file(scene.form, name, j, place)
-    low, high = order.ranges.get(name, (None, None))
+    low, high = plan.ranges.get(name, (None, None))
     stored = scene.stored(levels)
     try:
         data = formats.encode(scene.form.name, stored[0], lo=low, hi=high, levels=stored[1:])
     except OutputError as error:
         raise OutputError(f"{folder / file} could not be encoded: {error}") from None
-    sha256 = write_whole(make_rooms(folder, file), data)
+    sha256 = write_whole(make_parents(folder, file), data)
     entry = (
         {"path": file}
         if scene.form.scope == "frame"
@@ -261,21 +261,20 @@ def _written(
     )
     number = (
         np.float16 if scene.form.stored == "float16" else np.float32
-    )  # a half may lie beyond the value that it was rounded from
+    )  # a rounded half may exceed the value
     ranges = [[float(number(low)), float(number(high))] for low, high in _channel_ranges(levels[0])]
     return {**entry, "bytes": len(data), "sha256": sha256, "range": ranges}
 
 
-def _channel_ranges(picture: Real) -> list[tuple[float, float]]:
-    """The least and the greatest value of each channel."""
+def _channel_ranges(values: Real) -> list[tuple[float, float]]:
+    """Return the least and the greatest value of each channel."""
     return [
-        (float(picture[..., c].min()), float(picture[..., c].max()))
-        for c in range(picture.shape[-1])
+        (float(values[..., c].min()), float(values[..., c].max())) for c in range(values.shape[-1])
     ]
 
 
 def _range_of(levels: list[Real]) -> list[float]:
-    """The least and the greatest value of a map, all channels and levels."""
+    """Return the least and the greatest value of a map, all channels and levels."""
     return [
         min(float(level.min()) for level in levels),
         max(float(level.max()) for level in levels),

@@ -1,7 +1,7 @@
-"""Executors by their names."""
+"""Choice of an executor by its name."""
 
 from fftocean.baking.workers import cluster
-from fftocean.baking.workers.local import Crew, Processes, Serial
+from fftocean.baking.workers.local import Executor, Processes, Serial
 from fftocean.errors import JobError
 from fftocean.job.parameters import spelled
 
@@ -10,7 +10,7 @@ EXECUTORS = ("auto", "serial", "processes", "dask")
 
 def check_executor(name: str, workers: int | None) -> str:
     """
-    Return an executor's name as we write it.
+    Return an executor's name in its standard spelling.
 
     Raises:
         JobError: the name is unknown, the number of workers out of range, or Dask not installed.
@@ -31,14 +31,14 @@ def check_executor(name: str, workers: int | None) -> str:
     return name
 
 
-def crew_of(name: str, workers: int, lock: int) -> Crew:
+def choose_executor(name: str, workers: int, lock: int) -> Executor:
     """
-    Return the crew of that name, to be used as a context.
+    Return the executor of a name, to be used as a context.
 
     Args:
         name: one of `EXECUTORS` but "auto", or a scheduler's address.
-        workers: how many; those of a scheduler are what they are.
-        lock: the descriptor of the folder's lock, which workers on this machine hold with us.
+        workers: number of workers; ignored for a scheduler, which has its own.
+        lock: descriptor of the folder's lock, which workers on this machine inherit.
     """
     if name == "serial":
         return Serial()

@@ -1,6 +1,5 @@
 """
-A bake on a Dask cluster: one of this machine's own, or that of a scheduler, whose workers see the
-same folder.
+Executor on a Dask cluster: a local one, or that of a scheduler, whose workers see the same folder.
 """
 
 import contextlib
@@ -15,7 +14,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from fftocean.baking.folder.plan import Entry, Order, Task
+from fftocean.baking.folder.journal import Entry
+from fftocean.baking.folder.plan import Plan, Task
 from fftocean.baking.workers.local import ATTEMPTS, ONE_THREAD
 from fftocean.errors import FFTOceanError, JobError, OutputError, how_to_install
 from fftocean.files import as_json
@@ -32,10 +32,10 @@ NO_DASHBOARD = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
 
 def require_dask() -> None:
     """
-    Refuse to go on without Dask.
+    Raise if Dask is not installed.
 
     Raises:
-        JobError: it is not installed.
+        JobError: the package distributed is missing.
     """
     if util.find_spec("distributed") is None:
         raise JobError(f"executor 'dask' needs the package distributed: {how_to_install('dist')}")
@@ -57,8 +57,8 @@ class Cluster:
     Workers of a Dask cluster. Tasks that were finished may run again, and those of a worker that
     died do.
 
-    What is sent is the order and the frames' numbers; what comes back is what the manifest says of
-    them. The files go straight to the folder, which all workers must see under the same name.
+    A worker receives the plan and the numbers of frames, and returns their entries of the manifest.
+    It writes the files straight to the folder, which all workers must see under the same name.
     """
 
     name = "dask"
@@ -118,36 +118,40 @@ class Cluster:
             raise
         return self
 
-    def run(self, order: Order, tasks: Sequence[Task]) -> Generator[Entry, None, None]:
+    def run(self, plan: Plan, tasks: Sequence[Task]) -> Generator[Entry, None, None]:
         """
-        All tasks are handed over; a frame is told of when it is finished, and again with its task,
-        in case the first word was lost.
+        Submit all tasks, and yield each entry once.
+
+        A worker reports a frame when it is finished, and again with its task, in case the first
+        message was lost.
         """
-        order = replace(
-            order, folder=str(Path(order.folder).absolute())
-        )  # where its workers are, another one is the current folder
-        news: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
+        plan = replace(
+            plan, folder=str(Path(plan.folder).absolute())
+        )  # its workers have another current folder
+        messages: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
         topic = f"fftocean-{uuid.uuid4().hex}"
-        self._client.subscribe_topic(topic, lambda event: news.put(("entry", event[1]["entry"])))
+        self._client.subscribe_topic(
+            topic, lambda event: messages.put(("entry", event[1]["entry"]))
+        )
         futures = [
             self._client.submit(
-                _rendered, order, task, topic, key=f"{topic}-{i}", pure=False, retries=0
+                _rendered, plan, task, topic, key=f"{topic}-{i}", pure=False, retries=0
             )
             for i, task in enumerate(tasks)
         ]
         try:
             for future in futures:
-                future.add_done_callback(lambda done: news.put(("done", done)))
-            left, told = len(futures), set()
+                future.add_done_callback(lambda done: messages.put(("done", done)))
+            left, seen = len(futures), set()
             while left:
                 try:
-                    word, value = news.get(timeout=0.5)
+                    kind, value = messages.get(timeout=0.5)
                 except queue.Empty:
                     continue
-                left -= word == "done"
-                for entry in _result(value) if word == "done" else [value]:
-                    if (what := as_json(entry)) not in told:
-                        told.add(what)
+                left -= kind == "done"
+                for entry in _result(value) if kind == "done" else [value]:
+                    if (text := as_json(entry)) not in seen:
+                        seen.add(text)
                         yield entry
         finally:
             self._client.cancel(futures)
@@ -160,9 +164,7 @@ class Cluster:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if (
-            self._address is not None
-        ):  # those workers are not ours to stop: let what they are at end
+        if self._address is not None:  # its workers are not stopped: wait for their tasks to end
             deadline = time.monotonic() + PATIENCE
             with contextlib.suppress(Exception):
                 while any(self._client.processing().values()) and time.monotonic() < deadline:
@@ -171,7 +173,7 @@ class Cluster:
 
 
 def _result(future: Any) -> list[Entry]:
-    """What a finished task brought."""
+    """Return the entries of a finished task."""
     import distributed
 
     try:
@@ -180,19 +182,19 @@ def _result(future: Any) -> list[Entry]:
         raise
     except distributed.scheduler.KilledWorker as error:
         raise OutputError(
-            f"some frames could not be baked: {ATTEMPTS} Dask workers died of them"
+            f"some frames could not be baked: {ATTEMPTS} Dask workers died while baking them"
         ) from error
     return entries
 
 
-def _rendered(order: Order, task: Task, topic: str) -> list[Entry]:
-    """Runs on a worker: do a task, and tell of each frame as it is finished."""
+def _rendered(plan: Plan, task: Task, topic: str) -> list[Entry]:
+    """Carry out a task on a worker, and report each entry when it is finished."""
     import distributed
 
     from fftocean.baking.scene.scene import work
 
     worker, entries = distributed.get_worker(), []
-    for entry in work(order, task):
+    for entry in work(plan, task):
         worker.log_event(topic, {"entry": entry})
         entries.append(entry)
     return entries

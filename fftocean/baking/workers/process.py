@@ -1,9 +1,9 @@
 """
-A worker process: tasks come in at one end of a pipe, what is finished goes out at the other.
+Worker process: tasks arrive through a pipe, and entries of finished steps leave through another.
 
-It is started with `python -c` and not by `multiprocessing`, so that it imports nothing of the
-caller's program, which needs no `if __name__ == "__main__"`, and inherits no thread. It ends with
-whoever started it.
+The process is started with `python -c` and not by `multiprocessing`, so that it imports nothing of
+the caller's program, which needs no `if __name__ == "__main__"`, and inherits no thread. It ends
+with the process that started it.
 """
 
 import contextlib
@@ -18,31 +18,29 @@ import warnings
 from typing import IO, Any
 
 BOOT = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); from fftocean.baking.workers.process import serve; serve()"
-"""What the process is started with; the first thing it is sent is its search path."""
+"""Program of the process; the first message is its module search path."""
 
 
 def serve() -> None:
     """
-    Take (order, task)s; answer ("entry", entry) for each thing that is finished, then ("done",
-    None) or ("failed", error).
+    Carry out each (plan, task) received; answer ("entry", entry) for each finished step, then
+    ("done", None) or ("failed", error).
     """
     signal.signal(
         signal.SIGINT, signal.SIG_IGN
-    )  # Ctrl-C reaches the whole group; the one that holds the lock decides
+    )  # Ctrl-C reaches the whole group; the process with the lock decides
     _die_with_parent()
     incoming, outgoing = sys.stdin.buffer, os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(
-        sys.stderr.fileno(), sys.stdout.fileno()
-    )  # whatever prints must not get between the answers
-    warnings.simplefilter("ignore")  # they were said once, by the one that started us
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # printed text must not mix with the answers
+    warnings.simplefilter("ignore")  # the process that started this one has given them
     inbox: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(incoming, inbox), daemon=True).start()
+    threading.Thread(target=_receive, args=(incoming, inbox), daemon=True).start()
     from fftocean.baking.scene.scene import work
 
     while True:
-        order, task = inbox.get()
+        plan, task = inbox.get()
         try:
-            for entry in work(order, task):
+            for entry in work(plan, task):
                 _answer(outgoing, "entry", entry)
         except Exception as error:
             error.add_note("".join(traceback.format_exception(error)))
@@ -51,10 +49,9 @@ def serve() -> None:
             _answer(outgoing, "done", None)
 
 
-def _listen(incoming: IO[bytes], inbox: "queue.SimpleQueue[Any]") -> None:
+def _receive(incoming: IO[bytes], inbox: "queue.SimpleQueue[Any]") -> None:
     """
-    Pass on what comes in; where nothing can come any more, end at once, in the middle of whatever
-    is being done.
+    Put messages into the inbox; end the process at once when the pipe is closed, whatever it does.
     """
     with contextlib.suppress(EOFError, OSError, pickle.UnpicklingError):
         while True:
@@ -62,18 +59,17 @@ def _listen(incoming: IO[bytes], inbox: "queue.SimpleQueue[Any]") -> None:
     os._exit(0)
 
 
-def _answer(outgoing: IO[bytes], word: str, value: Any) -> None:
+def _answer(outgoing: IO[bytes], kind: str, value: Any) -> None:
+    """Send an answer; end the process if nobody can receive it."""
     try:
-        pickle.dump((word, value), outgoing)
+        pickle.dump((kind, value), outgoing)
         outgoing.flush()
-    except OSError:  # nobody is left to hear it
+    except OSError:
         os._exit(0)
 
 
 def _die_with_parent() -> None:
-    """
-    On Linux: be killed in the instant in which the parent is, so that nothing is written after it.
-    """
+    """On Linux, let this process be killed with its parent, so that it writes nothing later."""
     if sys.platform == "linux":
         import ctypes
 

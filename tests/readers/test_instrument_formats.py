@@ -3,13 +3,11 @@
 import gzip
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from written import DATA, FREQUENCY, TIMES, TO, sea, write_ndbc, ww3
-from written_more import (
+from instrument_files import (
     EDGES,
     FROM,
     cdip,
@@ -24,12 +22,13 @@ from written_more import (
     write_triaxys,
     write_ww3_text,
 )
+from spectrum_files import DATA, FREQUENCY, TIMES, TO, sea, write_ndbc, ww3
 
 import fftocean as fo
 from fftocean import readers
 from fftocean.errors import ReaderError, SeaWarning
 
-ORDER = sea(toward=100.0)  # skew against the bins
+SPECIFIED = sea(toward=100.0)  # skew against the bins
 
 
 def require_moments(data, *, c2=True, rounding=1e-8, within=2e-6):
@@ -37,13 +36,13 @@ def require_moments(data, *, c2=True, rounding=1e-8, within=2e-6):
     density = data.efth.values
     step = 360.0 / data.sizes["dir"]
     total = density.sum(axis=2) * step
-    want = undirected(ORDER)[: data.sizes["time"]]
+    want = undirected(SPECIFIED)[: data.sizes["time"]]
     assert total == pytest.approx(want, rel=1e-6, abs=rounding)
     some = want > 1e-6 * want.max()  # of less than that the decimals leave few figures
     for n in (1, 2) if c2 else (1,):
         wave = np.exp(1j * n * np.radians(data.dir.values))
         got = density @ wave * step / np.where(total > 0.0, total, 1.0)
-        apart = np.abs(got - fourier(ORDER, n)[: data.sizes["time"]])
+        apart = np.abs(got - fourier(SPECIFIED, n)[: data.sizes["time"]])
         assert np.max(apart[some]) < within
 
 
@@ -55,13 +54,15 @@ def test_wavewatch_text(tmp_path):
     Radians TO and per radian become degrees FROM and per degree; the second point holds twice as
     much.
     """
-    path = write_ww3_text(tmp_path / "station.spec", ORDER, points=2)
+    path = write_ww3_text(tmp_path / "station.spec", SPECIFIED, points=2)
     for site in (0, 1):
         data = readers.open(path, site=site)
         came = np.argsort(FROM)
         assert data.dir.values == pytest.approx(FROM[came], abs=1e-5)
         assert data.freq.values == pytest.approx(FREQUENCY, rel=1e-9)
-        assert data.efth.values == pytest.approx((site + 1) * ORDER.density[:, :, came], rel=1e-8)
+        assert data.efth.values == pytest.approx(
+            (site + 1) * SPECIFIED.density[:, :, came], rel=1e-8
+        )
         assert data.time.values.tolist() == TIMES.tolist()
         assert data.dpt.values.tolist() == [30.0, 30.0]
         assert (float(data.lat), float(data.lon)) == (45.0, -130.0)  # they touch in the file
@@ -73,13 +74,13 @@ def test_wavewatch_text_with_three_figures_has_equal_directions(tmp_path):
     As the model writes it: 0.148E+01 rad is good to 0.3 degrees, and the directions were equally
     spaced.
     """
-    data = readers.open(write_ww3_text(tmp_path / "station.spec", ORDER, figures=2))
+    data = readers.open(write_ww3_text(tmp_path / "station.spec", SPECIFIED, figures=2))
     assert np.diff(data.dir.values) == pytest.approx(15.0, abs=1e-4)
     assert data.dir.values == pytest.approx(np.sort(FROM), abs=0.3)
 
 
 def test_fortran_leaves_the_letter_out_of_long_exponents(tmp_path):
-    path = write_ww3_text(tmp_path / "a.spec", ORDER)
+    path = write_ww3_text(tmp_path / "a.spec", SPECIFIED)
     text = path.read_text()
     assert " 0.000000000E+00" in text
     path.write_text(text.replace(" 0.000000000E+00", " 0.123-100"))
@@ -87,9 +88,9 @@ def test_fortran_leaves_the_letter_out_of_long_exponents(tmp_path):
 
 
 def test_octopus(tmp_path):
-    data = readers.open(write_octopus(tmp_path / "a.oct", ORDER))
+    data = readers.open(write_octopus(tmp_path / "a.oct", SPECIFIED))
     came = np.argsort(FROM)
-    assert data.efth.values == pytest.approx(ORDER.density[:, :, came], rel=1e-4, abs=1e-9)
+    assert data.efth.values == pytest.approx(SPECIFIED.density[:, :, came], rel=1e-4, abs=1e-9)
     assert data.freq_bnds.values == pytest.approx(
         np.stack([EDGES[:-1], EDGES[1:]], axis=1), rel=1e-8
     )
@@ -99,13 +100,13 @@ def test_octopus(tmp_path):
 
 
 def test_triaxys(tmp_path):
-    data = readers.open(write_triaxys(tmp_path / "a.DIRSPEC", ORDER))
+    data = readers.open(write_triaxys(tmp_path / "a.DIRSPEC", SPECIFIED))
     assert (data.sizes["freq"], data.sizes["dir"]) == (39, 24)
     assert data.attrs["zero_frequencies_left_out"] == 1
     assert data.freq_bnds.values[0].tolist() == pytest.approx([0.005, 0.015])
     assert (float(data.lat), float(data.lon)) == (48.5, -130.5)
     assert data.time.values[0] == np.datetime64("2020-01-01T00:00")
-    flat = readers.open(write_triaxys(tmp_path / "a.NONDIRSPEC", ORDER, directed=False))
+    flat = readers.open(write_triaxys(tmp_path / "a.NONDIRSPEC", SPECIFIED, directed=False))
     assert flat.ef.values == pytest.approx(data.efth.values.sum(axis=2) * 15.0, rel=1e-6)
     peak = float(data.dir[np.argmax(data.efth[0].sum("freq").values)])
     assert abs(peak - 280.0) <= 15.0  # FROM, of a sea toward 100 degrees
@@ -115,7 +116,7 @@ def test_triaxys(tmp_path):
 
 
 def test_spotter(tmp_path):
-    data = readers.open(write_spotter(tmp_path / "spotter.csv", ORDER))
+    data = readers.open(write_spotter(tmp_path / "spotter.csv", SPECIFIED))
     require_moments(data)
     assert (float(data.lat), float(data.lon)) == (45.0, -30.0)
     assert data.time.values.tolist() == TIMES.tolist()
@@ -124,7 +125,7 @@ def test_spotter(tmp_path):
 
 def test_spotter_without_moments(tmp_path):
     """Direction and spread alone keep the first moment."""
-    path = write_spotter(tmp_path / "spotter.csv", ORDER)
+    path = write_spotter(tmp_path / "spotter.csv", SPECIFIED)
     lines = [line.split(",") for line in path.read_text().splitlines()]
     kept = [i for i, name in enumerate(lines[0]) if name[:2] not in ("a1", "b1", "a2", "b2")]
     path.write_text("".join(",".join(line[i] for i in kept) + "\n" for line in lines))
@@ -132,7 +133,7 @@ def test_spotter_without_moments(tmp_path):
 
 
 def test_datawell(tmp_path):
-    path = write_datawell(tmp_path / "buoy}2020-01-01T00h00Z.spt", ORDER)
+    path = write_datawell(tmp_path / "buoy}2020-01-01T00h00Z.spt", SPECIFIED)
     data = readers.open(path)
     require_moments(data)
     assert data.time.values[0] == np.datetime64("2020-01-01T00:00")
@@ -143,7 +144,7 @@ def test_datawell(tmp_path):
 @pytest.mark.parametrize("cartesian", [False, True])
 @pytest.mark.parametrize("energy", [False, True])
 def test_swan_1d(cartesian, energy, tmp_path):
-    path = write_swan_1d(tmp_path / "a.sp1", ORDER, cartesian=cartesian, energy=energy)
+    path = write_swan_1d(tmp_path / "a.sp1", SPECIFIED, cartesian=cartesian, energy=energy)
     data = readers.open(path)
     require_moments(data, c2=False)
     assert (float(data.lon), float(data.lat), data.attrs["sites"]) == (-30.0, 45.0, 2)
@@ -151,7 +152,7 @@ def test_swan_1d(cartesian, energy, tmp_path):
 
 
 def test_swan_1d_without_directions_or_with_exceptions(tmp_path):
-    path = write_swan_1d(tmp_path / "a.sp1", ORDER)
+    path = write_swan_1d(tmp_path / "a.sp1", SPECIFIED)
     text = path.read_text()
     row = text.split("LOCATION     1\n")[1].splitlines()[0]
     path.write_text(text.replace(row, "  -99  -999  -9", 1))
@@ -165,19 +166,19 @@ def test_swan_1d_without_directions_or_with_exceptions(tmp_path):
     body = rest.split("-0.9000E+01\n")[1]
     lines = [line.split()[0] if line.startswith("  ") else line for line in body.splitlines()]
     path.write_text(names + "QUANT\n 1" + cut + "\n".join(lines) + "\n")
-    assert readers.open(path).ef.values == pytest.approx(undirected(ORDER), rel=1e-8)
+    assert readers.open(path).ef.values == pytest.approx(undirected(SPECIFIED), rel=1e-8)
 
 
 @pytest.mark.parametrize("kind", "wdijk")
 def test_ndbc_archive_given_by_any_of_its_files(kind, tmp_path):
-    write_archive(tmp_path, ORDER)
+    write_archive(tmp_path, SPECIFIED)
     data = readers.open(tmp_path / f"12345{kind}2020.txt")
     require_moments(data, rounding=6e-7)  # six decimals
     assert data.attrs["source_format"] == "NDBC historical text with directions"
 
 
 def test_ndbc_archive_given_by_its_folder_or_packed(tmp_path):
-    path = write_archive(tmp_path, ORDER)
+    path = write_archive(tmp_path, SPECIFIED)
     want = readers.open(path)
     assert readers.open(tmp_path).identical(want)
     for other in tmp_path.iterdir():
@@ -196,7 +197,7 @@ def test_ndbc_archive_given_by_its_folder_or_packed(tmp_path):
 
 def test_an_archive_that_is_not_in_hundredths_is_refused(tmp_path):
     """A hundredth of the coherences would spread the sea all round, and look like a sea."""
-    path = write_archive(tmp_path, ORDER)
+    path = write_archive(tmp_path, SPECIFIED)
     other = tmp_path / "12345j2020.txt"
     head, *rows = other.read_text().splitlines()
     rows = [
@@ -211,7 +212,7 @@ def test_an_archive_that_is_not_in_hundredths_is_refused(tmp_path):
 
 
 def test_missing_files_of_an_archive_set_are_named(tmp_path):
-    write_archive(tmp_path, ORDER)
+    write_archive(tmp_path, SPECIFIED)
     (tmp_path / "12345j2020.txt").unlink()
     (tmp_path / "12345i2020.txt").unlink()
     for kind in "wdk":
@@ -220,13 +221,13 @@ def test_missing_files_of_an_archive_set_are_named(tmp_path):
     for kind in "dk":
         (tmp_path / f"12345{kind}2020.txt").unlink()
     assert readers.open(tmp_path / "12345w2020.txt").ef.values == pytest.approx(
-        undirected(ORDER), abs=1e-6
+        undirected(SPECIFIED), abs=1e-6
     )
 
 
 @pytest.mark.parametrize("make", [ndbc_netcdf, cdip])
 def test_netcdf_of_buoys(make, tmp_path):
-    raw = make(ORDER)
+    raw = make(SPECIFIED)
     raw.to_netcdf(tmp_path / "buoy.nc", engine="scipy")
     data = readers.open(tmp_path / "buoy.nc")
     require_moments(data)
@@ -245,18 +246,21 @@ def test_netcdf_of_buoys(make, tmp_path):
     ("change", "message"),
     [
         (lambda d: d.drop_vars("wave_spectrum_r2"), "or none; missing: wave_spectrum_r2"),
-        (lambda d: d.assign(wave_spectrum_r1=d.wave_spectrum_r1 * 100.0), "variable wave_spectrum_r1 must be between 0 and 1.1"),
-        (lambda d: d.assign(mean_wave_dir=d.mean_wave_dir.isel(longitude=0)), "mean_wave_dir must have the dimensions"),
-        (lambda d: d.assign(mean_wave_dir=d.mean_wave_dir.assign_attrs(units="m")), "mean_wave_dir must be in degrees"),
+        (lambda d: d.assign(wave_spectrum_r1=d.wave_spectrum_r1 * 100.0),
+         "variable wave_spectrum_r1 must be between 0 and 1.1"),
+        (lambda d: d.assign(mean_wave_dir=d.mean_wave_dir.isel(longitude=0)),
+         "mean_wave_dir must have the dimensions"),
+        (lambda d: d.assign(mean_wave_dir=d.mean_wave_dir.assign_attrs(units="m")),
+         "mean_wave_dir must be in degrees"),
     ],
 )  # fmt: skip
 def test_netcdf_of_buoys_with_variables_that_do_not_fit(change, message):
     with pytest.raises(ReaderError, match=message):
-        readers.netcdf.tidy(change(ndbc_netcdf(ORDER)))
+        readers.netcdf.tidy(change(ndbc_netcdf(SPECIFIED)))
 
 
 def test_cdip_moments_are_checked_against_its_mean_direction():
-    raw = cdip(ORDER)
+    raw = cdip(SPECIFIED)
     turned = raw.assign(waveMeanDirection=(raw.waveMeanDirection + 180.0) % 360.0)
     with pytest.raises(ReaderError, match="waveMeanDirection must be the direction of waveA1Value"):
         readers.netcdf.tidy(turned)
@@ -274,7 +278,7 @@ def test_cdip_moments_are_checked_against_its_mean_direction():
 )
 def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
     """ww3_ounp's default packs log10 of the density + 1e-12 in short integers of 4e-4."""
-    raw = ww3(ORDER)
+    raw = ww3(SPECIFIED)
     want = readers.netcdf.tidy(raw)
     floor = raw.efth.where(raw.efth > 0.0, 1e-12) if not offset else raw.efth + offset
     log = (np.log(floor) / np.log(base)).assign_attrs({**raw.efth.attrs, "units": unit, **name})
@@ -288,7 +292,7 @@ def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
 
 
 def test_a_logarithm_must_say_its_base():
-    raw = ww3(ORDER)
+    raw = ww3(SPECIFIED)
     raw.efth.attrs["long_name"] = "logarithm of the density"
     with pytest.raises(ReaderError, match="must say the base of its logarithm"):
         readers.netcdf.tidy(raw)
@@ -476,98 +480,13 @@ def test_a_stated_height_that_does_not_fit_is_a_warning(tmp_path):
         readers.open(tmp_path / "a.spt")
 
 
-# --- what is no spectrum, and names what is
-
-
-@pytest.mark.parametrize(
-    ("head", "message"),
-    [
-        ("#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES  ATMP  WTMP", "standard meteorological file.*data_spec"),
-        ("YYYY MM DD hh WD   WSPD GST  WVHT  DPD   APD  MWD  BAR    ATMP", "standard meteorological file.*data_spec"),
-        ("YY MM DD hh WD   WSPD GST  WVHT  DPD   APD  MWD  BAR    ATMP", "standard meteorological file.*data_spec"),
-        ("#YY  MM DD hh mm WVHT  SwH  SwP  WWH  WWP SwD WWD  STEEPNESS  APD MWD", "summary of waves.*data_spec"),
-        ("<!DOCTYPE html>", "is a web page"),
-        ("GRIB\x00\x01", "is GRIB; convert it to netCDF"),
-        ("PK\x03\x04", "is a zip archive; unpack it"),
-        ('{"data":{"frequencyData":[]}}', "is a Spotter's JSON"),
-        ("%\n%\n% Run:trki  Table:tahb    SWAN version:40.91", "is a table of SWAN"),
-        ("$PNORI,4,a,b", "is NMEA telegrams"),
-        ("hello", r"known format \(netCDF, SWAN 1-D ASCII, .*Octopus\), got 'hello'"),
-    ],
-)  # fmt: skip
-def test_near_misses(head, message, tmp_path):
-    (tmp_path / "near").write_text(head + "\nmore\n")
-    with pytest.raises(ReaderError, match=f"near .*{message}"):
-        readers.open(tmp_path / "near")
-
-
-def test_every_sample_has_one_reader_that_knows_it():
-    """
-    The first of `FORMATS` that accepts a file reads it; where several do, the special stands first.
-    """
-    also = {"swan_1d": {"swan"}, "ndbc_archive": {"ndbc"}}
-    names = {reader.name: module for module, reader in modules().items()}
-    seen = set()
-    for path in DATA.iterdir():
-        if path.name == "README.md":
-            continue
-        head = readers.Head.of(path)
-        known = [names[reader.name] for reader in readers.FORMATS if reader.sniff(head)]
-        assert known, path.name
-        assert set(known[1:]) <= also.get(known[0], set()), path.name
-        seen.add(known[0])
-    assert seen == set(names.values()) - {"swan_1d"}
-
-
-def modules():
-    """Return the readers by the module that holds each."""
-    return {
-        name: module.READER for name, module in vars(readers).items() if hasattr(module, "READER")
-    }
-
-
-def test_every_module_with_a_reader_is_registered():
-    folder = (readers.files.__file__ or "").rpartition("/")[0]
-    with_reader = {p.stem for p in Path(folder).glob("*.py") if "\nREADER" in p.read_text()}
-    assert with_reader == set(modules())
-    assert {id(r) for r in readers.FORMATS} == {id(r) for r in modules().values()}
-    assert len({r.name for r in readers.FORMATS}) == len(readers.FORMATS)
-
-
-@pytest.mark.parametrize("part", ["name", "extensions", "description", "sniff", "read"])
-def test_a_reader_without_a_part_is_an_error(part):
-    parts = {
-        "name": "A",
-        "extensions": (".a",),
-        "description": "A.",
-        "sniff": str,
-        "read": str,
-    }
-    readers.Reader(**parts)
-    with pytest.raises((TypeError, ValueError)):
-        readers.Reader(**{k: v for k, v in parts.items() if k != part})
-    with pytest.raises((TypeError, ValueError)):
-        readers.Reader(**(parts | {part: () if part == "extensions" else ""}))
-
-
-def test_the_command_line_says_what_a_file_is_and_exits_with_3(tmp_path, capsys):
-    from fftocean.cli import main
-
-    (tmp_path / "41010.txt").write_text(
-        "#YY  MM DD hh mm WDIR WSPD GST  WVHT   DPD   APD MWD   PRES\n"
-    )
-    (tmp_path / "job.toml").write_text('[[sea.systems]]\nmeasured = { file = "41010.txt" }\n')
-    assert main(["info", str(tmp_path / "job.toml")]) == 3
-    assert "standard meteorological file" in capsys.readouterr().err
-
-
 def test_realtime_sets_are_given_by_their_folder(tmp_path):
     first = write_ndbc(tmp_path)
     assert readers.open(tmp_path).identical(readers.open(first))
 
 
 def test_units_of_depth_are_read():
-    raw = ww3(ORDER)
+    raw = ww3(SPECIFIED)
     raw.dpt.attrs["units"] = "km"
     assert readers.netcdf.tidy(raw).dpt.values.tolist() == [30000.0, 30000.0]
     assert TO.size == 24
@@ -589,7 +508,7 @@ def test_the_page_of_formats_is_true(tmp_path, monkeypatch):
     page = (DATA.parents[2] / "docs" / "readers.md").read_text()
     for path in DATA.iterdir():
         shutil.copyfile(path, tmp_path / path.name)
-    write_swan_1d(tmp_path / "swanfile.sp1", ORDER)
+    write_swan_1d(tmp_path / "swanfile.sp1", SPECIFIED)
     monkeypatch.chdir(tmp_path)
     used = set()
     for call, name in re.findall(r'`(fo\.readers\.open\("([^"]+)".*?\))`', page):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from written import (
+from spectrum_files import (
     FREQUENCY,
     TO,
     era5,
@@ -32,21 +32,21 @@ WRITERS = {
     "wavespectra": (write_wavespectra, {}),
     "ww3": (write_ww3, {}),
     "era5 by number": (write_era5, {"site": 1}),
-    "era5 in Hz": (lambda path, order: write_era5(path, order, numbers=False), {"site": 1}),
+    "era5 in Hz": (lambda path, specified: write_era5(path, specified, numbers=False), {"site": 1}),
     "swan nautical": (write_swan, {}),
-    "swan cartesian": (lambda path, order: write_swan(path, order, cartesian=True), {}),
+    "swan cartesian": (lambda path, specified: write_swan(path, specified, cartesian=True), {}),
 }
 
 
 @pytest.mark.parametrize("name", WRITERS)
-def test_the_numbers_are_those_that_were_ordered(name, tmp_path):
+def test_the_numbers_are_those_specified(name, tmp_path):
     """
     Each value, found again by the direction it comes FROM and its frequency: units, orders and
     conventions all undone.
     """
     write, which = WRITERS[name]
-    order = sea(toward=200.0)
-    got = readers.open(write(tmp_path / "file", order), **which)
+    specified = sea(toward=200.0)
+    got = readers.open(write(tmp_path / "file", specified), **which)
     assert got.efth.dims == ("time", "freq", "dir")
     for time in range(2):
         for i in (0, 12, 29):
@@ -57,7 +57,7 @@ def test_the_numbers_are_those_that_were_ordered(name, tmp_path):
                 # log10 and 10** lose 1e-15 times ln(10) times 9 figures; SWAN's nine figures 1e-9
                 # of the largest
                 assert float(value) == pytest.approx(
-                    order.density[time, i, j], rel=1e-12, abs=1e-9 * order.density.max()
+                    specified.density[time, i, j], rel=1e-12, abs=1e-9 * specified.density.max()
                 )
 
 
@@ -67,12 +67,12 @@ def test_the_same_sea_in_every_format(name, tmp_path):
     S(omega) D(omega, theta) of the `Sea` agrees to 1e-6 of its largest value (SWAN's nine figures;
     the others agree to round-off).
     """
-    order = sea(toward=70.0)
+    specified = sea(toward=70.0)
     write, which = WRITERS[name]
-    got = density(readers.open(write(tmp_path / "file", order), **which), time=1)
+    got = density(readers.open(write(tmp_path / "file", specified), **which), time=1)
     # Not read from anywhere: the layout itself, made by hand.
     by_hand = xr.Dataset(
-        {"efth": (("dir", "freq"), order.density[1].T)},
+        {"efth": (("dir", "freq"), specified.density[1].T)},
         {"freq": FREQUENCY, "dir": (TO + 180.0) % 360.0},
     )
     want = density(by_hand)
@@ -84,12 +84,12 @@ def test_the_same_surface_from_every_format(tmp_path):
     wavespectra, WAVEWATCH III and ERA5 files of one sea realise one surface: heights within 1e-6 of
     the largest.
     """
-    order = sea(toward=70.0)
+    specified = sea(toward=70.0)
     heights = []
     for name in ("wavespectra", "ww3", "era5 in Hz"):
         write, which = WRITERS[name]
         got = readers.sea_from_spectrum(
-            readers.open(write(tmp_path / name.replace(" ", "_"), order), **which),
+            readers.open(write(tmp_path / name.replace(" ", "_"), specified), **which),
             time=1,
             depth=np.inf,
         )  # only some files know a depth

@@ -55,8 +55,8 @@ def maximum_entropy(c1: Complex, c2: Complex, bins: int) -> Unfolded:
         the least that can be said.
 
     Source: Kobune & Hashimoto, Proc. 5th OMAE (1986) 80.
-    Pinned by tests/readers/test_entropy.py: the moments; von Mises, its closed form without c2; an
-    optimiser that shares nothing.
+    Pinned by tests/readers/test_maximum_entropy.py: the moments; von Mises, its closed form without
+    c2; an optimiser that shares nothing.
     """
     shape = np.shape(c1)
     c1, c2 = (np.array(c, dtype=np.complex128).ravel() for c in (c1, c2))

@@ -20,16 +20,16 @@ TIMES = np.array(["2020-01-01T00", "2020-01-01T06"], dtype="datetime64[ns]")
 
 
 @dataclass(frozen=True)
-class Order:
+class SpecifiedSpectrum:
     """
-    A sea as it was ordered: E(f, toward) in m2/Hz/degree, on `FREQUENCY` and `TO`, at two `TIMES`
+    A specified sea: E(f, toward) in m2/Hz/degree, on `FREQUENCY` and `TO`, at two `TIMES`
     (the second has twice as much).
     """
 
     density: np.ndarray  # (time, f, d)
 
 
-def sea(toward: float = 90.0, width: float = 8.0) -> Order:
+def sea(toward: float = 90.0, width: float = 8.0) -> SpecifiedSpectrum:
     """
     A wind sea of 0.1 Hz, cos^2s about a compass direction TOWARD; narrower below the peak, so that
     f and theta do not separate.
@@ -39,10 +39,10 @@ def sea(toward: float = 90.0, width: float = 8.0) -> Order:
     d = np.abs(np.cos(np.radians(TO - toward) / 2.0)) ** (2.0 * exponent)
     once = s[:, None] * d / (d.sum(axis=1, keepdims=True) * 15.0)
     once[once < 1e-9] = 0.0
-    return Order(np.stack([once, 2.0 * once]))
+    return SpecifiedSpectrum(np.stack([once, 2.0 * once]))
 
 
-def write_wavespectra(path: Path, order: Order) -> Path:
+def write_wavespectra(path: Path, specified: SpecifiedSpectrum) -> Path:
     """
     efth(time, site, freq, dir) per degree, dir FROM and without attributes, as the package leaves
     it.
@@ -52,7 +52,7 @@ def write_wavespectra(path: Path, order: Order) -> Path:
         {
             "efth": (
                 ("time", "site", "freq", "dir"),
-                order.density[:, None][..., came],
+                specified.density[:, None][..., came],
                 {"units": "m^{2}.s.degree^{-1}"},
             )
         },
@@ -62,13 +62,13 @@ def write_wavespectra(path: Path, order: Order) -> Path:
     return path
 
 
-def ww3(order: Order) -> xr.Dataset:
+def ww3(specified: SpecifiedSpectrum) -> xr.Dataset:
     """
     efth(time, station, frequency, direction) per radian, direction TO and turning backwards from
     north, depth 30 m.
     """
     back = np.argsort(-((TO - 90.0) % 360.0))
-    density = order.density[:, None][..., back] * 180.0 / np.pi
+    density = specified.density[:, None][..., back] * 180.0 / np.pi
     name = "sea_surface_wave_directional_variance_spectral_density"
     to = {
         "standard_name": "sea_surface_wave_to_direction",
@@ -103,19 +103,19 @@ def ww3(order: Order) -> xr.Dataset:
     )
 
 
-def write_ww3(path: Path, order: Order) -> Path:
+def write_ww3(path: Path, specified: SpecifiedSpectrum) -> Path:
     """netCDF 3, as WAVEWATCH III writes it by default."""
-    ww3(order).to_netcdf(path, engine="scipy")
+    ww3(specified).to_netcdf(path, engine="scipy")
     return path
 
 
-def era5(order: Order, *, numbers: bool = True) -> xr.Dataset:
+def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> xr.Dataset:
     """
     d2fd, log10 of m2/Hz/radian, NaN for nothing, direction before frequency, on a grid of 2 by 1
     (the sea is in the second).
     """
     with np.errstate(divide="ignore"):
-        log10 = np.log10(order.density * 180.0 / np.pi)
+        log10 = np.log10(specified.density * 180.0 / np.pi)
     log10[~np.isfinite(log10)] = np.nan
     here = np.stack([np.full_like(log10, np.nan), log10], axis=-1)[
         ..., None
@@ -140,12 +140,12 @@ def era5(order: Order, *, numbers: bool = True) -> xr.Dataset:
     )
 
 
-def write_era5(path: Path, order: Order, *, numbers: bool = True) -> Path:
-    era5(order, numbers=numbers).to_netcdf(path, engine="h5netcdf")
+def write_era5(path: Path, specified: SpecifiedSpectrum, *, numbers: bool = True) -> Path:
+    era5(specified, numbers=numbers).to_netcdf(path, engine="h5netcdf")
     return path
 
 
-def write_swan(path: Path, order: Order, *, cartesian: bool = False) -> Path:
+def write_swan(path: Path, specified: SpecifiedSpectrum, *, cartesian: bool = False) -> Path:
     """
     SWAN's ASCII with nine figures where SWAN has four, so that it can be compared; nautical FROM or
     Cartesian TOWARD.
@@ -163,7 +163,7 @@ def write_swan(path: Path, order: Order, *, cartesian: bool = False) -> Path:
     text += ["AFREQ", f"{FREQUENCY.size:6d}", *(f"{f:.12f}" for f in FREQUENCY)]
     text += ["CDIR" if cartesian else "NDIR", f"{angles.size:6d}", *(f"{a:.4f}" for a in angles)]
     text += ["QUANT", "     1", "VaDens", "m2/Hz/degr", "   -99"]
-    for time, density in zip(TIMES, order.density, strict=True):
+    for time, density in zip(TIMES, specified.density, strict=True):
         factor = density.max() / 999999999
         text += [
             time.astype("datetime64[s]").item().strftime("%Y%m%d.%H%M%S"),

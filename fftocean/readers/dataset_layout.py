@@ -143,8 +143,10 @@ def compare_heights(where: str, m0: Real, stated: Real, rounding: float) -> dict
     if wrong.size:
         i = int(wrong[0])
         notes["height_note"] = (
-            f"{where}: the densities of record {i} have a significant wave height of {read[i]:.4g} m, "
-            f"but the file states {stated[i]:.4g} m ({wrong.size} of {read.size} records differ by more than 5 %)"
+            f"{where}: the densities of record {i} have a significant wave height of "
+            f"{read[i]:.4g} m, "
+            f"but the file states {stated[i]:.4g} m ({wrong.size} of {read.size} records differ "
+            "by more than 5 %)"
         )
     return notes
 
@@ -174,12 +176,14 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     same = np.diff(turned[order]) <= 1e-4
     if np.any(same):
         raise ReaderError(
-            f"{where} must hold each direction once (0 and 360 degrees are one), got {turned[order][int(np.argmax(same))]} twice"
+            f"{where} must hold each direction once (0 and 360 degrees are one), "
+            f"got {turned[order][int(np.argmax(same))]} twice"
         )
     span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
     if span <= 2.0 * np.pi + 1e-3:
         raise ReaderError(
-            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: is it in radians?"
+            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: "
+            "is it in radians?"
         )
     return turned[order], order
 
@@ -252,7 +256,9 @@ def _clipped(
     kept = ", the energy of each frequency kept" if turning else ""
     return clipped, {
         "clipped_negatives": count,
-        "negative_note": f"{count} negative densities ({100.0 * share:.2g} % of all) were taken as 0{kept}",
+        "negative_note": (
+            f"{count} negative densities ({100.0 * share:.2g} % of all) were taken as 0{kept}"
+        ),
     }
 
 

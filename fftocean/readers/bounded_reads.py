@@ -58,7 +58,8 @@ def require_file(path: Path) -> None:
             raise ReaderError(f"the spectrum must be a file that exists, got {str(path)!r}")
         if not path.is_file():
             raise ReaderError(
-                f"the spectrum must be a regular file, got {str(path)!r} ({'a directory' if path.is_dir() else 'a device'})"
+                f"the spectrum must be a regular file, got {str(path)!r} "
+                f"({'a directory' if path.is_dir() else 'a device'})"
             )
         if path.stat().st_size == 0:
             raise ReaderError(f"{path.name} is empty")
@@ -164,7 +165,8 @@ def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
                 text = raw.decode("utf-8").strip()
             except UnicodeDecodeError as error:
                 raise ReaderError(
-                    f"{where} must be UTF-8 text, got the byte {raw[error.start]:#04x} at {error.start}"
+                    f"{where} must be UTF-8 text, got the byte {raw[error.start]:#04x} at "
+                    f"{error.start}"
                 ) from error
             if empty and not blank:
                 raise ReaderError(f"{empty} is empty")
@@ -183,7 +185,8 @@ def _require_whole_number(where: str, line: str) -> None:
         before, last = (len(match[1] or "") for match in decimals if match)
         if last < before:
             raise ReaderError(
-                f"{where} has no end, and its last number {line.split()[-1]!r:.40} has fewer decimals than the "
+                f"{where} has no end, and its last number {line.split()[-1]!r:.40} has fewer "
+                "decimals than the "
                 "one before it: the file is cut short (if it is whole, end it with a newline)"
             )
 

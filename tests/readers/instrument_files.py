@@ -1,5 +1,5 @@
 """
-The sea of `written.py` in the formats of instruments and of models' text files.
+The sea of `spectrum_files.py` in the formats of instruments and of models' text files.
 
 Each writer follows the format's own documents and shares no code with the readers.
 """
@@ -8,30 +8,34 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from written import FREQUENCY, TIMES, TO, Order
+from spectrum_files import FREQUENCY, TIMES, TO, SpecifiedSpectrum
 
 FROM = (TO + 180.0) % 360.0
 STEP = 15.0
 EDGES = np.concatenate([FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), FREQUENCY[-1:]])
 
 
-def undirected(order: Order) -> np.ndarray:
+def undirected(specified: SpecifiedSpectrum) -> np.ndarray:
     """Return E(f) [m2/Hz], (time, f)."""
-    return order.density.sum(axis=2) * STEP
+    return specified.density.sum(axis=2) * STEP
 
 
-def fourier(order: Order, n: int) -> np.ndarray:
+def fourier(specified: SpecifiedSpectrum, n: int) -> np.ndarray:
     """Return the n-th moment sum D e^{i n from}, (time, f), of directions FROM, clockwise."""
     wave = np.exp(1j * n * np.radians(FROM))
-    total = order.density.sum(axis=2)
-    return (order.density @ wave) / np.where(total > 0.0, total, 1.0)  # 0 where there is no energy
+    total = specified.density.sum(axis=2)
+    return (specified.density @ wave) / np.where(
+        total > 0.0, total, 1.0
+    )  # 0 where there is no energy
 
 
 def stamps() -> list[str]:
     return [str(t)[:19] for t in TIMES.astype("datetime64[s]")]
 
 
-def write_ww3_text(path: Path, order: Order, *, points: int = 1, figures: int = 9) -> Path:
+def write_ww3_text(
+    path: Path, specified: SpecifiedSpectrum, *, points: int = 1, figures: int = 9
+) -> Path:
     """
     ww3_outp's transfer file: 8 frequencies and 7 other numbers a line, radians TO, per radian.
     """
@@ -42,7 +46,7 @@ def write_ww3_text(path: Path, order: Order, *, points: int = 1, figures: int = 
 
     out = [f"'WAVEWATCH III SPECTRA'  {FREQUENCY.size:4d}  {TO.size:4d} {points:5d} 'a sea'"]
     out += rows(FREQUENCY, 8, f".{figures}E") + rows(np.radians(TO), 7, f".{figures}E")
-    for stamp, density in zip(stamps(), order.density, strict=True):
+    for stamp, density in zip(stamps(), specified.density, strict=True):
         out.append(stamp.replace("-", "").replace(":", "").replace("T", " "))
         for point in range(points):
             out.append(f"'{f'P{point}':10s}'  45.00-130.00      30.0   5.00 270.0   0.10  90.0")
@@ -53,10 +57,10 @@ def write_ww3_text(path: Path, order: Order, *, points: int = 1, figures: int = 
 
 
 def write_swan_1d(
-    path: Path, order: Order, *, cartesian: bool = False, energy: bool = False
+    path: Path, specified: SpecifiedSpectrum, *, cartesian: bool = False, energy: bool = False
 ) -> Path:
     """VaDens or EnDens, mean direction and spread of each frequency, at two places."""
-    c1 = fourier(order, 1)
+    c1 = fourier(specified, 1)
     mean = np.degrees(np.angle(c1)) % 360.0
     spread = np.degrees(np.sqrt(2.0 * (1.0 - np.abs(c1))))
     mean = (270.0 - mean) % 360.0 if cartesian else mean
@@ -83,26 +87,26 @@ def write_swan_1d(
     for i, stamp in enumerate(stamps()):
         out.append(stamp.replace("-", "").replace(":", "").replace("T", ".") + "   date and time")
         out.append("LOCATION     1")
-        for s, m, d in zip(undirected(order)[i] * scale, mean[i], spread[i], strict=True):
+        for s, m, d in zip(undirected(specified)[i] * scale, mean[i], spread[i], strict=True):
             out.append(f"  {s:.9E}  {m:.6f}  {d:.6f}")
         out.append("NODATA")
     path.write_text("\n".join(out) + "\n")
     return path
 
 
-def write_spotter(path: Path, order: Order) -> Path:
+def write_spotter(path: Path, specified: SpecifiedSpectrum) -> Path:
     """a1 .. b2 of where waves go, counter-clockwise from east; df from half way to half way."""
     count = FREQUENCY.size
     width = np.diff(EDGES)
     middle = 0.5 * (EDGES[1:] + EDGES[:-1])
-    s = undirected(order)
+    s = undirected(specified)
     once = ["Epoch Time ", "Significant Wave Height (m) ", "Latitude (deg) ", "Longitude (deg) "]
     words = ("f", "df", "a1", "b1", "a2", "b2", "varianceDensity", "direction", "directionalSpread")
     lines = [",".join(once + [f"{w}_{i} " for w in words for i in range(count)])]
     east = np.radians(90.0 - TO)  # TOWARD, counter-clockwise from east
     for i, time in enumerate(TIMES.astype("datetime64[s]").astype(np.int64)):
-        total = order.density[i].sum(axis=1, keepdims=True)
-        share = order.density[i] / np.where(total > 0.0, total, 1.0)
+        total = specified.density[i].sum(axis=1, keepdims=True)
+        share = specified.density[i] / np.where(total > 0.0, total, 1.0)
         a1, b1 = share @ np.cos(east), share @ np.sin(east)
         a2, b2 = share @ np.cos(2.0 * east), share @ np.sin(2.0 * east)
         mean = (270.0 - np.degrees(np.arctan2(b1, a1))) % 360.0
@@ -116,9 +120,9 @@ def write_spotter(path: Path, order: Order) -> Path:
     return path
 
 
-def write_datawell(path: Path, order: Order) -> Path:
+def write_datawell(path: Path, specified: SpecifiedSpectrum) -> Path:
     """Density over the largest, direction, spread, skewness, kurtosis (Kuik et al. 1988)."""
-    c1, c2, s = fourier(order, 1)[0], fourier(order, 2)[0], undirected(order)[0]
+    c1, c2, s = fourier(specified, 1)[0], fourier(specified, 2)[0], undirected(specified)[0]
     mean = np.angle(c1)
     m1 = np.abs(c1)
     centred = c2 * np.exp(-2j * mean)
@@ -142,13 +146,13 @@ def write_datawell(path: Path, order: Order) -> Path:
     return path
 
 
-def write_triaxys(path: Path, order: Order, *, directed: bool = True) -> Path:
+def write_triaxys(path: Path, specified: SpecifiedSpectrum, *, directed: bool = True) -> Path:
     """
-    A table on equal frequencies, from 0 Hz: `order` at 0.01 Hz steps, drawn in straight lines.
+    A table on equal frequencies, from 0 Hz: `specified` at 0.01 Hz steps, interpolated linearly.
     """
     f = 0.01 * np.arange(40)
     table = np.stack(
-        [np.interp(f, FREQUENCY, column, left=0.0, right=0.0) for column in order.density[0].T],
+        [np.interp(f, FREQUENCY, column, left=0.0, right=0.0) for column in specified.density[0].T],
         axis=1,
     )
     bearing = np.arange(FROM.size + 1) * STEP
@@ -178,7 +182,7 @@ def write_triaxys(path: Path, order: Order, *, directed: bool = True) -> Path:
     return path
 
 
-def write_octopus(path: Path, order: Order) -> Path:
+def write_octopus(path: Path, specified: SpecifiedSpectrum) -> Path:
     """Energies of bins of direction FROM and frequency, bands half way to the neighbours."""
     width = np.diff(EDGES)
     came = np.argsort(FROM)
@@ -186,10 +190,10 @@ def write_octopus(path: Path, order: Order) -> Path:
         "Forecast",
         f"nfreqs,{FREQUENCY.size}",
         f"ndir,{FROM.size}",
-        f"nrecs,{len(order.density)}",
+        f"nrecs,{len(specified.density)}",
     ]
     lines += ["Latitude, 45.0", "Longitude, -30.0", "Depth,30.0"]
-    for stamp, density in zip(stamps(), order.density, strict=True):
+    for stamp, density in zip(stamps(), specified.density, strict=True):
         energy = density * width[:, None] * STEP
         date = stamp.replace("-", "").replace(":", "").replace("T", "")
         hs = 4.0 * np.sqrt(energy.sum())
@@ -204,11 +208,11 @@ def write_octopus(path: Path, order: Order) -> Path:
     return path
 
 
-def write_archive(folder: Path, order: Order) -> Path:
+def write_archive(folder: Path, specified: SpecifiedSpectrum) -> Path:
     """NDBC's five files of a year: alpha1, alpha2 in degrees, r1 and r2 in hundredths."""
-    c1, c2 = fourier(order, 1), fourier(order, 2)
+    c1, c2 = fourier(specified, 1), fourier(specified, 2)
     columns = {
-        "w": undirected(order),
+        "w": undirected(specified),
         "d": np.degrees(np.angle(c1)) % 360.0,
         "i": np.degrees(np.angle(c2)) / 2.0 % 360.0,
         "j": 100.0 * np.abs(c1),
@@ -224,9 +228,9 @@ def write_archive(folder: Path, order: Order) -> Path:
     return folder / "12345w2020.txt"
 
 
-def ndbc_netcdf(order: Order) -> xr.Dataset:
+def ndbc_netcdf(specified: SpecifiedSpectrum) -> xr.Dataset:
     """NDBC's THREDDS files, one place of latitude and longitude."""
-    c1, c2 = fourier(order, 1), fourier(order, 2)
+    c1, c2 = fourier(specified, 1), fourier(specified, 2)
     dims = ("time", "frequency", "latitude", "longitude")
 
     def variable(values, **attrs):
@@ -234,7 +238,7 @@ def ndbc_netcdf(order: Order) -> xr.Dataset:
 
     return xr.Dataset(
         {
-            "spectral_wave_density": variable(undirected(order), units="(meter * meter)/Hz"),
+            "spectral_wave_density": variable(undirected(specified), units="(meter * meter)/Hz"),
             "mean_wave_dir": variable(np.degrees(np.angle(c1)) % 360.0, units="degrees_true"),
             "principal_wave_dir": variable(
                 np.degrees(np.angle(c2)) / 2.0 % 360.0, units="degrees_true"
@@ -251,18 +255,18 @@ def ndbc_netcdf(order: Order) -> xr.Dataset:
     )
 
 
-def cdip(order: Order) -> xr.Dataset:
+def cdip(specified: SpecifiedSpectrum) -> xr.Dataset:
     """
     CDIP's files: A1, B1, A2, B2 of directions FROM, clockwise from true north, and bandwidths.
     """
-    c1, c2 = fourier(order, 1), fourier(order, 2)
+    c1, c2 = fourier(specified, 1), fourier(specified, 2)
     dims = ("waveTime", "waveFrequency")
     name = "sea_surface_wave_variance_spectral_density"
     return xr.Dataset(
         {
             "waveEnergyDensity": (
                 dims,
-                undirected(order),
+                undirected(specified),
                 {"units": "meter^2 second", "standard_name": name},
             ),
             "waveMeanDirection": (dims, np.degrees(np.angle(c1)) % 360.0, {"units": "degreeT"}),

@@ -5,7 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
-from written import DATA, era5, sea, write_ndbc
+from spectrum_files import DATA, era5, sea, write_ndbc
 
 from fftocean import readers
 from fftocean.errors import ReaderError, SeaWarning

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
-from fftocean.readers.entropy import LIMIT, maximum_entropy
+from fftocean.readers.maximum_entropy import LIMIT, maximum_entropy
 
 BINS = 72
 THETA = 2.0 * np.pi / BINS * np.arange(BINS)
@@ -115,7 +115,7 @@ def test_one_peak_stays_one_peak(s):
     ("c1", "c2"),
     [(1.0, 1.0), (1.1, 0.5), (0.9, -0.9), (0.0, 1.0), (0.3, 0.95j), (-1.0, 1.0), (1e-9, 1.1)],
 )
-def test_moments_that_nothing_has_are_drawn_in_and_marked(c1, c2):
+def test_moments_that_nothing_has_are_limited_and_marked(c1, c2):
     share, limited = maximum_entropy(np.array(complex(c1)), np.array(complex(c2)), BINS)
     assert bool(limited)
     assert np.all(share >= 0.0)

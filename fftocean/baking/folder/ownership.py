@@ -1,0 +1,200 @@
+"""
+Protection of files in a bake's folder that the bake did not write.
+
+A folder belongs to the bake that its `job.json` describes. Another bake is refused there, unless
+the user asks to overwrite it; even then only files that the earlier job or manifest lists are
+removed.
+"""
+
+import errno
+import itertools
+import os
+import shutil
+import stat
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from fftocean.baking.folder.identity import differences
+from fftocean.baking.folder.layout import (
+    JOB_FILE,
+    MANIFEST_FILE,
+    PREVIEWS,
+    SHEET,
+    SIDECARS,
+    WORK_FOLDER,
+    bake_files,
+    folders_of,
+)
+from fftocean.baking.folder.sealed import is_sealed, read_sealed, sealed
+from fftocean.errors import IntegrityError, OutputError
+from fftocean.export.formats import FORMATS
+from fftocean.files import as_json, read_json, remove, remove_temporary_files, write_whole
+
+PREVIEW_FILES = {"sheet": SHEET, **PREVIEWS}
+"""Files of previews by their names in a job."""
+
+
+def require_same_bake(folder: Path, header: Mapping[str, Any]) -> None:
+    """
+    Raise if a folder holds anything but the bake of this header.
+
+    Raises:
+        OutputError: the folder belongs to another bake, or to none and yet has files that this one
+            would replace.
+    """
+    if not os.path.lexists(folder / JOB_FILE):
+        found = (
+            [folder / MANIFEST_FILE]
+            if os.path.lexists(folder / MANIFEST_FILE)
+            else [*itertools.islice(bake_files(folder), 1)]
+        )
+        for path in found:
+            name = path.relative_to(folder).as_posix()
+            raise OutputError(
+                f"{folder} contains {name}, named like a file of a bake, but no {JOB_FILE}; "
+                "choose another folder, or --overwrite"
+            )
+        return
+    before = read_json(folder / JOB_FILE)
+    if changes := differences(before if isinstance(before, dict) else {}, header):
+        raise OutputError(
+            f"{folder} holds the bake of another job ({changes:.400}); "
+            "choose another folder, or --overwrite"
+        )
+
+
+def files_of_bake(folder: Path) -> list[Path]:
+    """Return the files of an earlier bake in a folder: those that its manifest or its job lists."""
+    listed: set[str] = set()
+    jobs: list[Mapping[str, Any]] = []
+    for file in (MANIFEST_FILE, JOB_FILE):
+        try:
+            tree = read_sealed(folder / file)
+        except (IntegrityError, OutputError):
+            continue  # not written by a bake, or damaged: it lists nothing
+        listed |= _paths_in(tree)
+        jobs += [tree["job"]] if isinstance(tree.get("job"), dict) else []
+
+    def is_listed(path: Path) -> bool:
+        name = path.relative_to(folder).as_posix()
+        return name in listed or any(_is_of(job, name) for job in jobs)
+
+    return [path for path in bake_files(folder) if is_listed(path)]
+
+
+def _paths_in(tree: Any) -> set[str]:
+    """Return every path that a manifest gives."""
+    if isinstance(tree, Mapping):
+        here = {tree["path"]} if isinstance(tree.get("path"), str) else set()
+        return here.union(*(_paths_in(value) for value in tree.values()))
+    if isinstance(tree, list):
+        return set().union(*(_paths_in(value) for value in tree))
+    return set()
+
+
+def _is_of(job: Mapping[str, Any], name: str) -> bool:
+    """Return whether a bake of a job writes a file of that name, as far as the job says."""
+    form = FORMATS.get(str(job.get("bake.format")))
+    previews, maps = job.get("bake.pictures"), job.get("bake.maps")
+    if isinstance(previews, list) and name in {PREVIEW_FILES.get(str(p)) for p in previews}:
+        return True
+    if form is None or not isinstance(maps, list):
+        return False
+    for m in map(str, maps):
+        if name in {m + suffix for suffix in (form.suffix, *SIDECARS)}:
+            return True
+        if name.startswith(f"{m}{form.suffix}/"):
+            return True  # a folder that is one container
+        number = name.removeprefix(f"{m}/").removesuffix(form.suffix)
+        if name == f"{m}/{number}{form.suffix}" and number.isdigit():
+            return int(number[:9]) < int(job.get("bake.frames") or 0)
+    return False
+
+
+def require_replaceable(folder: Path) -> None:
+    """
+    Raise if overwriting would replace a file that no bake lists.
+
+    Raises:
+        OutputError: neither a job nor a manifest in the folder lists a file there that is named
+            like one of a bake.
+    """
+    listed = set(files_of_bake(folder))
+    foreign = [path for path in bake_files(folder) if path not in listed]
+    if not any(is_sealed(folder / file) for file in (MANIFEST_FILE, JOB_FILE)):
+        foreign += [
+            path for path in (folder / MANIFEST_FILE, folder / JOB_FILE) if os.path.lexists(path)
+        ]
+    for path in foreign:
+        name = path.relative_to(folder).as_posix()
+        raise OutputError(
+            f"{folder} holds {name}, which is not listed in a {JOB_FILE} or {MANIFEST_FILE} of a "
+            "bake there, and is not overwritten; move it away, or choose another folder"
+        )
+
+
+def require_possible(folder: Path, header: Mapping[str, Any], *, overwrite: bool) -> None:
+    """
+    Raise if `bake` would refuse a folder; write nothing.
+
+    Raises:
+        OutputError: the folder cannot be made or written to, or holds something else.
+    """
+    if folder.is_symlink():
+        raise OutputError(f"{folder} must be a folder, and is a link to {folder.resolve()}")
+    try:
+        if os.path.lexists(folder) and not stat.S_ISDIR(folder.stat().st_mode):
+            raise NotADirectoryError(errno.EEXIST, os.strerror(errno.EEXIST))
+        parent = next(
+            place for place in (folder, *folder.absolute().parents) if os.path.lexists(place)
+        )
+        if not stat.S_ISDIR(parent.stat().st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        if not os.access(parent, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as error:
+        raise OutputError(
+            f"{folder} could not be made a folder: {error.strerror or error}"
+        ) from None
+    if overwrite:
+        require_replaceable(folder)
+    else:
+        require_same_bake(folder, header)
+
+
+def mark(folder: Path, header: Mapping[str, Any], *, overwrite: bool) -> None:
+    """
+    Write `job.json`, by which a folder belongs to this bake, before its first frame.
+
+    The caller holds the lock, and has saved in the journal what is to be kept. The manifest is
+    removed first of all: from then on the folder is no finished bake, whatever happens.
+
+    Raises:
+        OutputError: a file cannot be written or removed.
+    """
+    stale = files_of_bake(folder) if overwrite else []
+    remove(folder / MANIFEST_FILE)
+    for inner in folders_of(folder):
+        remove_temporary_files(inner)
+    for path in stale:
+        remove(path)
+    write_whole(folder / JOB_FILE, as_json(sealed(header)))
+
+
+def remove_workspace(folder: Path) -> None:
+    """
+    Remove the files that a bake needs only while it runs.
+
+    Raises:
+        OutputError: one cannot be removed.
+    """
+    work = folder / WORK_FOLDER
+    if work.is_symlink() or not work.is_dir():
+        return
+    try:
+        shutil.rmtree(work)
+    except OSError as error:
+        raise OutputError(
+            f"{error.filename or work} could not be removed: {error.strerror or error}"
+        ) from error

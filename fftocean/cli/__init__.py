@@ -1,0 +1,5 @@
+"""Command line: `fftocean bake | check | info | verify | bench | plot | presets`."""
+
+from fftocean.cli.entry_point import main as main
+
+__all__ = ["main"]

@@ -1,0 +1,56 @@
+"""`fftocean info`: its tables and its notes."""
+
+from pathlib import Path
+
+import pytest
+from command_line import SWELL
+
+
+def test_notes_name_the_unresolved_energy(run):
+    """
+    Too short a loop, waves too long for the tile and too short for its samples: on stderr, one line
+    each.
+    """
+    code, _, err = run(
+        "info", "--n", "8", "--size", "40", "--loop", "2", "--set", "sea.wind.speed=20"
+    )
+    assert code == 0
+    notes = err.splitlines()
+    assert all(note.startswith("note: ") for note in notes)
+    assert "a loop of 2 s is less than four peak periods" in err
+    assert "waves longer than the tile; a larger --size holds them" in err
+    assert "waves shorter than two samples" in run("info", "--n", "4", "--size", "100")[2]
+
+
+@pytest.mark.parametrize("n", ["1", "2", "31,12"])
+def test_info_describes_any_tile(run, n):
+    code, out, _ = run("info", "--n", n)
+    assert code == 0
+    for part in (
+        "sea.wind.speed",
+        "7 m/s",
+        "significant wave height Hs",
+        "loop frequency error",
+        "724 files of 3 maps",
+        "MB",
+        "time to bake",
+    ):
+        assert part in out
+    assert "nan" not in out
+    assert "inf m" in out
+    assert "inf rad/m" in out
+    assert out.count("inf") == 2  # the depth and the band, and nothing else
+
+
+def test_info_describes_a_job_with_systems_and_without_waves(run):
+    Path("job.toml").write_text("sea.depth = 8.0\n" + SWELL + "direction = 45\n")
+    code, out, _ = run("info", "job.toml", "--n", "16")
+    assert code == 0
+    assert "Job: job.toml" in out
+    assert "sea.systems[0]" in out
+    assert "'hs': 1.5" in out
+    assert "sea.wind" not in out
+    code, out, err = run("info", "--n", "8", "--set", "sea.wind.speed=0")
+    assert code == 0
+    assert "the sea is exactly flat" in err
+    assert "nan" not in out
