@@ -22,7 +22,8 @@ def advance(
     Advance state to decay state + sum over i of weights[i] max(threshold - lambda(u_i), 0).
 
     lambda is the smallest eigenvalue of the deformation gradient: a cubic through four values,
-    evaluated at times u_i from `now` to `then` as the sum of cubic[i] times the four. So a crest that breaks between two times is not missed.
+    evaluated at times u_i from `now` to `then` as the sum of cubic[i] times the four. So a crest
+    that breaks between two times is not missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]
