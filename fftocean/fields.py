@@ -51,6 +51,9 @@ FIELDS: dict[str, Field] = {
     "velocity_z":  Field(_H, 0, 0, 1, "m/s", "d height / dt of the surface particle"),
 }  # fmt: skip
 
+DISPLACEMENT_GRADIENT = ("stretch_xx", "stretch_xy", "stretch_yy")
+"""The gradient of the horizontal displacement, before choppiness [-]."""
+
 EIGHT = tuple(name for name, field in FIELDS.items() if field.dt == 0)
 """The eight fields of one moment, which `Ocean.frame` returns by default."""
 

@@ -1,19 +1,19 @@
 """
-Foam: the water's memory of where it broke.
+Foam of breaking waves.
 
-Foam is made where the water is squeezed beyond a threshold, stays with the water, and decays:
+Foam is made where water breaks, stays with that water, and decays:
 
-    df/dt = -f / tau + strength max(threshold - squeeze, 0),
+    df/dt = -f / tau + strength max(threshold - lambda, 0),
 
-at each undisplaced position; `squeeze` is the smaller eigenvalue of the deformation (Tessendorf
-2001), which is 1 on still water and 0 where a crest folds. It is linear in f, and not in the waves:
-the foam of a cascade is that of its summed stretches, and no sum or product of what each tile would
-have alone, which sees only its own share of the squeeze.
+at each rest position; lambda is the smallest eigenvalue of the deformation gradient (Tessendorf
+2001), which is 1 on still water and 0 where a crest folds. The equation is linear in f, but not in
+the waves: the foam of a cascade follows from the summed displacement gradient, and is no sum or
+product of the foams of its tiles.
 
 So a step of any length is an exponential and an integral, and on a loop of period T the state that
-returns to itself is known in closed form: f(0) = g / (1 - e^{-T/tau}), where g is what one turn of
-the loop makes on clean water. Only the picture saturates: patches laid down at random with
-density f cover 1 - e^{-f} of the water.
+returns to itself is known in closed form: f(0) = g / (1 - e^{-T/tau}), where g is the foam that one
+period makes on clean water. Only the coverage saturates: patches laid down at random with density f
+cover 1 - e^{-f} of the water.
 """
 
 import math
@@ -26,7 +26,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
-from fftocean.fields import potential_factor
+from fftocean.fields import DISPLACEMENT_GRADIENT, potential_factor
 from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
@@ -37,27 +37,24 @@ from fftocean.window import Window
 SPAN = 16
 """Frames of a loop that are baked from one stored state."""
 
-SQUEEZE = ("stretch_xx", "stretch_xy", "stretch_yy")
-"""The fields that foam is made of."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Foam:
     """
-    How water foams. `loop` gives the foam of a loop, `live` that of a running sea.
+    Parameters of foam: `loop` gives the foam of a loop, `live` that of a running sea.
 
     The defaults: foam of breaking waves fades in 3.5 s (Monahan 1986: 3.53 s in sea water), and the
     waves of a 10 m/s wind cover about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at
-    choppiness 1 and samples 0.8 m apart. The squeeze of linear waves hardly grows with the wind,
-    but it does with shorter waves and more choppiness: lower the threshold there, raise it for
-    storms.
+    choppiness 1 and samples 0.8 m apart. The eigenvalues of linear waves hardly depend on the wind,
+    but they do on choppiness and on the shortest wave: with finer samples or more choppiness use a
+    lower threshold, for storms a higher one.
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
-    threshold: float = (
-        0.72  # of the squeeze, below which water foams: 1 is still water, 0 folded [-]
-    )
-    strength: float = 60.0  # foam made per second and unit of squeeze below the threshold [1/s]
+    # smallest eigenvalue of the deformation gradient below which water foams: 1 is still water,
+    # 0 a fold [-]
+    threshold: float = 0.72
+    strength: float = 60.0  # foam made per second and unit of eigenvalue below the threshold [1/s]
 
     def __post_init__(self) -> None:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
@@ -129,7 +126,7 @@ class Foam:
         Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`;
         each is good until the next.
 
-        The same start gives the same bits, whoever asks: a frame's state does not depend on `stop`.
+        The same start gives the same bits: a frame's state does not depend on `stop`.
         """
         state = np.array(start, dtype=np.float64)
         yield first, state
@@ -190,7 +187,8 @@ class LiveFoam:
         t = TIME.check("t", t)
         if t < self._last:
             raise ParameterError(
-                f"foam remembers and cannot go back: t must be at least {self._last!r}, got {t!r}; start another `live`"
+                f"foam depends on earlier times: t must be at least {self._last!r}, got {t!r}; "
+                "start another `live`"
             )
         self._last = t
         place = (t - self._start) / self._step
@@ -268,8 +266,8 @@ def _require_looping(source: Any) -> float:
 
 def longest_step(ocean: Ocean | Window) -> float:
     """
-    Return the step of time [s] that follows the squeeze: a third of a radian of its waves, inf
-    where there are none.
+    Return the step of time [s] that resolves breaking: a third of a radian of its waves, inf
+    without waves.
 
     Their frequency is the root mean square over waves weighted with the variance of their stretch.
     Half the step changes the foam by half a percent.
@@ -286,7 +284,7 @@ def longest_step(ocean: Ocean | Window) -> float:
 
 
 class _Watch:
-    """The squeeze of an ocean at any moment; arrays that are given back are used again."""
+    """Smallest eigenvalue of an ocean at any time; arrays that are given back are used again."""
 
     def __init__(self, ocean: Ocean | Window) -> None:
         self._ocean = ocean
@@ -294,20 +292,20 @@ class _Watch:
         self._spare: list[Real] = []
 
     def at(self, t: float) -> Real:
-        """At time t."""
-        self._frame = self._ocean.frame(t, SQUEEZE, out=self._frame)
-        return self._squeeze(self._frame)
+        """Return it at time t [s], (ny, nx)."""
+        self._frame = self._ocean.frame(t, DISPLACEMENT_GRADIENT, out=self._frame)
+        return self._minimum_eigenvalue(self._frame)
 
     def in_loop(self, j: int, count: int) -> Real:
-        """At the j-th of `count` moments of the loop."""
-        self._frame = self._ocean.loop_frame(j, count, SQUEEZE, out=self._frame)
-        return self._squeeze(self._frame)
+        """Return it at frame j of `count` frames of the loop, (ny, nx)."""
+        self._frame = self._ocean.loop_frame(j, count, DISPLACEMENT_GRADIENT, out=self._frame)
+        return self._minimum_eigenvalue(self._frame)
 
     def give_back(self, array: Real) -> None:
-        """The array is not needed any more."""
+        """Take back an array that is not needed any more."""
         self._spare.append(array)
 
-    def _squeeze(self, frame: Frame) -> Real:
+    def _minimum_eigenvalue(self, frame: Frame) -> Real:
         out = (
             self._spare.pop()
             if self._spare
@@ -345,7 +343,7 @@ class _Stepper:
         self._weights *= settings.tau * settings.strength
 
     def advance(self, window: Sequence[Real], state: Real) -> None:
-        """Move a state on; `window` is the squeeze before, at the start, at the end, and after."""
+        """Advance a state; `window` has the eigenvalues before, at start and end, and after."""
         before, now, then, after = window
         kernel.advance(
             before,

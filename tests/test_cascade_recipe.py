@@ -212,7 +212,7 @@ def test_the_recipe_is_the_summed_water(baked, engine):
     deformation = np.moveaxis(
         np.array([[1 + stretch[0], stretch[1]], [stretch[1], 1 + stretch[2]]]), -1, 0
     )
-    assert np.allclose(got["squeeze"], np.linalg.eigvalsh(deformation)[:, 0], atol=3e-6)
+    assert np.allclose(got["eigenvalue"], np.linalg.eigvalsh(deformation)[:, 0], atol=3e-6)
     assert np.std(stretch[1]) > 0.02  # with a shear that would be missed
 
 

@@ -15,7 +15,7 @@ from fftocean import cells
 from fftocean.amplitudes import cell_variance, seed_amplitudes
 from fftocean.cells import Cells
 from fftocean.grid import Grid
-from fftocean.physics.tabulated import TabulatedSpreading
+from fftocean.physics.spreading import TabulatedSpreading
 from fftocean.statistics import ordered, outside_band
 
 JONSWAP = fo.JONSWAP.from_sea_state(hs=2.0, tp=8.0)

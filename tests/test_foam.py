@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean.foam import SPAN, SQUEEZE, Foam, coverage, longest_step, spans_of
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import SPAN, Foam, coverage, longest_step, spans_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 LOOP = 24.0
@@ -45,20 +46,23 @@ def difference(a, b):
     return math.sqrt(np.mean((a - b) ** 2) / np.mean(b**2))
 
 
-def squeeze_summed(ocean, ix, iy, times):
+def eigenvalues_summed(ocean, ix, iy, times):
     """
-    The smaller eigenvalue at some grid points and times, (times, points): waves summed one by one,
-    numpy's eigenvalues.
+    Return the smallest eigenvalue at grid points and times, (times, points): waves summed one by
+    one, eigenvalues by numpy.
     """
     w = ocean.modes()
     k = np.hypot(w.kx, w.ky)
     x, y = ix * ocean.grid.lx / ocean.grid.nx, iy * ocean.grid.ly / ocean.grid.ny
     place = np.exp(1j * (np.outer(x, w.kx) + np.outer(y, w.ky) - w.phase))
     turn = np.exp(-1j * np.outer(times, w.omega))
-    xx, xy, yy = (-np.real(np.einsum("tm,pm->tp", turn * (w.amplitude * a * b / k), place, optimize=True)) for a, b in
-                  ((w.kx, w.kx), (w.kx, w.ky), (w.ky, w.ky)))  # fmt: skip
-    deformation = np.stack([np.stack([1 + ocean.choppiness * xx, ocean.choppiness * xy], -1),
-                            np.stack([ocean.choppiness * xy, 1 + ocean.choppiness * yy], -1)], -1)  # fmt: skip
+    xx, xy, yy = (
+        -np.real(np.einsum("tm,pm->tp", turn * (w.amplitude * a * b / k), place, optimize=True))
+        for a, b in ((w.kx, w.kx), (w.kx, w.ky), (w.ky, w.ky))
+    )
+    c = ocean.choppiness
+    rows = [[1 + c * xx, c * xy], [c * xy, 1 + c * yy]]
+    deformation = np.stack([np.stack(row, -1) for row in rows], -1)
     return np.linalg.eigvalsh(deformation)[..., 0]
 
 
@@ -73,7 +77,7 @@ def test_against_a_dense_quadrature(ocean):
     ix, iy = (c.ravel() for c in np.meshgrid(np.arange(0, 24, 3), np.arange(0, 24, 3)))
     dense = 6000
     times = np.arange(dense) * (LOOP / dense)
-    source = 40.0 * np.maximum(0.8 - squeeze_summed(ocean, ix, iy, times), 0.0)
+    source = 40.0 * np.maximum(0.8 - eigenvalues_summed(ocean, ix, iy, times), 0.0)
     memory = np.exp(-times / 2.0) / (
         1.0 - math.exp(-LOOP / 2.0)
     )  # of all the turns of the loop before
@@ -169,7 +173,7 @@ def test_no_foam_where_nothing_breaks():
     assert not np.any(list(Foam(threshold=1.0).loop(calm, 3)))
     assert longest_step(calm) == math.inf
     assert not np.any(Foam(threshold=1.0).live(calm).at(9.0))
-    small = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=20.0, loop=8.0)  # squeezed by 3 %
+    small = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=20.0, loop=8.0)  # eigenvalue 0.97
     assert not np.any(list(Foam().loop(small, 3)))
 
 
@@ -279,13 +283,17 @@ def test_extreme_decay_times(tau, count, ocean):
     assert np.all(np.isfinite(states))
     if tau > 1.0:
         source = [
-            np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, 400, SQUEEZE)), 0.0)
+            np.maximum(
+                0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, 400, DISPLACEMENT_GRADIENT)), 0.0
+            )
             for j in range(400)
         ]
         assert np.mean(states) == pytest.approx(tau * np.mean(source), rel=0.003)
     else:
         now = [
-            np.maximum(0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, count, SQUEEZE)), 0.0)
+            np.maximum(
+                0.9 - fo.minimum_eigenvalue(ocean.loop_frame(j, count, DISPLACEMENT_GRADIENT)), 0.0
+            )
             for j in range(count)
         ]
         assert difference(states, tau * np.stack(now)) < 0.01

@@ -132,10 +132,10 @@ def test_short_waves_are_left_out(cascade):
     assert off(window.frame(2.0, ("stretch_xx",)).stretch_xx.ravel(), truth) < 5e-3
 
 
-def test_the_foam_of_a_cascade_is_that_of_the_summed_squeeze(cascade):
+def test_the_foam_of_a_cascade_is_that_of_the_summed_displacement_gradient(cascade):
     """
-    The integral over all the past of e^{-(t - s)/tau} source(s), the squeeze from numpy's
-    eigenvalues of the summed deformation.
+    The integral over all the past of e^{-(t - s)/tau} source(s), with numpy's eigenvalues of the
+    summed deformation gradient.
 
     3000 rectangles a loop; steps of a third of a radian and the splines are good for 2 % of the
     root mean square.

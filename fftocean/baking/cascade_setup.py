@@ -224,13 +224,16 @@ def summable(job: Job) -> Job:
             )
     if job.lookup != "lagrangian":
         raise JobError(
-            f"{source}: bake.lookup 'eulerian' cannot be baked for tiles: the water at a place depends "
+            f"{source}: bake.lookup 'eulerian' cannot be baked for tiles: the water at a "
+            f"place depends "
             "on the sum of all tiles' displacements; bake lagrangian maps, or use fo.Query(cascade)"
         )
     if job.maps == BY_KEY["bake.maps"].default:
         warnings.warn(
-            f"the maps of each tile are {', '.join(INGREDIENTS)} in place of {', '.join(job.maps)}: the "
-            "normal of the sum is formed of summed slopes and stretches (cascade.json describes it)",
+            f"the maps of each tile are {', '.join(INGREDIENTS)} in place of "
+            f"{', '.join(job.maps)}: the "
+            "normal of the sum is formed of summed slopes and stretches (cascade.json "
+            "describes it)",
             SeaWarning,
             stacklevel=4,
         )

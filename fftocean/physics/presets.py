@@ -9,10 +9,12 @@ from functools import lru_cache
 
 from fftocean.constants import GRAVITY
 from fftocean.limits import FETCH, Count
+from fftocean.physics.kinds import Way
 from fftocean.physics.moments import significant_wave_height
 from fftocean.physics.spectra import (
     FULLY_DEVELOPED_PEAK,
     JONSWAP,
+    SPECTRA,
     TMA,
     PiersonMoskowitz,
     fetch_limited,
@@ -188,3 +190,17 @@ def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
     else:
         spectrum = fetch_limited(wind, math.exp(brentq(excess, 0.0, longest, xtol=1e-12)), 3.3)
     return 2.0 * math.pi / spectrum.peak, getattr(spectrum, "gamma", 1.0)
+
+
+def _beaufort_spectrum(*, number: int, depth: float) -> TMA | None:
+    """Return the spectrum of a Beaufort number; None of a calm."""
+    return beaufort(number).spectrum(depth)
+
+
+def _sea_state_spectrum(*, number: int, depth: float) -> TMA | None:
+    """Return the spectrum of a sea state; None of a calm."""
+    return sea_state(number).spectrum(depth)
+
+
+SPECTRA.add("beaufort", TMA, Way(_beaufort_spectrum, water=("depth",), number=BEAUFORT))
+SPECTRA.add("sea-state", TMA, Way(_sea_state_spectrum, water=("depth",), number=SEA_STATE))

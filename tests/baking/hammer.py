@@ -201,7 +201,8 @@ def main(arguments=None):
                 )
                 same = f"{bakes - different} of {bakes} with the same bytes"
                 print(
-                    f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false complete, {same}",
+                    f"kill -9, {name}: {done} kills of {bakes} bakes, {false} false "
+                    f"complete, {same}",
                     flush=True,
                 )
                 bad += false + different
@@ -218,7 +219,8 @@ def main(arguments=None):
                 totals[kind] = tuple(a + b for a, b in zip(totals[kind], figures, strict=True))
         for kind, (done, named, mended, tried) in totals.items():
             print(
-                f"{kind}: {done} over {len(options.formats)} formats, {named} named, {mended} of {tried} mended to the same bytes"
+                f"{kind}: {done} over {len(options.formats)} formats, {named} named, "
+                f"{mended} of {tried} mended to the same bytes"
             )
             bad += done - named + tried - mended
     return 1 if bad else 0

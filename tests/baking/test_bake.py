@@ -7,9 +7,11 @@ import dataclasses
 import errno
 import functools
 import hashlib
+import inspect
 import io
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -242,12 +244,24 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
     gets in.
     """
     order, folder, _ = whole
-    text = "sea.depth = 5.0\n[sea.wind]\nspeed = 7.0\nfetch = 35e3\ndirection = 25.0\n[ocean]\nn = [12, 7]\nsize = [60, 35]\nseed = 1\n"
-    text += "loop = 16\nchoppiness = 1.3\n[bake]\nframes = 3\nmaps = ['displacement', 'normal', 'jacobian', 'height']\n"
+    text = (
+        "sea.depth = 5.0\n[sea.wind]\nspeed = 7.0\nfetch = 35e3\ndirection = 25.0\n[ocean]\nn "
+        "= [12, 7]\nsize = [60, 35]\nseed = 1\n"
+    )
+    text += (
+        "loop = 16\nchoppiness = 1.3\n[bake]\nframes = 3\nmaps = ['displacement', 'normal', "
+        "'jacobian', 'height']\n"
+    )
     (tmp_path / "job.toml").write_text(text)
     assert fo.Job.read(tmp_path / "job.toml").settings == order.settings
-    program = "import sys; from fftocean import cli; from fftocean.baking.previews import sheets as preview; "
-    program += f"vars(preview).update({SMALL_PICTURE}); sys.exit(cli.main(['bake', 'job.toml', '-o', 'again']))"
+    program = (
+        "import sys; from fftocean import cli; from fftocean.baking.previews import sheets as "
+        "preview; "
+    )
+    program += (
+        f"vars(preview).update({SMALL_PICTURE}); sys.exit(cli.main(['bake', 'job.toml', '-o', "
+        f"'again']))"
+    )
     done = subprocess.run(
         [sys.executable, "-c", program],
         cwd=tmp_path,
@@ -401,7 +415,8 @@ def test_another_job_s_folder_is_refused_and_left_alone(tmp_path):
     before = tree(tmp_path / "out")
     with pytest.raises(
         OutputError,
-        match=r"another job \(ocean\.n: 8 there, 9 here; ocean\.seed: 1 there, 2 here\).*--overwrite",
+        match=r"another job \(ocean\.n: 8 there, 9 here; ocean\.seed: 1 there, 2 "
+        r"here\).*--overwrite",
     ) as caught:
         fo.bake(job(ocean__n=9, ocean__seed=2), tmp_path / "out")
     assert caught.value.exit_code == 4
@@ -455,7 +470,9 @@ def test_files_of_someone_else_are_not_replaced(tmp_path, name):
     (tmp_path / name).write_text('{"name": "my application"}')
     before = tree(tmp_path)
     with pytest.raises(
-        OutputError, match=rf"contains {name}, named like a file of a bake, but no job\.json"
+        OutputError,
+        match=rf"contains {name}, named like a file of a bake, but "
+        rf"no job\.json",
     ):
         fo.bake(job(), tmp_path)
     assert tree(tmp_path) == before
@@ -908,8 +925,14 @@ def stopped(tmp_path_factory):
     started = []
     for number in SIGNALS:
         place = tmp_path_factory.mktemp("stopped")
-        program = "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, signal.default_int_handler); "
-        program += "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '100000', '--maps', 'height']))"
+        program = (
+            "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, "
+            "signal.default_int_handler); "
+        )
+        program += (
+            "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '100000', '--maps', "
+            "'height']))"
+        )
         command, pipe = [sys.executable, "-c", program], subprocess.PIPE
         started.append(
             (
@@ -982,6 +1005,18 @@ def test_json_has_no_nan():
     assert strict(files.as_json({"b": 1, "a": "é", "x": 0.1})) == {"b": 1, "a": "é", "x": 0.1}
 
 
-def test_the_room_can_be_called_and_names_its_pictures_in_order():
-    assert callable(fo.bake)
-    assert struct.calcsize("e") == 2  # what `half` means
+@pytest.mark.parametrize("name", ["bake", "check", "load", "repair"])
+def test_public_functions_of_baking_show_their_signature_and_docstring(name):
+    """Plain functions, whose parameters are all described: `help(fo.bake)` is of use."""
+    function = getattr(fo, name)
+    assert inspect.isfunction(function)
+    assert function.__name__ == name
+    described = function.__doc__.partition("Args:")[2].partition("Returns:")[0]
+    for parameter in inspect.signature(function).parameters:
+        assert re.search(rf"\b{parameter}\b.*:", described), parameter
+    assert "Returns:" in function.__doc__
+    assert "Raises:" in function.__doc__
+
+
+def test_numpy_and_struct_agree_on_a_half():
+    assert struct.calcsize("e") == np.dtype(np.float16).itemsize == 2

@@ -179,7 +179,8 @@ def test_bounds_add_up_and_hold(tmp_path):
 def test_what_does_not_add_up_is_refused_before_anything_is_written(tmp_path, name):
     with pytest.raises(
         fo.JobError,
-        match=f"'{name}' cannot be baked for tiles: it is not linear.*bake (derivative and )?stretch",
+        match=f"'{name}' cannot be baked for tiles: it is not linear.*bake (derivative and "
+        f")?stretch",
     ):
         bake(tmp_path / "sea", JOB.replaced({"bake.maps": ["height", name]}))
     assert not (tmp_path / "sea").exists()
@@ -247,7 +248,8 @@ folder, at, *maps = sys.argv[1:]
 def listen(event):
     if f"{event['event']}:{event.get('tile')}:{event.get('frame', '')}" == at:
         os.kill(os.getpid(), signal.SIGKILL)
-job = Job.default().replaced({"bake.frames": 3, "bake.maps": maps, "bake.format": "exr-float", "bake.pictures": []})
+changes = {"bake.frames": 3, "bake.maps": maps, "bake.format": "exr-float", "bake.pictures": []}
+job = Job.default().replaced(changes)
 tiles.bake_tiles(job, [(16, 100.0), (16, 15.0)], folder, executor="serial", listen=listen)
 """
 
@@ -461,7 +463,7 @@ def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
     (copy / "cascade.json").unlink()
     flip(copy / "cascade-job.json")
     with pytest.raises(
-        fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"
+        fo.IntegrityError, match=r"neither cascade\.json nor cascade-job\.json is readable"
     ):
         fo.repair(copy, executor="serial")
 

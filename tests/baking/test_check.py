@@ -326,7 +326,7 @@ def test_an_unfinished_bake_is_said_to_be_one(exr, tmp_path):
 def test_what_is_no_folder_is_an_output_error(tmp_path, name):
     (tmp_path / "file").write_text("")
     with pytest.raises(
-        OutputError, match="must be the folder of a bake, and (does not exist|is not a folder)"
+        OutputError, match=r"must be the folder of a bake, and (does not exist|is not a folder)"
     ):
         check(tmp_path / name)
 
@@ -582,6 +582,7 @@ def test_repair_without_any_word_of_the_job_is_refused(exr):
         (exr / "job.json").read_bytes().replace(b'"ocean.seed": 1', b'"ocean.seed": 2')
     )
     with pytest.raises(
-        IntegrityError, match="cannot be repaired: neither manifest.json nor job.json is readable"
+        IntegrityError,
+        match=r"cannot be repaired: neither manifest\.json nor job\.json",
     ):
         repair(exr)

@@ -80,8 +80,14 @@ def test_processes_write_the_same_bytes(expected, tmp_path):
 
 def test_a_program_without_a_guard_may_bake_with_processes(expected, tmp_path):
     """No `if __name__ == "__main__"`: a worker imports nothing of the program that started it."""
-    program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 20, 'bake.maps': ['height', 'foam'], "
-    program += "'bake.pictures': ['tiling'], 'bake.format': 'png16'})\nfo.bake(job, 'out', executor='processes', workers=2)\n"
+    program = (
+        "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, "
+        "'bake.frames': 20, 'bake.maps': ['height', 'foam'], "
+    )
+    program += (
+        "'bake.pictures': ['tiling'], 'bake.format': 'png16'})\nfo.bake(job, 'out', "
+        "executor='processes', workers=2)\n"
+    )
     (tmp_path / "program.py").write_text(program)
     done = subprocess.run(
         [sys.executable, "program.py"],
@@ -127,7 +133,10 @@ def test_a_worker_that_is_killed_is_replaced(expected, tmp_path, monkeypatch):
     assert len(started) == 4
 
 
-DOOMED = "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer); os._exit(3)"
+DOOMED = (
+    "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer); "
+    "os._exit(3)"
+)
 
 
 def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
@@ -135,7 +144,8 @@ def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
     monkeypatch.setattr(local.worker_process, "BOOT", DOOMED)
     with pytest.raises(
         OutputError,
-        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died while baking it, the last with exit code 3",
+        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died while baking it, "
+        rf"the last with exit code 3",
     ):
         fo.bake(job(bake__maps=["foam"]), tmp_path / "out", executor="processes", workers=1)
     assert not (tmp_path / "out/manifest.json").exists()
@@ -195,8 +205,14 @@ def test_workers_end_with_the_bake(tmp_path, number):
     """
     However it ends, and at once: else they would go on writing into a folder that is nobody's.
     """
-    program = "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, signal.default_int_handler); "
-    program += "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '50000', '--maps', 'height', '--executor', 'processes', "
+    program = (
+        "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, "
+        "signal.default_int_handler); "
+    )
+    program += (
+        "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '50000', '--maps', "
+        "'height', '--executor', 'processes', "
+    )
     program += "'--workers', '2']))"
     process = subprocess.Popen(
         [sys.executable, "-c", program],
@@ -291,7 +307,10 @@ def test_a_cluster_takes_no_port_that_another_may_have(tmp_path, monkeypatch):
 def test_a_script_without_a_guard_is_told_so_by_dask(tmp_path):
     """One line says what to do; a worker that imports the script does not bake, too."""
     pytest.importorskip("distributed")
-    program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 4, 'bake.pictures': []})\n"
+    program = (
+        "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, "
+        "'bake.frames': 4, 'bake.pictures': []})\n"
+    )
     program += "fo.bake(job, 'out', executor='dask', workers=1)\n"
     (tmp_path / "program.py").write_text(program)
     done = subprocess.run(
@@ -443,7 +462,8 @@ def test_a_worker_with_other_libraries_refuses(tmp_path, monkeypatch):
         monkeypatch.setattr("fftocean.baking.folder.identity.library", lambda _: "FFTW 9.9")
         with pytest.raises(
             OutputError,
-            match=r"a worker would not write the same bytes \(made_with\.fft: .* there, FFTW 9\.9 here\)",
+            match=r"a worker would not write the same bytes \(made_with\.fft: .* there, FFTW "
+            r"9\.9 here\)",
         ):
             list(scenes.work(plan, Task("frame", (0,))))
     scenes.clear_scene()

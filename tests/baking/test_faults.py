@@ -294,7 +294,8 @@ def test_a_folder_in_use_is_refused_before_anything_is_made(tmp_path):
 
 FULL = """
 mount -t tmpfs -o size=48k none "$1" || exit 77
-"$2" -m fftocean bake -o "$1/out" --n 32 --frames 40 --maps height,normal --executor "$3" --workers 2
+"$2" -m fftocean bake -o "$1/out" --n 32 --frames 40 --maps height,normal \\
+  --executor "$3" --workers 2
 echo "exit $?"
 cd "$1/out" && find . -type f && find . -name '*.tmp' | sed 's/^/left /'
 """
@@ -442,7 +443,10 @@ def measured(tmp_path):
     """A job of a buoy's spectrum, in a folder of its own with the buoy's files."""
     for path in SPECTRA.glob("41010.*"):
         shutil.copy(path, tmp_path)
-    text = "[ocean]\nn = 16\nsize = 300\n[bake]\nframes = 3\nmaps = ['height']\npictures = ['tiling']\n"
+    text = (
+        "[ocean]\nn = 16\nsize = 300\n[bake]\nframes = 3\nmaps = ['height']\npictures = "
+        "['tiling']\n"
+    )
     (tmp_path / "job.toml").write_text(
         text + "[[sea.systems]]\nmeasured = { file = '41010.data_spec' }\n"
     )

@@ -39,8 +39,8 @@ def test_folds_are_in_the_manifest_and_in_what_the_command_line_says(lookup, tmp
     _, err = capsys.readouterr()
     share, limit = 100.0 * extremes["folded"], extremes["largest_choppiness"]
     assert (
-        f"note: {share:.2g} % of the water is folded, smallest Jacobian {extremes['min_jacobian']:.3g}"
-        in err
+        f"note: {share:.2g} % of the water is folded, smallest Jacobian "
+        f"{extremes['min_jacobian']:.3g}" in err
     )
     assert f"choppiness up to {math.floor(limit * 100) / 100:g} does not fold it" in err
     flat = fo.bake(job(**{"ocean.choppiness": 0.0, "bake.lookup": lookup}), tmp_path / "flat")[
@@ -65,7 +65,8 @@ def test_a_bake_says_at_once_that_water_is_folded(tmp_path, capsys):
 def test_the_manifest_names_the_part_that_states_the_water(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("job.toml").write_text(
-        "[sea]\ndepth = 12.0\nsurface_tension = 0.074\n[[sea.systems]]\nspectrum = { kind = 'elfouhaily', speed = 6.0 }\n"
+        "[sea]\ndepth = 12.0\nsurface_tension = 0.074\n[[sea.systems]]\nspectrum = { kind "
+        "= 'elfouhaily', speed = 6.0 }\n"
     )
     shallow = fo.Job.read("job.toml").replaced(
         {"ocean.n": 8, "ocean.loop": 60.0, "bake.frames": 1, "bake.pictures": []}

@@ -200,7 +200,8 @@ def test_what_is_not_what_was_written_is_refused(name, tmp_path):
     path.write_bytes(data)
     with pytest.raises(
         IntegrityError,
-        match=r"frame 2: the file was changed after it was written; `fftocean check`",
+        match=r"frame 2: the file was changed after it was written; `fftocean "
+        r"check`",
     ):
         load(tmp_path / "out")
     if name == "zarr":  # has a checksum of its own; an EXR tells most changes, bare numbers none

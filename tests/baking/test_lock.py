@@ -25,7 +25,10 @@ with locked(pathlib.Path(sys.argv[1])):
     sys.stdin.read()  # until the test lets go, or is gone itself
 """
 
-WORKER = "import pathlib, sys, time\nwhile not pathlib.Path(sys.argv[1], 'go').exists(): time.sleep(0.01)"
+WORKER = (
+    "import pathlib, sys, time\nwhile not pathlib.Path(sys.argv[1], 'go').exists(): "
+    "time.sleep(0.01)"
+)
 
 
 @pytest.fixture
@@ -128,7 +131,10 @@ def test_a_file_that_lost_its_name_is_no_lock(tmp_path, monkeypatch):
 
 def test_whoever_has_the_descriptor_holds_it_too(tmp_path, monkeypatch):
     """A worker that outlives a bake that was killed keeps the folder until it is gone itself."""
-    worker = f"subprocess.Popen([sys.executable, '-c', {WORKER!r}, sys.argv[1]], pass_fds=(hold.descriptor,))"
+    worker = (
+        f"subprocess.Popen([sys.executable, '-c', {WORKER!r}, sys.argv[1]], "
+        f"pass_fds=(hold.descriptor,))"
+    )
     program = HOLDER.replace(
         ":\n    print", f" as hold:\n    import subprocess; {worker}\n    print"
     )

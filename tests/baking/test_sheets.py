@@ -11,7 +11,7 @@ import fftocean as fo
 from fftocean import mips
 from fftocean.baking.previews import render, whitecaps
 from fftocean.baking.previews import sheets as preview
-from fftocean.foam import SQUEEZE
+from fftocean.fields import DISPLACEMENT_GRADIENT
 from fftocean.ocean import Frame
 
 pytestmark = [
@@ -347,7 +347,10 @@ def test_broken_foam_covers_as_much_of_the_water_as_it_should():
 @pytest.mark.parametrize("cover", [0.003, 0.05, 0.2])
 def test_the_threshold_is_found_for_a_cover(cover):
     sea = ocean(ocean__n=64)
-    moments = [whitecaps.squeeze(sea.frame(-0.25 * i, SQUEEZE)) for i in reversed(range(40))]
+    moments = [
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(40))
+    ]
     caps = whitecaps.Whitecaps.before(moments, 0.25, fo.Foam(), cover)
     assert np.mean(caps.coverage) == pytest.approx(cover, rel=0.05)  # all points were looked at
 
@@ -357,7 +360,10 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     sea = ocean(ocean__n=64, ocean__loop=16.0)
     foam = fo.Foam(threshold=0.8)
     truth = next(iter(foam.loop(sea, 64)))
-    moments = [whitecaps.squeeze(sea.frame(-0.25 * i, SQUEEZE)) for i in reversed(range(64))]
+    moments = [
+        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        for i in reversed(range(64))
+    ]
     shown = whitecaps.Whitecaps.before(moments, 0.25, foam).coverage
     assert np.mean(truth) > 0.01
     # crests move half a metre in a step, so foam is as much, and nearly in the same places
@@ -369,11 +375,11 @@ def test_squeeze_of_summed_tiles_is_that_of_the_sum():
     """Two waves on one tile, and each on a frame of its own."""
     waves = [(1, 2, 0.5, 0.0), (3, -1, 0.2, 1.0)]
     both, *each = (
-        fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, SQUEEZE)
+        fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, DISPLACEMENT_GRADIENT)
         for some in (waves, waves[:1], waves[1:])
     )
-    one = whitecaps.squeeze(both)
-    two = whitecaps.squeeze(each)[::6, ::6]  # 384 to 64
+    one = whitecaps.smallest_eigenvalue(both)
+    two = whitecaps.smallest_eigenvalue(each)[::6, ::6]  # 384 to 64
     assert np.allclose(one, two, atol=1e-6)  # float32
 
 

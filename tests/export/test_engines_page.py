@@ -37,15 +37,15 @@ def test_the_table_of_engines_is_the_profiles():
     told = {}
     for engines, *facts in table("engine")[1:]:
         shown, _, files = re.sub(r"\(.*?\)", "", engines).strip().partition(", ")
-        if files in ("raw", "pictures"):
-            told[shown, files == "pictures"] = facts
+        if files in ("raw", "images"):
+            told[shown, files == "images"] = facts
         else:
             told |= dict.fromkeys(
                 [(name.strip(), True) for name in f"{shown}, {files}".strip(", ").split(",")], facts
             )
     assert {name for name, _ in told} == CELLS.keys() - {"three-exr"}
-    for (name, pictures), facts in told.items():
-        for profile in usable(name, pictures):
+    for (name, loaded), facts in told.items():
+        for profile in usable(name, loaded):
             axes = ", ".join(
                 {"+x": "x", "+y": "y", "-y": "-y", "+z": "up"}[axis] for axis in profile.axes
             )

@@ -206,11 +206,11 @@ def test_pixels_stand_as_given(shape, channels, dtype):
 
 
 def test_another_size_or_other_channels_are_refused():
-    with pytest.raises(IntegrityError, match="an EXR picture must be 4 rows of 6, got 6 of 4"):
+    with pytest.raises(IntegrityError, match="an EXR image must be 4 rows of 6, got 6 of 4"):
         exr.read(exr.encode(np.zeros((6, 4, 3), np.float16)), (4, 6))
     stream = io.BytesIO()
     OpenEXR.File({"type": OpenEXR.scanlineimage}, {"Y": np.zeros((4, 4), np.float16)}).write(stream)
-    with pytest.raises(IntegrityError, match="an EXR picture cannot be read: 'R'"):
+    with pytest.raises(IntegrityError, match="an EXR image cannot be read: 'R'"):
         exr.read(stream.getvalue())
     stream = io.BytesIO()
     mixed = {
@@ -240,7 +240,7 @@ def test_a_cut_or_flipped_file_is_never_other_water():
     values = np.random.default_rng(0).normal(size=(40, 30)).astype(np.float32)
     data = exr.encode_half(values, values, values)
     for end in range(0, len(data), 211):
-        with pytest.raises(IntegrityError, match="an EXR picture cannot be read"):
+        with pytest.raises(IntegrityError, match="an EXR image cannot be read"):
             exr.decode(data[:end])
     for i in range(0, len(data), 101):
         try:

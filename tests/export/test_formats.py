@@ -25,7 +25,8 @@ from fftocean.export.formats import (
     payloads,
     require,
 )
-from fftocean.export.profiles import PROFILES, arrange, restore
+from fftocean.export.profiles import PROFILES, Profile, arrange, restore
+from fftocean.export.registry import by_name
 
 ROWS, COLUMNS, FRAMES = 13, 10, 6
 EVERY = pytest.mark.parametrize("name", FORMATS)
@@ -569,6 +570,22 @@ def test_a_format_without_all_of_its_parts_cannot_be_made():
     ):
         with pytest.raises(ImportError, match=re.escape(why)):
             dataclasses.replace(FORMATS["bin"], **changes)
+
+
+def test_two_formats_or_profiles_of_one_name_are_an_error_at_import():
+    for known in (FORMATS, PROFILES):
+        assert by_name(known.values()) == known
+        with pytest.raises(ImportError, match=r"names must differ, got '.+' twice"):
+            by_name([*known.values(), next(iter(known.values()))])
+
+
+def test_a_profile_without_a_part_cannot_be_made():
+    parts = {f.name: getattr(PROFILES["godot"], f.name) for f in dataclasses.fields(Profile)}
+    assert Profile(**parts) == PROFILES["godot"]
+    for field in dataclasses.fields(Profile):
+        if field.default is dataclasses.MISSING:
+            with pytest.raises(TypeError, match=field.name):
+                Profile(**{key: part for key, part in parts.items() if key != field.name})
 
 
 def test_a_new_format_is_its_own_object_and_one_entry(monkeypatch):

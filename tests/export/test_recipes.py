@@ -14,6 +14,7 @@ from fftocean.baking.scene.maps import MAPS
 from fftocean.export.engines import CELLS, profile_for
 from fftocean.export.formats import assemble, encode
 from fftocean.export.profiles import arrange, meaning, unit_in
+from fftocean.export.recipes import PAGES, Page, pages_of
 
 FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 cells across and 3 down
 
@@ -120,3 +121,24 @@ def test_a_part_of_the_loop_is_said_to_be_one():
         in page("unreal", "foam", closes=False)[0]
     )
     assert "Lookup      eulerian" in page("unreal", "foam", lookup="eulerian")[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "suffix", "message"),
+    [
+        ("godott", ".txt", "pages must be for profiles, got .*godott"),
+        ("bevy", "", "each page must have a suffix of its own"),
+        ("bevy", ".unity.txt", "each page must have a suffix of its own"),
+    ],
+)
+def test_a_page_of_no_profile_or_without_its_own_suffix_is_an_error_at_import(
+    name, suffix, message
+):
+    assert pages_of(PAGES) == PAGES
+    with pytest.raises(ImportError, match=message):
+        pages_of({**PAGES, name: Page(suffix, PAGES["godot"].text)})
+
+
+def test_a_page_without_a_part_cannot_be_made():
+    with pytest.raises(TypeError, match="text"):
+        Page(".txt")

@@ -8,7 +8,7 @@ import pytest
 from scipy import interpolate
 
 from fftocean.errors import ParameterError
-from fftocean.physics.tabulated import TabulatedSpreading
+from fftocean.physics.spreading import TabulatedSpreading
 
 F = [0.05, 0.08, 0.1, 0.2, 0.5]
 ANGLES = [-150.0, -90.0, -20.0, 0.0, 35.0, 100.0, 170.0]
@@ -123,6 +123,7 @@ def test_it_is_a_frozen_value():
         ({"density": np.zeros((5, 7)).tolist()}, "more than 0 somewhere"),
         ({"density": [[1.0], [1.0, 2.0]]}, "density must be numbers"),
         ({"density": "rough"}, "density must be a number .*, got 'rough' "),
+        ({"density": 1.0}, "density must be a table of numbers .*, got 1.0"),
     ],
 )
 def test_what_cannot_be_a_spreading_is_refused(changes, message):

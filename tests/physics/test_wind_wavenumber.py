@@ -16,15 +16,9 @@ from fftocean.errors import ParameterError, SeaWarning
 from fftocean.physics.dispersion import angular_frequency, group_velocity, wavenumber
 from fftocean.physics.moments import moment, peak_period, significant_wave_height
 from fftocean.physics.sea import Sea, WaveSystem
-from fftocean.physics.spectra import FrequencySpectrum, PiersonMoskowitz
-from fftocean.physics.spreading import Spreading
-from fftocean.physics.wind_wavenumber import (
-    SHORT_PEAK,
-    SLOWEST,
-    Elfouhaily,
-    ElfouhailySpreading,
-    Phillips,
-)
+from fftocean.physics.spectra import Elfouhaily, FrequencySpectrum, Phillips, PiersonMoskowitz
+from fftocean.physics.spreading import ElfouhailySpreading, Spreading
+from fftocean.physics.spreading.elfouhaily import SHORT_PEAK, SLOWEST
 
 WATERS = [(math.inf, 0.0), (8.0, 0.0), (math.inf, SURFACE_TENSION), (8.0, SURFACE_TENSION)]
 SEVERAL = [

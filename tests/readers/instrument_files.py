@@ -7,8 +7,10 @@ Each writer follows the format's own documents and shares no code with the reade
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from builders import lazy
 from spectrum_files import FREQUENCY, TIMES, TO, SpecifiedSpectrum
+
+xr = lazy("xarray")
 
 FROM = (TO + 180.0) % 360.0
 STEP = 15.0
@@ -228,7 +230,7 @@ def write_archive(folder: Path, specified: SpecifiedSpectrum) -> Path:
     return folder / "12345w2020.txt"
 
 
-def ndbc_netcdf(specified: SpecifiedSpectrum) -> xr.Dataset:
+def ndbc_netcdf(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """NDBC's THREDDS files, one place of latitude and longitude."""
     c1, c2 = fourier(specified, 1), fourier(specified, 2)
     dims = ("time", "frequency", "latitude", "longitude")
@@ -255,7 +257,7 @@ def ndbc_netcdf(specified: SpecifiedSpectrum) -> xr.Dataset:
     )
 
 
-def cdip(specified: SpecifiedSpectrum) -> xr.Dataset:
+def cdip(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """
     CDIP's files: A1, B1, A2, B2 of directions FROM, clockwise from true north, and bandwidths.
     """

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
+from builders import lazy
+
+xr = lazy("xarray")
 
 DATA = Path(__file__).parent.parent / "data" / "spectra"
 
@@ -62,7 +64,7 @@ def write_wavespectra(path: Path, specified: SpecifiedSpectrum) -> Path:
     return path
 
 
-def ww3(specified: SpecifiedSpectrum) -> xr.Dataset:
+def ww3(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """
     efth(time, station, frequency, direction) per radian, direction TO and turning backwards from
     north, depth 30 m.
@@ -109,7 +111,7 @@ def write_ww3(path: Path, specified: SpecifiedSpectrum) -> Path:
     return path
 
 
-def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> xr.Dataset:
+def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> "xr.Dataset":
     """
     d2fd, log10 of m2/Hz/radian, NaN for nothing, direction before frequency, on a grid of 2 by 1
     (the sea is in the second).

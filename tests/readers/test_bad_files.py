@@ -11,7 +11,7 @@ from pathlib import Path
 import h5netcdf
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import (
     DATA,
     FREQUENCY,
@@ -27,6 +27,8 @@ from spectrum_files import (
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError
 from fftocean.readers import bounded_reads
+
+xr = lazy("xarray")
 
 # --- what is no file of spectra at all
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import wavespectra  # noqa: F401  the accessor `spec`
-import xarray as xr
+from builders import lazy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from spectrum_files import DATA, FREQUENCY, TO, sea, ww3
@@ -16,6 +16,8 @@ from fftocean.errors import ReaderError
 from fftocean.physics.spectra import JONSWAP
 from fftocean.physics.spreading import CosinePower
 from fftocean.readers import Realised, bands
+
+xr = lazy("xarray")
 
 LONG_CRESTED = {"direction": 0.0, "spreading": CosinePower(s=20.0)}
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import (
     FREQUENCY,
     TO,
@@ -19,6 +19,8 @@ from spectrum_files import (
 
 from fftocean import readers
 from fftocean.ocean import Ocean
+
+xr = lazy("xarray")
 
 OMEGA = 2.0 * np.pi * np.geomspace(0.03, 0.6, 97)
 THETA = np.linspace(-np.pi, np.pi, 101)

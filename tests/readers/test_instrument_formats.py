@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from instrument_files import (
     EDGES,
     FROM,
@@ -27,6 +27,8 @@ from spectrum_files import DATA, FREQUENCY, TIMES, TO, sea, write_ndbc, ww3
 import fftocean as fo
 from fftocean import readers
 from fftocean.errors import ReaderError, SeaWarning
+
+xr = lazy("xarray")
 
 SPECIFIED = sea(toward=100.0)  # skew against the bins
 

@@ -4,13 +4,15 @@ Whatever the wavespectra package hands out becomes a sea of the height that the 
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import DATA, sea, ww3
 
 import fftocean as fo
 from fftocean import readers
 from fftocean.errors import ParameterError, ReaderError, SeaWarning
 from fftocean.readers import dataset_layout
+
+xr = lazy("xarray")
 
 pytestmark = [pytest.mark.filterwarnings("ignore")]  # what the package warns of is its own
 STRAIGHT = {"direction": 0.0, "spreading": fo.CosineSquared()}

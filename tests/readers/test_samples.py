@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import DATA
 
 from fftocean import readers
+
+xr = lazy("xarray")
 
 # The oracle leaves files open and uses what pandas and xarray are about to retire; that is not ours
 # to mend.

@@ -72,7 +72,8 @@ class Finding:
     frame: int | None = None  # of the loop
 
     def __str__(self) -> str:
-        return f"{self.kind}: {self.path}{f', frame {self.frame}' if self.frame is not None else ''}: {self.detail}"
+        frame = "" if self.frame is None else f", frame {self.frame}"
+        return f"{self.kind}: {self.path}{frame}: {self.detail}"
 
 
 def check(
@@ -393,7 +394,8 @@ def _frame(
         if not (abs(least - low) <= half_step * 1.001 and abs(most - high) <= half_step * 1.001):
             yield (
                 "range",
-                f"channel {c} goes from {least:g} to {most:g}, and is listed with {low:g} to {high:g}",
+                f"channel {c} goes from {least:g} to {most:g}, and is listed with {low:g} "
+                f"to {high:g}",
             )
     values = contents.restored(name, pixels)
     if MAPS[name].kind == "normal":
@@ -432,7 +434,8 @@ def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple
         if home > ROUGHER * roughest + _half_step(contents, name):
             yield (
                 "loop",
-                f"the step from the last frame to the first is {home / max(roughest, 1e-300):.1f} times the largest before",
+                f"the step from the last frame to the first is "
+                f"{home / max(roughest, 1e-300):.1f} times the largest before",
             )
     for axis, edge in ((0, "north"), (1, "east")):
         inside, across = np.atleast_1d(sequence.inside[axis]), sequence.across[axis]

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.foam import SQUEEZE, Foam
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import Foam
 from fftocean.kernels import interpolate, surface
 from fftocean.ocean import Frame
 
@@ -34,9 +35,9 @@ def whitecap_cover(wind: float) -> float:
     return 0.0 if wind < 3.7 else 2.95e-6 * min(wind, 20.0) ** 3.52
 
 
-def squeeze(frames: Frame | Sequence[Frame]) -> Real:
+def smallest_eigenvalue(frames: Frame | Sequence[Frame]) -> Real:
     """
-    Return the smaller eigenvalue of the deformation of summed tiles, on a pattern over the first.
+    Return the smallest eigenvalue of the deformation gradient of summed tiles, over the first one.
     """
     tiles = (frames,) if isinstance(frames, Frame) else tuple(frames)
     grid, several = tiles[0].grid, len(tiles) > 1
@@ -45,10 +46,10 @@ def squeeze(frames: Frame | Sequence[Frame]) -> Real:
         nx = ny = SIDE_OF_SUM
     x = np.broadcast_to(np.arange(nx) * (grid.lx / nx), (ny, nx)).ravel()
     y = np.broadcast_to((np.arange(ny) * (grid.ly / ny))[:, None], (ny, nx)).ravel()
-    total = np.zeros((ny * nx, len(SQUEEZE)))
+    total = np.zeros((ny * nx, len(DISPLACEMENT_GRADIENT)))
     for tile in tiles:
         g = tile.grid
-        texels = np.stack([tile[name] for name in SQUEEZE], axis=-1)
+        texels = np.stack([tile[name] for name in DISPLACEMENT_GRADIENT], axis=-1)
         interpolate.bilinear(texels, x * (g.nx / g.lx), y * (g.ny / g.ly), total)
     xx, xy, yy = (np.ascontiguousarray(total[:, i].reshape(ny, nx)) for i in range(3))
     out = np.empty((ny, nx))
@@ -71,7 +72,7 @@ class Whitecaps:
         Return the foam that has gathered over some moments.
 
         Args:
-            moments: the `squeeze` at equal steps of time.
+            moments: the `smallest_eigenvalue` at equal steps of time.
             step: from one to the next [s].
             foam: how water foams.
             cover: the share of the water that is to be covered; the threshold is found for it. None
@@ -85,7 +86,7 @@ class Whitecaps:
         return self
 
     def add(self, values: Real, step: float) -> None:
-        """Decay over a step [s], and add what the squeeze at its end makes."""
+        """Decay over a step [s], and add the foam that the eigenvalue at its end makes."""
         if self._state is None:
             self._state = np.zeros(values.shape)
         self._state *= math.exp(-step / self.foam.tau)

@@ -1,4 +1,4 @@
-"""D(omega, theta) from a table: how measured directions spread."""
+"""Tabulated spreading, such as measured directions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -7,11 +7,19 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import LARGEST_FINITE, SMALLEST_POSITIVE, Quantity
+from fftocean.limits import (
+    LARGEST_FINITE,
+    SMALLEST_POSITIVE,
+    Quantity,
+)
+from fftocean.physics.kinds import Numbers, Way
+from fftocean.physics.spreading.base import SPREADINGS
 
 # wide ranges: a table in any unit is brought to integral 1
 _FREQUENCY = Quantity("Hz", SMALLEST_POSITIVE, LARGEST_FINITE)
+
 _DIRECTION = Quantity("degrees", -LARGEST_FINITE, LARGEST_FINITE)
+
 _DENSITY = Quantity("", 0.0, LARGEST_FINITE)
 
 
@@ -40,7 +48,7 @@ class TabulatedSpreading:
     def __post_init__(self) -> None:
         f = _FREQUENCY.check_array("frequency", self.frequency, ndim=1, least=2, ascending=True)
         angle = _DIRECTION.check_array("direction", self.direction, ndim=1, least=3)
-        table = _DENSITY.check_array("density", self.density)
+        table = _DENSITY.check_array("density", self.density, ndim=2)
         if table.shape != (f.size, angle.size):
             raise ParameterError(
                 f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
@@ -107,3 +115,10 @@ def _between(nodes: Real, x: Real) -> tuple[np.typing.NDArray[np.intp], Real]:
     """
     i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)
+
+
+SPREADINGS.add(
+    "tabulated",
+    TabulatedSpreading,
+    Way(TabulatedSpreading, frequency=Numbers(), direction=Numbers(), density=Numbers()),
+)
