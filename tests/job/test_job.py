@@ -1,7 +1,4 @@
-"""
-Jobs: every key with its default and its rule, what a file may hold, and what is refused before
-anything is made.
-"""
+"""Jobs: default and rule of every key, contents of job files, and refusals before computation."""
 
 import contextlib
 import itertools
