@@ -262,11 +262,11 @@ def exact_foam(cascade, x, y, settings):
     """
     dense = 600
     times = np.arange(dense) * (LOOP / dense)
-    squeeze = []
+    eigenvalues = []
     for t in times:
         xx, xy, yy = summed(cascade, x, y, t)[2]
-        squeeze.append(1 + 0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy))
-    source = settings["strength"] * np.maximum(settings["threshold"] - np.array(squeeze), 0.0)
+        eigenvalues.append(1 + 0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy))
+    source = settings["strength"] * np.maximum(settings["threshold"] - np.array(eigenvalues), 0.0)
     memory = np.exp(-times / settings["tau"]) / (1.0 - math.exp(-LOOP / settings["tau"]))
     made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real * (
         LOOP / dense

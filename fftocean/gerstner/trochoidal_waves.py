@@ -69,7 +69,8 @@ class TrochoidalWaves:
         k = np.hypot(self.kx, self.kz)
         if not np.all(k >= WAVENUMBER.low):
             raise ParameterError(
-                f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} {WAVENUMBER.unit}, got {np.min(k)}"
+                f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} "
+                f"{WAVENUMBER.unit}, got {np.min(k)}"
             )
 
     @property

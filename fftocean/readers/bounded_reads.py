@@ -4,6 +4,7 @@ Bounded reads of files that may be damaged, huge or hostile.
 Every failure is a `ReaderError`.
 """
 
+import codecs
 import gzip
 import io
 import os
@@ -99,10 +100,17 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
         if raw.read(2) == _GZIP:
             raw.seek(0)
             with gzip.GzipFile(fileobj=raw) as stream:
-                yield cast(IO[bytes], stream)
+                yield _after_mark(cast(IO[bytes], stream))
         else:
             raw.seek(0)
-            yield raw
+            yield _after_mark(raw)
+
+
+def _after_mark(stream: IO[bytes]) -> IO[bytes]:
+    """Return a stream at its first byte, or behind the byte-order mark that some editors put there."""
+    if stream.read(len(codecs.BOM_UTF8)) != codecs.BOM_UTF8:
+        stream.seek(0)
+    return stream
 
 
 def is_packed(path: Path) -> bool:

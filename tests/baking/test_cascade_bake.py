@@ -13,6 +13,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -31,7 +32,7 @@ from fftocean.files import as_json
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 TILES = [(32, 200.0), (32, 29.0), (16, 4.1)]
 SMALL = [(16, 100.0), (16, 15.0)]
-JOB = fo.Job.default().replaced(
+JOB = builders.job(
     {
         "bake.frames": 3,
         "bake.maps": ["height", "stretch"],
@@ -65,7 +66,7 @@ def remembered():
     all, too.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for name in ("outside_band", "ordered"):
+        for name in ("outside_band", "specified"):
             integrate, known = getattr(statistics, name), {}
 
             def look_up(*arguments, integrate=integrate, known=known):
@@ -207,7 +208,7 @@ def test_other_refusals(tmp_path):
 
 
 def test_maps_that_are_not_named_are_the_ingredients(tmp_path):
-    job = fo.Job.default().replaced({"bake.frames": 1, "bake.pictures": []})
+    job = builders.job({"bake.frames": 1, "bake.pictures": []})
     with pytest.warns(fo.SeaWarning, match="displacement, derivative, stretch in place of"):
         listed = bake(tmp_path / "sea", job)
     assert [tile["maps"] for tile in listed["tiles"]] == 2 * [
@@ -544,6 +545,7 @@ def test_info_of_tiles(capsys):
         "m specified",
         "realised by all tiles",
         "energy outside",
+        "choppiness up to",
         "files",
     ):
         assert line in out

@@ -11,6 +11,7 @@ import random
 import shutil
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -37,9 +38,7 @@ def job(**changes):
         "bake.maps": ["height", "displacement", "normal"],
         "bake.pictures": ["tiling"],
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 def tree(folder):

@@ -14,6 +14,7 @@ import threading
 import time
 from pathlib import Path
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -41,9 +42,7 @@ def job(**changes):
         "bake.maps": ["height", "foam"],
         "bake.pictures": ["tiling"],
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 def tree(folder):

@@ -20,6 +20,7 @@ import sys
 import time
 from pathlib import Path
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -32,7 +33,7 @@ from fftocean.errors import FolderInUseError, OutputError
 from fftocean.statistics import SeaState
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
-SPECTRA = Path(__file__).parents[1] / "data" / "spectra"
+SPECTRA = builders.SPECTRA
 
 
 def job(**changes):
@@ -42,9 +43,7 @@ def job(**changes):
         "bake.maps": ["height", "normal"],
         "bake.pictures": ["tiling"],
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 @pytest.fixture(autouse=True)

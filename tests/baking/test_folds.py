@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -13,7 +14,7 @@ from fftocean.cli import main
 def job(**changes):
     """A small job of the default sea on short waves."""
     small = {"ocean.n": 16, "ocean.size": 25.0, "bake.frames": 3, "bake.maps": ["height", "normal"]}
-    return fo.Job.default().replaced({**small, "bake.pictures": [], **changes})
+    return builders.job({**small, "bake.pictures": [], **changes})
 
 
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])

@@ -5,6 +5,7 @@ is what was written.
 
 import shutil
 
+import builders
 import numpy as np
 import pytest
 
@@ -30,9 +31,7 @@ def job(**changes):
         "bake.pictures": ["tiling"],
         "ocean.choppiness": 1.3,
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 @pytest.fixture(autouse=True)

@@ -4,18 +4,16 @@ that are none.
 """
 
 import shutil
-from pathlib import Path
 
+import builders
 import pytest
 
 import fftocean as fo
 from fftocean.baking import bake as baker
 from fftocean.baking.folder import layout
 
-DATA = Path(__file__).resolve().parents[1] / "data" / "spectra"
-JOB = fo.Job.default().replaced(
-    {"ocean.n": 16, "bake.frames": 4, "bake.maps": ["height"], "bake.pictures": []}
-)
+DATA = builders.SPECTRA
+JOB = builders.job({"ocean.n": 16, "bake.frames": 4, "bake.maps": ["height"], "bake.pictures": []})
 
 
 def bake(folder, changes=None, **options):

@@ -6,12 +6,13 @@ named before anything is done.
 import hashlib
 import importlib.util
 
+import builders
 import pytest
 
 import fftocean as fo
 from fftocean.baking.folder import layout
 
-JOB = fo.Job.default().replaced({"ocean.n": 16, "bake.frames": 2, "bake.maps": ["height"]})
+JOB = builders.job({"ocean.n": 16, "bake.frames": 2, "bake.maps": ["height"]})
 ALL = ["sheet", "animation", "tiling", "spectrum"]
 
 

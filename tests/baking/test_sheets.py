@@ -348,7 +348,7 @@ def test_broken_foam_covers_as_much_of_the_water_as_it_should():
 def test_the_threshold_is_found_for_a_cover(cover):
     sea = ocean(ocean__n=64)
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        whitecaps.minimum_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
         for i in reversed(range(40))
     ]
     caps = whitecaps.Whitecaps.before(moments, 0.25, fo.Foam(), cover)
@@ -361,7 +361,7 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     foam = fo.Foam(threshold=0.8)
     truth = next(iter(foam.loop(sea, 64)))
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        whitecaps.minimum_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
         for i in reversed(range(64))
     ]
     shown = whitecaps.Whitecaps.before(moments, 0.25, foam).coverage
@@ -371,15 +371,15 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     assert np.corrcoef(shown.ravel(), truth.ravel())[0, 1] > 0.9
 
 
-def test_squeeze_of_summed_tiles_is_that_of_the_sum():
+def test_minimum_eigenvalue_of_summed_tiles_is_that_of_the_sum():
     """Two waves on one tile, and each on a frame of its own."""
     waves = [(1, 2, 0.5, 0.0), (3, -1, 0.2, 1.0)]
     both, *each = (
         fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, DISPLACEMENT_GRADIENT)
         for some in (waves, waves[:1], waves[1:])
     )
-    one = whitecaps.smallest_eigenvalue(both)
-    two = whitecaps.smallest_eigenvalue(each)[::6, ::6]  # 384 to 64
+    one = whitecaps.minimum_eigenvalue(both)
+    two = whitecaps.minimum_eigenvalue(each)[::6, ::6]  # 384 to 64
     assert np.allclose(one, two, atol=1e-6)  # float32
 
 

@@ -2,6 +2,7 @@
 
 import json
 
+import builders
 import numpy as np
 import pytest
 from formulas import value_of
@@ -28,9 +29,7 @@ def quick(monkeypatch):
 
 def job(**changes):
     small = {"ocean.n": (8, 6), "ocean.size": (40.0, 25.0), "bake.frames": 4, "bake.pictures": []}
-    return fo.Job.default().replaced(
-        {**small, **{key.replace("__", "."): value for key, value in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 PAIRS = [pair for pair, cell in engines.TABLE.items() if isinstance(cell, engines.Refusal)]

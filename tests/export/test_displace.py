@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from unittest.mock import MagicMock
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -45,7 +46,7 @@ def script():
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
 def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
     manifest = fo.bake(
-        fo.Job.default().replaced({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path
+        builders.job({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path
     )
     assert script.read_bake(tmp_path) == json.loads(json.dumps(manifest))
 
@@ -71,7 +72,7 @@ def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
     ],
 )
 def test_a_bake_that_it_would_show_wrongly_is_refused(script, tmp_path, changes, frames, why):
-    fo.bake(fo.Job.default().replaced({**SMALL, **changes}), tmp_path, frames=frames)
+    fo.bake(builders.job({**SMALL, **changes}), tmp_path, frames=frames)
     with pytest.raises(SystemExit, match=why):
         script.read_bake(tmp_path)
 
@@ -79,7 +80,7 @@ def test_a_bake_that_it_would_show_wrongly_is_refused(script, tmp_path, changes,
 def test_what_is_no_bake_or_another_tools_is_refused(script, tmp_path):
     with pytest.raises(SystemExit, match=r"must be a finished bake with its manifest\.json"):
         script.read_bake(tmp_path)
-    fo.bake(fo.Job.default().replaced(SMALL), tmp_path / "sea")
+    fo.bake(builders.job(SMALL), tmp_path / "sea")
     text = json.loads((tmp_path / "sea/manifest.json").read_text())
     for key, value, why in (
         ("tool", "another", "must be of fftocean, got 'another'"),

@@ -176,13 +176,13 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
                 fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})
             ):
                 found.append(Finding(fault[0], listed[key]["path"], fault[1]))
-    drawn = (
+    previews = (
         {listed[key]["path"] for key in layout.PREVIEWS if key in listed}
         if listed
         else set(layout.PREVIEW_FILES)
     )
     for path in layout.bake_files(folder):
-        if (relative := path.relative_to(folder).as_posix()) not in drawn:
+        if (relative := path.relative_to(folder).as_posix()) not in previews:
             found.append(
                 Finding(
                     "extra",
