@@ -15,7 +15,6 @@ import tempfile
 import warnings
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import asdict
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -28,7 +27,7 @@ from fftocean.errors import OutputError, ParameterError, SeaWarning, described, 
 from fftocean.fields import FIELDS
 from fftocean.files import write_whole
 from fftocean.host import require_memory
-from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
+from fftocean.limits import DIRECTION, FREQUENCY, TIME
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import measure
 from fftocean.window import Window
@@ -444,7 +443,7 @@ def _powers(ocean: Ocean) -> Real:
 
 def _seconds(times: Iterable[float]) -> Real:
     """Times that make a coordinate."""
-    t = _numbers("times", times, TIME, 1)
+    t = TIME.check_array("times", times, ndim=1, least=1, most=_MOST)
     step = np.diff(t)
     if not (np.all(step > 0.0) or np.all(step < 0.0)):
         i = int(np.argmax(step * np.sign(t[-1] - t[0]) <= 0.0))
@@ -468,7 +467,7 @@ def _maps(maps: Sequence[str]) -> tuple[str, ...]:
 
 def _frequencies(freq: RealLike) -> Real:
     """Frequencies [Hz] that make bands."""
-    f = _numbers("freq", freq, FREQUENCY, 2)
+    f = FREQUENCY.check_array("freq", freq, ndim=1, least=2, most=_MOST)
     if not np.all(np.diff(f) > 0.0):
         raise ParameterError(
             f"freq must ascend without repeats, got {f[np.argmin(np.diff(f)) + 1]:g} Hz after {f[np.argmin(np.diff(f))]:g} Hz"
@@ -478,31 +477,14 @@ def _frequencies(freq: RealLike) -> Real:
 
 def _bearings(dir: RealLike) -> Real:
     """Bearings in [0, 360), ascending [degrees]."""
-    bearing = np.sort(np.mod(_numbers("dir", dir, DIRECTION, 4), 360.0))
+    given = DIRECTION.check_array("dir", dir, ndim=1, least=4, most=_MOST)
+    bearing = np.sort(np.mod(given, 360.0))
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.max(np.abs(steps - 360.0 / bearing.size)) > 1e-6:
         raise ParameterError(
             f"dir must be evenly spaced round the circle, got steps of {steps.min():g} to {steps.max():g} degrees"
         )
     return bearing
-
-
-def _numbers(name: str, values: Any, quantity: Quantity, least: int) -> Real:
-    """At least so many numbers and at most a million, each of them checked."""
-    try:
-        items = iter(np.asarray(values).tolist() if hasattr(values, "__array__") else values)
-    except TypeError:
-        raise ParameterError(
-            f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}"
-        ) from None
-    numbers = [
-        quantity.check(f"{name}[{i}]", item) for i, item in enumerate(islice(items, _MOST + 1))
-    ]
-    if not least <= len(numbers) <= _MOST:
-        raise ParameterError(
-            f"{name} must be {least} to {_MOST} numbers, got {len(numbers) if len(numbers) <= _MOST else 'more'}"
-        )
-    return np.array(numbers, dtype=np.float64)
 
 
 _MOST = 10**6
