@@ -52,7 +52,7 @@ STAIRS = [
     [["cascade"], ["trains", "window"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
-    [["plots.theme"], ["plots"], ["bench.pictures"]],
+    [["plots.theme"], ["plots"], ["bench.charts"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {
