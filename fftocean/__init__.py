@@ -43,31 +43,31 @@ if TYPE_CHECKING:
     from fftocean.physics import moments as moments
     from fftocean.physics import presets as presets
     from fftocean.physics import units as units
-    from fftocean.physics.double_peaked import Bretschneider as Bretschneider
-    from fftocean.physics.double_peaked import OchiHubble as OchiHubble
-    from fftocean.physics.double_peaked import Torsethaugen as Torsethaugen
     from fftocean.physics.sea import Sea as Sea
     from fftocean.physics.sea import WaveSystem as WaveSystem
     from fftocean.physics.sea import from_compass as from_compass
     from fftocean.physics.spectra import JONSWAP as JONSWAP
     from fftocean.physics.spectra import TMA as TMA
+    from fftocean.physics.spectra import Bretschneider as Bretschneider
     from fftocean.physics.spectra import CustomSpectrum as CustomSpectrum
+    from fftocean.physics.spectra import Elfouhaily as Elfouhaily
+    from fftocean.physics.spectra import OchiHubble as OchiHubble
+    from fftocean.physics.spectra import Phillips as Phillips
     from fftocean.physics.spectra import PiersonMoskowitz as PiersonMoskowitz
     from fftocean.physics.spectra import TabulatedSpectrum as TabulatedSpectrum
+    from fftocean.physics.spectra import Torsethaugen as Torsethaugen
     from fftocean.physics.spreading import Blend as Blend
+    from fftocean.physics.spreading import CosineN as CosineN
     from fftocean.physics.spreading import CosinePower as CosinePower
     from fftocean.physics.spreading import CosineSquared as CosineSquared
+    from fftocean.physics.spreading import CustomSpreading as CustomSpreading
     from fftocean.physics.spreading import DonelanBanner as DonelanBanner
+    from fftocean.physics.spreading import GodaSuzuki as GodaSuzuki
+    from fftocean.physics.spreading import Hasselmann as Hasselmann
     from fftocean.physics.spreading import LongCrested as LongCrested
-    from fftocean.physics.spreading_laws import CosineN as CosineN
-    from fftocean.physics.spreading_laws import CustomSpreading as CustomSpreading
-    from fftocean.physics.spreading_laws import GodaSuzuki as GodaSuzuki
-    from fftocean.physics.spreading_laws import Hasselmann as Hasselmann
-    from fftocean.physics.spreading_laws import Mitsuyasu as Mitsuyasu
-    from fftocean.physics.spreading_laws import SwellElongation as SwellElongation
-    from fftocean.physics.spreading_laws import WrappedNormal as WrappedNormal
-    from fftocean.physics.wind_wavenumber import Elfouhaily as Elfouhaily
-    from fftocean.physics.wind_wavenumber import Phillips as Phillips
+    from fftocean.physics.spreading import Mitsuyasu as Mitsuyasu
+    from fftocean.physics.spreading import SwellElongation as SwellElongation
+    from fftocean.physics.spreading import WrappedNormal as WrappedNormal
     from fftocean.products import Folding as Folding
     from fftocean.products import folding as folding
     from fftocean.products import jacobian as jacobian
@@ -107,32 +107,33 @@ _NAMES_BY_MODULE = {
     "fftocean.foam": ("Foam",),
     "fftocean.frame": ("EulerianFrame", "Frame"),
     "fftocean.ocean": ("Ocean",),
-    "fftocean.physics.double_peaked": ("Bretschneider", "OchiHubble", "Torsethaugen"),
     "fftocean.physics.sea": ("Sea", "WaveSystem", "from_compass"),
     "fftocean.physics.spectra": (
-        "JONSWAP",
-        "TMA",
+        "Bretschneider",
         "CustomSpectrum",
+        "Elfouhaily",
+        "JONSWAP",
+        "OchiHubble",
+        "Phillips",
         "PiersonMoskowitz",
+        "TMA",
         "TabulatedSpectrum",
+        "Torsethaugen",
     ),
     "fftocean.physics.spreading": (
         "Blend",
+        "CosineN",
         "CosinePower",
         "CosineSquared",
-        "DonelanBanner",
-        "LongCrested",
-    ),
-    "fftocean.physics.spreading_laws": (
-        "CosineN",
         "CustomSpreading",
+        "DonelanBanner",
         "GodaSuzuki",
         "Hasselmann",
+        "LongCrested",
         "Mitsuyasu",
         "SwellElongation",
         "WrappedNormal",
     ),
-    "fftocean.physics.wind_wavenumber": ("Elfouhaily", "Phillips"),
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),

@@ -41,7 +41,7 @@ class Blend:
 
 def loss(ocean: Ocean | Cascade, frames: int) -> Blend:
     """
-    Return the amplitude left between the frames of a loop; of a cascade, that of all tiles together.
+    Return the amplitude left between the frames of a loop; of a cascade, that of all tiles.
 
     Raises:
         ParameterError: the ocean does not loop, or `frames` is out of range.
@@ -71,7 +71,8 @@ def describe(ocean: Ocean | Cascade, frames: int) -> dict[str, Any]:
     """Return `loss` as plain data for the manifest."""
     b = loss(ocean, frames)
     return {
-        "what": "amplitude left halfway between two frames that are blended linearly: root mean square of cos(omega dt/2) over the waves",
+        "what": "amplitude left halfway between two frames that are blended linearly: root "
+        "mean square of cos(omega dt/2) over the waves",
         "frames_per_second": b.rate,
         "height": b.kept,
         "height_up_to_twice_the_peak": b.kept_long,
@@ -97,7 +98,10 @@ def sentence(b: Blend) -> str:
         if b.kept < ENOUGH
         else ""
     )
-    return f"{kept}; {heights}{b.enough_frames_slopes} frames ({b.enough_rate_slopes:.3g} a second) keep {100 * ENOUGH:.0f} % of the slopes"
+    return (
+        f"{kept}; {heights}{b.enough_frames_slopes} frames ({b.enough_rate_slopes:.3g} a "
+        f"second) keep {100 * ENOUGH:.0f} % of the slopes"
+    )
 
 
 def _waves(ocean: Ocean | Cascade) -> tuple[Real, Real, Real]:

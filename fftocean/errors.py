@@ -6,11 +6,11 @@ Exceptions and warnings of the package, in one tree.
         JobError                       a job file or a flag that cannot be carried out    exit 2
         ReaderError                    an input file that is not what it should be        exit 3
       FieldError (AttributeError)      a field that was not computed for this frame
-      OutputError (OSError)            a file that could not be written completely        exit 4
+      OutputError (OSError)            a file that could not be written                   exit 4
         FolderInUseError               a folder that another process writes to            exit 6
       IntegrityError                   a file that was changed after it was written       exit 5
 
-A message names the parameter, the rule and the value: `fetch must be between 1 and 5e+07 m, got -3.0`.
+A message names parameter, rule and value: `fetch must be between 1 and 5e+07 m, got -3.0`.
 """
 
 

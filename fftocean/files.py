@@ -1,7 +1,7 @@
 """
-Files that are complete or absent: written under a temporary name, flushed to the disk, then renamed.
+Files that are complete or absent, and canonical JSON.
 
-All files of the package are written here, and canonical JSON is made here.
+A file is written under a temporary name, flushed to the disk, then renamed.
 """
 
 import contextlib
@@ -50,7 +50,7 @@ def write_whole(path: Path, data: bytes | memoryview) -> str:
                 os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0),
                 0o666,
             )
-            with open(descriptor, "wb", buffering=0) as file:  # noqa: PTH123 - a descriptor, not a path
+            with os.fdopen(descriptor, "wb", buffering=0) as file:
                 view = memoryview(data)
                 while view:
                     view = view[file.write(view) :]
@@ -70,6 +70,15 @@ def digest(data: bytes | memoryview) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 of a file, read in parts; links are followed."""
+    sha256 = hashlib.sha256()
+    with path.open("rb") as file:
+        while part := file.read(2**20):
+            sha256.update(part)
+    return sha256.hexdigest()
+
+
 def remove_temporary_files(folder: Path) -> None:
     """
     Remove the temporary files that a stopped process left in a folder; do nothing through a link.
@@ -84,7 +93,7 @@ def remove_temporary_files(folder: Path) -> None:
 
 def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
     """
-    Return the bytes of a file, or None where there is none: links, folders and devices do not count.
+    Return the bytes of a file; None if there is none, or a link, a folder or a device.
 
     Raises:
         OutputError: the file exists and cannot be read, or is larger than `most` bytes.

@@ -1,19 +1,19 @@
 """
 Foam of breaking waves.
 
-Foam is made where a crest is compressed beyond a threshold, stays with the water, and decays:
+Foam is made where water breaks, stays with that water, and decays:
 
-    df/dt = -f / tau + strength max(threshold - eigenvalue, 0),
+    df/dt = -f / tau + strength max(threshold - lambda, 0),
 
-at each undisplaced position; `eigenvalue` is the smallest eigenvalue of the deformation gradient
-(Tessendorf 2001), which is 1 on still water and 0 where a crest folds. The equation is linear in f,
-but not in the waves: the foam of a cascade follows from the summed displacement gradients of its
-tiles, and cannot be composed from the foam of each tile alone.
+at each rest position; lambda is the smallest eigenvalue of the deformation gradient (Tessendorf
+2001), which is 1 on still water and 0 where a crest folds. The equation is linear in f, but not in
+the waves: the foam of a cascade follows from the summed displacement gradient, and is no sum or
+product of the foams of its tiles.
 
-A step of any length is therefore an exponential and an integral, and on a loop of period T the
-periodic state has a closed form: f(0) = g / (1 - e^{-T/tau}), where g is the foam that one loop
-makes on clean water. Only the coverage saturates: patches laid down at random with density f cover
-1 - e^{-f} of the water.
+So a step of any length is an exponential and an integral, and on a loop of period T the state that
+returns to itself is known in closed form: f(0) = g / (1 - e^{-T/tau}), where g is the foam that one
+period makes on clean water. Only the coverage saturates: patches laid down at random with density f
+cover 1 - e^{-f} of the water.
 """
 
 import math
@@ -26,7 +26,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
-from fftocean.fields import potential_factor
+from fftocean.fields import DISPLACEMENT_GRADIENT, potential_factor
 from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
@@ -37,25 +37,23 @@ from fftocean.window import Window
 SPAN = 16
 """Frames of a loop that are baked from one stored state."""
 
-DISPLACEMENT_GRADIENT = ("stretch_xx", "stretch_xy", "stretch_yy")
-"""The fields from which foam is computed."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Foam:
     """
-    Parameters of the foam equation. `loop` computes the foam of a loop, `live` that of a running
-    sea.
+    Parameters of foam: `loop` gives the foam of a loop, `live` that of a running sea.
 
     The defaults: foam of breaking waves fades in 3.5 s (Monahan 1986: 3.53 s in sea water), and the
     waves of a 10 m/s wind cover about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at
-    choppiness 1 and samples 0.8 m apart. The compression of crests by linear waves hardly grows
-    with the wind, but it does with shorter waves and more choppiness: lower the threshold there,
-    raise it for storms.
+    choppiness 1 and samples 0.8 m apart. The eigenvalues of linear waves hardly depend on the wind,
+    but they do on choppiness and on the shortest wave: with finer samples or more choppiness use a
+    lower threshold, for storms a higher one.
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
-    threshold: float = 0.72  # eigenvalue below which water foams: 1 on still water, 0 folded [-]
+    # smallest eigenvalue of the deformation gradient below which water foams: 1 is still water,
+    # 0 a fold [-]
+    threshold: float = 0.72
     strength: float = 60.0  # foam made per second and unit of eigenvalue below the threshold [1/s]
 
     def __post_init__(self) -> None:
@@ -67,16 +65,16 @@ class Foam:
         undisplaced position.
 
         Args:
-            ocean: an ocean, a `Window` on a cascade, or a cascade: then the window of its largest
-                tile is used.
-            count: the number of frames of the loop.
+            ocean: an ocean; a `Window` on a cascade; or a cascade, which stands for the window of
+                its largest tile.
+            count: frames of the loop.
 
         Raises:
             ParameterError: the ocean does not loop, or `count` is out of range.
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
-        ocean, count = _ocean_or_window(ocean), FRAMES.check("count", count)
+        ocean, count = _water(ocean), FRAMES.check_whole("count", count)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
@@ -85,18 +83,15 @@ class Foam:
 
     def live(self, ocean: Ocean | Cascade | Window, t: float = 0.0) -> "LiveFoam":
         """
-        Return the foam of a running sea, which starts on clean water at time t [s].
-
-        A start 3 tau before the first frame shown has foam from that frame on.
+        Start on clean water at time t [s]; a start 3 tau earlier than is shown has foam from the
+        first picture on.
         """
-        return LiveFoam(self, _ocean_or_window(ocean), t)
+        return LiveFoam(self, _water(ocean), t)
 
     def response(self, ocean: Ocean | Window, count: int, first: int, stop: int) -> Real:
         """
-        Return the state at frame `stop` of `count` for clean water at frame `first`.
-
-        Returns:
-            (ny, nx), float64.
+        Return the state at frame `stop` of `count` if the water was clean at frame `first`: (ny,
+        nx), float64.
         """
         _require_looping(ocean)
         state = np.zeros(ocean.grid.shape)
@@ -109,19 +104,17 @@ class Foam:
         Return the states of the loop at the first frame of each span, (spans, ny, nx), float64.
 
         Args:
-            made: the `response` of each span of `spans_of(count)`, in sequence.
-            ocean: the ocean or window that the responses were computed for.
-            count: the number of frames of the loop.
+            made: the `response` of each span of `spans_of(count)`, in order.
         """
         loop = _require_looping(ocean)
         kept = [
             math.exp(-(stop - first) * loop / count / self.tau) for first, stop in spans_of(count)
         ]
-        one_loop = np.zeros(ocean.grid.shape)
+        turn = np.zeros(ocean.grid.shape)
         for decay, new in zip(kept, made, strict=True):
-            one_loop = decay * one_loop + new
+            turn = decay * turn + new
         states = np.empty((len(made), *ocean.grid.shape))
-        states[0] = one_loop / -math.expm1(-loop / self.tau)
+        states[0] = turn / -math.expm1(-loop / self.tau)
         for i in range(1, len(made)):
             states[i] = kept[i - 1] * states[i - 1] + made[i - 1]
         return states
@@ -130,10 +123,10 @@ class Foam:
         self, ocean: Ocean | Window, count: int, start: Real, first: int, stop: int
     ) -> Iterator[tuple[int, Real]]:
         """
-        Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`.
+        Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`;
+        each is good until the next.
 
-        Each state is valid until the next. The same start gives the same bits: a frame's state does
-        not depend on `stop`.
+        The same start gives the same bits: a frame's state does not depend on `stop`.
         """
         state = np.array(start, dtype=np.float64)
         yield first, state
@@ -145,29 +138,29 @@ class Foam:
     ) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
         loop = _require_looping(ocean)
-        count = FRAMES.check("count", count)
+        count = FRAMES.check_whole("count", count)
         parts = max(1, math.ceil(loop / count / longest_step(ocean)))
         stepper = _Stepper(self, loop / (count * parts))
-        eigenvalues = _Eigenvalues(ocean)
+        watch = _Watch(ocean)
         window = (
-            [eigenvalues.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)]
+            [watch.in_loop(first * parts + i, count * parts) for i in (-1, 0, 1)]
             if last > first
             else []
         )
         for j in range(first, last):
             for i in range(parts):
-                window.append(eigenvalues.in_loop(j * parts + i + 2, count * parts))
+                window.append(watch.in_loop(j * parts + i + 2, count * parts))
                 stepper.advance(window, state)
-                eigenvalues.recycle(window.pop(0))
+                watch.give_back(window.pop(0))
             yield j + 1
 
 
 class LiveFoam:
     """
-    The foam of a running sea, with its state; `at(t)` advances it.
+    The foam of a running sea: it keeps the state, and `at(t)` moves it on.
 
-    The length of its steps depends on the waves alone, so that the foam at t does not depend on how
-    often `at` is called; between two steps it is interpolated. One thread at a time.
+    It steps at a pace of its own that suits the waves, so that what it shows does not depend on how
+    often it is asked; between two steps it interpolates. One thread at a time.
     """
 
     def __init__(self, settings: Foam, ocean: Ocean | Window, t: float = 0.0) -> None:
@@ -175,7 +168,7 @@ class LiveFoam:
         self._start = self._last = TIME.check("t", t)
         step = longest_step(ocean)
         self._step = step if math.isfinite(step) else settings.tau
-        self._eigenvalues = _Eigenvalues(ocean)
+        self._watch = _Watch(ocean)
         self._stepper = _Stepper(settings, self._step)
         self._begin(0)
 
@@ -184,72 +177,69 @@ class LiveFoam:
 
     def at(self, t: float) -> Real:
         """
-        Advance to time t [s], and return the coverage there, (ny, nx) in 0..1.
+        Move on to time t [s], and return the coverage there, (ny, nx) in 0..1.
 
-        After a leap only the last 20 tau are computed: e^-20 of earlier foam is left, 2e-9.
+        After a leap only the last 20 tau are followed: e^-20 of what was before is left, 2e-9.
 
         Raises:
-            ParameterError: `t` is earlier than in the last call.
+            ParameterError: `t` lies before the last one asked for.
         """
         t = TIME.check("t", t)
         if t < self._last:
             raise ParameterError(
-                f"foam cannot go back in time: t must be at least {self._last!r}, got {t!r}; "
+                f"foam cannot go back: t must be at least {self._last!r}, got {t!r}; "
                 "start another `live`"
             )
         self._last = t
-        steps = (t - self._start) / self._step
-        tick = math.floor(steps)
+        place = (t - self._start) / self._step
+        tick = math.floor(place)
         memory = math.ceil(20.0 * self._settings.tau / self._step)
         if tick - self._tick > memory + 4:
             self._begin(tick - memory)
         while self._tick <= tick:
             self._advance()
-        share = steps - tick
+        share = place - tick
         return coverage((1.0 - share) * self._before + share * self._state)
 
     def _begin(self, tick: int) -> None:
         """
-        Start with clean water at a step.
-
-        `_state` belongs to `_tick`, and `_before` is the state one step earlier.
+        Clean water at a step; `_before` is the state one step before `_state`, which is that of
+        `_tick`.
         """
         self._tick = tick
         self._before, self._state = np.zeros((2, *self._ocean.grid.shape))
-        self._window = [
-            self._eigenvalues.at(self._start + (tick + i) * self._step) for i in (-1, 0, 1)
-        ]
+        self._window = [self._watch.at(self._start + (tick + i) * self._step) for i in (-1, 0, 1)]
         self._advance()
 
     def _advance(self) -> None:
-        """Advance by one step."""
         self._before[:] = self._state
-        self._window.append(self._eigenvalues.at(self._start + (self._tick + 2) * self._step))
+        self._window.append(self._watch.at(self._start + (self._tick + 2) * self._step))
         self._stepper.advance(self._window, self._state)
-        self._eigenvalues.recycle(self._window.pop(0))
+        self._watch.give_back(self._window.pop(0))
         self._tick += 1
 
 
 def spans_of(count: int) -> list[tuple[int, int]]:
     """
-    Return the spans of frames, (first, stop), that each start from a stored state.
+    The spans of frames, (first, stop), that each start from a stored state: the parts of a bake's
+    survey.
     """
     return [(first, min(first + SPAN, count)) for first in range(0, count, SPAN)]
 
 
 def coverage(state: Real) -> Real:
-    """Return the fraction of the surface that is covered, 1 - e^{-state}, float32 in 0..1."""
+    """Return the part of the water that is covered, 1 - e^{-state}, as float32 in 0..1."""
     out = np.empty(state.shape, dtype=np.float32)
     kernel.coverage(state, out)
     return out
 
 
-def _ocean_or_window(source: Any) -> Ocean | Window:
+def _water(source: Any) -> Ocean | Window:
     """
-    Return an ocean or a window; of a cascade, the window of its largest tile.
+    Return what foam can be made on.
 
     Raises:
-        ParameterError: `source` is none of these.
+        ParameterError: it is no water.
     """
     if isinstance(source, Cascade):
         return Window(source)
@@ -260,27 +250,27 @@ def _ocean_or_window(source: Any) -> Ocean | Window:
 
 def _require_looping(source: Any) -> float:
     """
-    Return the period of an ocean or window on whose grid a state of foam lives [s].
+    Return the period [s] of the water that a state of foam belongs to.
 
     Raises:
-        ParameterError: `source` is neither, or does not loop.
+        ParameterError: it is no water with samples of its own, or does not loop.
     """
     if not isinstance(source, (Ocean, Window)):
         raise ParameterError(f"a state of foam needs an Ocean or a Window, got {source!r:.80}")
     if source.loop is None:
         raise ParameterError(
-            "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); "
-            "`live` works without a loop"
+            "foam on a loop needs an ocean that loops: Ocean(..., loop=16.0); `live` does without"
         )
     return source.loop
 
 
 def longest_step(ocean: Ocean | Window) -> float:
     """
-    Return the longest step of time [s] that resolves the eigenvalue; inf without waves.
+    Return the step of time [s] that resolves breaking: a third of a radian of its waves, inf
+    without waves.
 
-    It is a third of a radian at the root mean square frequency of the waves, weighted with the
-    variance of their displacement gradient. Half the step changes the foam by half a percent.
+    Their frequency is the root mean square over waves weighted with the variance of their stretch.
+    Half the step changes the foam by half a percent.
     """
     total = fast = 0.0
     for tile in ocean.oceans if isinstance(ocean, Window) else (ocean,):
@@ -293,12 +283,8 @@ def longest_step(ocean: Ocean | Window) -> float:
     return 1.0 / (3.0 * math.sqrt(fast)) if fast > 0.0 else math.inf
 
 
-class _Eigenvalues:
-    """
-    The smallest eigenvalue of an ocean's deformation gradient, by time.
-
-    Arrays passed to `recycle` are used again.
-    """
+class _Watch:
+    """Smallest eigenvalue of an ocean at any time; arrays that are given back are used again."""
 
     def __init__(self, ocean: Ocean | Window) -> None:
         self._ocean = ocean
@@ -306,21 +292,20 @@ class _Eigenvalues:
         self._spare: list[Real] = []
 
     def at(self, t: float) -> Real:
-        """Return the eigenvalue at time t, (ny, nx)."""
+        """Return it at time t [s], (ny, nx)."""
         self._frame = self._ocean.frame(t, DISPLACEMENT_GRADIENT, out=self._frame)
-        return self._of(self._frame)
+        return self._minimum_eigenvalue(self._frame)
 
     def in_loop(self, j: int, count: int) -> Real:
-        """Return the eigenvalue at the j-th of `count` frames of the loop, (ny, nx)."""
+        """Return it at frame j of `count` frames of the loop, (ny, nx)."""
         self._frame = self._ocean.loop_frame(j, count, DISPLACEMENT_GRADIENT, out=self._frame)
-        return self._of(self._frame)
+        return self._minimum_eigenvalue(self._frame)
 
-    def recycle(self, array: Real) -> None:
+    def give_back(self, array: Real) -> None:
         """Take back an array that is not needed any more."""
         self._spare.append(array)
 
-    def _of(self, frame: Frame) -> Real:
-        """Return the eigenvalue in a frame."""
+    def _minimum_eigenvalue(self, frame: Frame) -> Real:
         out = (
             self._spare.pop()
             if self._spare
@@ -333,9 +318,8 @@ class _Eigenvalues:
 
 class _Stepper:
     """
-    Steps of a fixed length: the integral of e^{-(dt - s)/tau} source(s) over a step.
-
-    The source is linear between quarter steps.
+    One step of a fixed length: the integral of e^{-(dt - s)/tau} source(s) over it, the source
+    linear between quarter steps.
     """
 
     def __init__(self, settings: Foam, step: float) -> None:
@@ -350,21 +334,16 @@ class _Stepper:
         ]
         self._cubic = np.ascontiguousarray(np.stack(lagrange, axis=1))
         early, late = _exponential_weights(0.25 * step / settings.tau)
-        # the fraction of the foam at each quarter that is left at the end of the step
-        left = np.exp(-(1.0 - u) * step / settings.tau)
+        left = np.exp(
+            -(1.0 - u) * step / settings.tau
+        )  # of what is there at each quarter, at the end
         self._weights = np.zeros(5)
         self._weights[:-1] += early * left[1:]
         self._weights[1:] += late * left[1:]
         self._weights *= settings.tau * settings.strength
 
     def advance(self, window: Sequence[Real], state: Real) -> None:
-        """
-        Advance a state by one step.
-
-        Args:
-            window: the eigenvalue one step before, at the start, at the end, and one step after.
-            state: (ny, nx), changed in place.
-        """
+        """Advance a state; `window` has the eigenvalues before, at start and end, and after."""
         before, now, then, after = window
         kernel.advance(
             before,
@@ -381,11 +360,11 @@ class _Stepper:
 
 def _exponential_weights(x: float) -> tuple[float, float]:
     """
-    Return the weights of the two ends of a step of x decay times.
+    The weights of the two ends of a step of x decay times: the integrals of e^{-(x - s)} (1 - s/x)
+    and e^{-(x - s)} s/x over 0..x.
 
-    They are the integrals of e^{-(x - s)} (1 - s/x) and e^{-(x - s)} s/x over 0..x, which are
-    (1 - e^-x)/x - e^-x and 1 - (1 - e^-x)/x; below 1e-3 a series is used, as both are then
-    differences of nearly equal numbers.
+    They are (1 - e^-x)/x - e^-x and 1 - (1 - e^-x)/x; by series below 1e-3, where both are
+    differences of near equals.
     """
     if x < 1e-3:
         return x * (1 / 2 - x * (1 / 3 - x * (1 / 8 - x * (1 / 30)))), x * (

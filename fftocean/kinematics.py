@@ -1,7 +1,4 @@
-"""
-Below the surface: how the water moves, and what it presses with, by linear wave theory and the ways
-to stretch it to the crests.
-"""
+"""Kinematics and dynamic pressure below the surface, by linear wave theory with stretching."""
 
 import math
 from collections.abc import Callable
@@ -21,7 +18,8 @@ from fftocean.gerstner.waves import Waves
 from fftocean.kernels import query as kernels
 from fftocean.limits import THREADS, TIME
 from fftocean.ocean import Ocean
-from fftocean.trains import Trains, coordinates, moments_of, trains_of
+from fftocean.points import as_coordinates, group_by_time
+from fftocean.wave_list import WaveList, as_tiles, list_waves
 
 STRETCHINGS = ("none", "vertical", "wheeler")
 
@@ -29,20 +27,17 @@ STRETCHINGS = ("none", "vertical", "wheeler")
 @dataclass(frozen=True, slots=True, eq=False)
 class Kinematics:
     """
-    The water at points below the surface. Every array has their shape; vectors have one more axis,
-    of three: x, y, z.
+    The water at points below the surface. Arrays have their shape; vectors one more axis of three.
 
-    Out of the water, above the surface or below the bed, all is 0 but `heights`. Where a coordinate
-    or time was not finite, all is NaN.
+    Outside the water, above the surface or below the bed, all values are 0 but `heights`. Where a
+    coordinate or time is not finite, all values are NaN. float64, SI.
     """
 
     velocities: Real  # (..., 3) [m/s]
-    accelerations: (
-        Real  # (..., 3) [m/s^2]; the rate of change at a fixed point, as linear theory has it
-    )
-    pressures: Real  # dynamic pressure: what the waves add to -rho g z [Pa]
+    accelerations: Real  # (..., 3) [m/s^2]: linear, the rate of change at a fixed point
+    pressures: Real  # dynamic pressure, that of the waves without -rho g z [Pa]
     heights: Real  # of the linear surface above (x, y) [m]
-    wet: npt.NDArray[np.bool_]  # whether there is water
+    wet: npt.NDArray[np.bool_]  # True in the water
 
     __repr__ = brief_repr
 
@@ -68,37 +63,35 @@ def at(
         velocity upward    a omega sinh k(z + h)/sinh kh sin f
         dynamic pressure   rho a omega^2/k cosh k(z + h)/sinh kh cos f    = -rho d potential/dt
 
-    and heights are the sum of a cos f at (x, y) itself: theory with respect to fixed points, in
-    which choppiness has no part. `Query` has the displaced surface; the two differ by the square of
-    the steepness. All waves are summed at each point.
+    and heights are the sum of a cos f at (x, y) itself: this theory refers to fixed points, without
+    choppiness. `Query` has the displaced surface; the two differ by the square of the steepness.
+    All waves are summed at each point.
 
-    Stretching says what becomes of the theory, which ends at z = 0, in the crests above:
+    The theory ends at z = 0. Stretching extends it to the crests above:
 
-        none        nothing: water fills all below z = 0, and nothing above
-        vertical    above z = 0 all is as at z = 0
-        wheeler     the column from the bed to the surface takes the place of that from the bed to z
-        = 0: the profile is read at
-                    h (z - height)/(h + height), in deep water z - height
+        none        water fills all below z = 0, and nothing above
+        vertical    above z = 0 all values are those at z = 0
+        wheeler     the profile between bed and z = 0 is stretched to that between bed and surface:
+                    it is evaluated at h (z - height)/(h + height), in deep water z - height
 
     With Wheeler's stretching the pressure at the surface itself is rho g height, as it should be;
     with vertical, in the crests. (Exactly so for waves that obey the dispersion relation without
-    surface tension; on a loop, omega is rounded, and the pressure is that of the waves as they
-    run.)
+    surface tension; on a loop, omega is rounded, and the pressure is that of the rounded waves.)
 
     Args:
         source: an `Ocean`; a `Cascade`; `Modes`, as `ocean.modes()`; or a few-wave model, read as
             deep water linear waves.
-        x, y, z: where [m], z up from the mean level; any shapes that broadcast.
-        t: when [s]; broadcasts with them.
+        x, y, z: points [m], z up from the mean level; any shapes that broadcast.
+        t: times [s]; they broadcast with the points.
         stretching: "none", "vertical" or "wheeler".
-        shortest: waves shorter than this are left out [m].
+        shortest: wavelength below which waves are left out [m].
         depth: still-water depth of `Modes` [m], None is deep water; the other sources have their
             own.
-        threads: how many share the points.
+        threads: number of threads that share the points.
 
     Raises:
         ParameterError: a source without waves, or one that starts from rest; an unknown stretching;
-            what is not a number; shapes that do not broadcast.
+            values that are not numbers; shapes that do not broadcast.
 
     Source: Dean & Dalrymple, Water Wave Mechanics (1991), ch. 3 and 4; Wheeler 1970 (Journal of
     Petroleum Technology 22).
@@ -109,13 +102,14 @@ def at(
         raise ParameterError(
             f"stretching must be one of {', '.join(STRETCHINGS)}, got {stretching!r}"
         )
-    trains = trains_of(source, depth=depth, shortest=shortest)
-    if trains.model is not None and trains.model.tau > 0.0:
+    waves = list_waves(source, depth=depth, shortest=shortest)
+    if waves.model is not None and waves.model.tau > 0.0:
         raise ParameterError(
-            f"waves that start from rest do not obey linear theory: tau must be 0, got {trains.model.tau}"
+            "waves that start from rest do not obey linear theory: "
+            f"tau must be 0, got {waves.model.tau}"
         )
     points = [
-        coordinates(name, values) for name, values in (("x", x), ("y", y), ("z", z), ("t", t))
+        as_coordinates(name, values) for name, values in (("x", x), ("y", y), ("z", z), ("t", t))
     ]
     try:
         shape = np.broadcast_shapes(*(v.shape for v in points))
@@ -128,9 +122,9 @@ def at(
     )
     out = np.full((flat_x.size, 8), np.nan)  # velocity, acceleration, potential rate, height
     tasks: list[tuple[Callable[[Real, Real, Real], Real], npt.NDArray[np.intp]]] = []
-    for moment, here in moments_of(points[3], shape):
+    for moment, here in group_by_time(points[3], shape):
         if math.isfinite(moment):
-            work = _at_moment(trains, TIME.check("t", moment), stretching)
+            work = _at_moment(waves, TIME.check("t", moment), stretching)
             chosen = np.arange(flat_x.size)[here]
             tasks += [
                 (work, chosen[start : start + _BLOCK]) for start in range(0, chosen.size, _BLOCK)
@@ -148,7 +142,7 @@ def at(
             do(task)
     known = np.isfinite(out[:, 7]) & np.isfinite(flat_z)
     top = np.zeros_like(flat_z) if stretching == "none" else out[:, 7]
-    wet = known & (flat_z <= top) & (flat_z >= -trains.depth)
+    wet = known & (flat_z <= top) & (flat_z >= -waves.depth)
     out[known & ~wet, :7] = 0.0
     out[~known] = np.nan
     return Kinematics(
@@ -163,25 +157,23 @@ def at(
 _BLOCK = 256  # points at a time
 
 
-def _at_moment(trains: Trains, t: float, stretching: str) -> Callable[[Real, Real, Real], Real]:
-    """What answers for some points at one moment: (points, 8)."""
-    waves = np.stack([trains.kx, trains.ky, trains.amplitude, trains.push, trains.turned(t)])
+def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Real, Real], Real]:
+    """Return the function of points at one time, to velocity ... height, (points, 8)."""
+    tiles = as_tiles(waves, t)
 
     def work(x: Real, y: Real, z: Real) -> Real:
         out = np.empty((x.size, 8))
         origin, height, moved = (
-            np.empty(trains.sizes.shape),
+            np.empty(waves.sizes.shape),
             np.empty(x.size),
             np.empty((x.size, 7)),
         )
-        kernels.sum_heights(trains.sizes, trains.first, waves, x, y, origin, height)
-        level = np.clip(_read_at(z, height, trains.depth, stretching), -trains.depth, 0.0)
+        kernels.sum_heights(tiles, x, y, origin, height)
+        level = np.clip(_read_at(z, height, waves.depth, stretching), -waves.depth, 0.0)
         kernels.sum_below(
-            trains.sizes,
-            trains.first,
-            waves,
-            trains.omega,
-            trains.depth,
+            tiles,
+            waves.omega,
+            waves.depth,
             x,
             y,
             level,
@@ -195,13 +187,12 @@ def _at_moment(trains: Trains, t: float, stretching: str) -> Callable[[Real, Rea
 
 
 def _read_at(z: Real, height: Real, depth: float, stretching: str) -> Real:
-    """The level whose linear profile holds at z."""
+    """Return the level at which the linear profile is evaluated for z [m]."""
     if stretching != "wheeler":
         return z
     if math.isinf(depth):
         return z - height
     column = depth + height
-    with np.errstate(
-        divide="ignore", invalid="ignore"
-    ):  # a trough that bares the bed has no water to read
+    # A trough that bares the bed has no water above it.
+    with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(column > 0.0, depth * (z - height) / column, -depth)

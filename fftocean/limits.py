@@ -202,6 +202,18 @@ def _entry(name: str, place: tuple[int, ...]) -> str:
     return name + "".join(f"[{i}]" for i in place)
 
 
+def check_bool(name: str, value: Any) -> bool:
+    """
+    Return `value`, which must be True or False.
+
+    Raises:
+        ParameterError: it is anything else; 0 and 1 are numbers.
+    """
+    if not isinstance(value, bool):
+        raise ParameterError(f"{name} must be True or False, got {value!r:.60}")
+    return value
+
+
 def keep_checked(model: object, **quantities: Quantity) -> None:
     """
     Check the named fields of a frozen value, and store them as plain floats.

@@ -405,9 +405,11 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         )
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
-    ordered, loop, folding = (statistics.pop(name) or {} for name in ("ordered", "loop", "folding"))
+    specified, loop, folding = (
+        statistics.pop(name) or {} for name in ("specified", "loop", "folding")
+    )
     for prefix, numbers in (
-        ("ordered", ordered),
+        ("ordered", specified),  # the attributes' name in files of all versions
         ("measured", statistics),
         ("loop", loop),
         ("folding", folding),

@@ -15,6 +15,7 @@ from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.cells import WHOLE, Band, Cells
 from fftocean.errors import ParameterError, described
+from fftocean.fields import DISPLACEMENT_GRADIENT
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate
 from fftocean.limits import FRAMES, LOOP
@@ -187,7 +188,6 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     )
 
 
-_STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
 _WIDTHS = 1000.0
 """Widths of the largest tile over which the points are spread."""
 _POINTS = 2**16
@@ -207,13 +207,13 @@ def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     total: Folding | None = None
     for j in range(count):
         t = j * (span if period is None else period) / count
-        frames = [tile.frame(t, _STRETCHES) for tile in tiles]
+        frames = [tile.frame(t, DISPLACEMENT_GRADIENT) for tile in tiles]
         if len(frames) == 1:
-            xx, xy, yy = (frames[0][name] for name in _STRETCHES)
+            xx, xy, yy = (frames[0][name] for name in DISPLACEMENT_GRADIENT)
         else:
             summed = np.zeros((_POINTS, 3))
             for frame, (u, v) in zip(frames, points, strict=True):
-                texels = np.stack([frame[name] for name in _STRETCHES], axis=-1)
+                texels = np.stack([frame[name] for name in DISPLACEMENT_GRADIENT], axis=-1)
                 interpolate.bilinear(texels, u, v, summed)
             xx, xy, yy = (np.ascontiguousarray(column)[None] for column in summed.T)
         one = folding_of(xx, xy, yy, tiles[0].choppiness)
@@ -251,10 +251,6 @@ def specified(sea: Sea) -> SeaState:
     return SeaState(
         m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread
     )
-
-
-ordered = specified
-"""The earlier name of `specified`."""
 
 
 def peak_wavelength(ocean: Ocean) -> float:

@@ -10,7 +10,6 @@ QUICK = (
     "physics/",
     "export/",
     "test_amplitudes.py",
-    "test_cells.py",
     "test_fields.py",
     "test_grid.py",
     "test_limits.py",
@@ -18,7 +17,10 @@ QUICK = (
     "test_ocean.py",
     "test_products.py",
 )
-"""Places of tests that are done in half a minute, but for those marked `process` or `slow`."""
+"""Places of tests that are done in half a minute, but for those marked `process` and `SLOW`."""
+
+SLOW = ("export/test_bakes.py", "export/test_displace.py", "export/test_matrix.py")
+"""Places among these whose tests bake, or try every format in every engine."""
 
 PROCESS = (
     "baking/test_executors.py",
@@ -42,8 +44,8 @@ def pytest_collection_modifyitems(items):
             continue
         if place.startswith(PROCESS):
             item.add_marker(pytest.mark.process)
-        heavy = any(item.get_closest_marker(name) for name in ("process", "slow", "client"))
-        if place.startswith(QUICK) and not heavy:
+        slow = place.startswith(SLOW) or item.get_closest_marker("process")
+        if place.startswith(QUICK) and not slow:
             item.add_marker(pytest.mark.quick)
 
 

@@ -21,10 +21,11 @@ FLOORS = {
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner"],
-    5: ["cascade", "trains", "window"],
+    5: ["cascade", "wave_list", "window", "points", "point_results"],
     6: [
-        *("products", "foam", "eulerian", "mips", "kinematics", "query", "statistics"),
-        *("blend_loss", "polar_spectrum", "realised_spectrum", "measured_dispersion"),
+        *("products", "foam", "eulerian", "mips", "kinematics", "statistics", "blend_loss"),
+        *("summed_waves", "interpolated_tiles", "query"),
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
     7: ["job", "proof"],
     8: ["baking"],
@@ -39,9 +40,9 @@ STAIRS = [
     [["constants", "errors"], ["arrays", "host", "files"], ["limits"]],
     [
         ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
-        ["physics.spectra", "physics.spreading", "physics.tabulated"],
-        ["physics.double_peaked", "physics.spreading_laws"],
-        ["physics.wind_wavenumber"],
+        ["physics.kinds"],
+        ["physics.spreading"],
+        ["physics.spectra"],
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
@@ -49,7 +50,8 @@ STAIRS = [
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
-    [["cascade"], ["trains", "window"]],
+    [["cascade"], ["wave_list", "window"]],
+    [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["plots.theme"], ["plots"], ["bench.charts"]],
@@ -60,6 +62,21 @@ STEP = {
     for stair, steps in enumerate(STAIRS)
     for step, modules in enumerate(steps)
     for module in modules
+}
+
+# The floors within packages, lowest first; the parts of one floor do not know each other.
+INNER = {
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "baking": [
+        ["folder"],
+        ["scene"],
+        ["finished", "previews", "workers"],
+        ["survey"],
+        ["bake"],
+        ["cascade_setup", "estimate"],
+        ["cascade"],
+        ["dry_run", "repair"],
+    ],
 }
 
 ONLY = {
@@ -87,6 +104,16 @@ def room(module: str) -> str:
     return module.partition(".")[0]
 
 
+def declared(module: str) -> str:
+    """
+    Return the name under which a module stands on the stairs: its own, or that of the package
+    within its room, such as `physics.spectra` for `physics.spectra.jonswap`.
+    """
+    while module not in STEP and module.count(".") > 1:
+        module = module.rpartition(".")[0]
+    return module
+
+
 def imports(module: str, source: str, known: set[str], is_package: bool = False) -> set[str]:
     """Return the modules of the package that a source imports, but for its declared doors."""
     return imports_in(module, source, known | FLOOR.keys(), is_package, DOORS)
@@ -103,6 +130,7 @@ def objection(importer: str, imported: str) -> str | None:
             else "the public names are for those outside"
         )
     a, b = room(importer), room(imported)
+    importer, imported = declared(importer), declared(imported)
     if b not in FLOOR or (b == "physics" and imported not in STEP):
         return "no floor is declared for it"
     if a == b and a in ONLY:
@@ -115,6 +143,8 @@ def objection(importer: str, imported: str) -> str | None:
         return None
     if FLOOR[b] > FLOOR[a]:
         return f"floor {FLOOR[b]} lies above floor {FLOOR[a]}"
+    if importer == imported:  # the modules of one package
+        return None
     if importer in STEP and imported in STEP and STEP[importer][0] == STEP[imported][0]:
         return None if STEP[imported][1] < STEP[importer][1] else "it is no step further down"
     return None if a == b else f"both are on floor {FLOOR[a]}"
@@ -129,7 +159,8 @@ def objections(sources: dict[str, str], packages: set[str]) -> list[str]:
     for module, source in sources.items():
         name = module or "the package"
         if module != ROOF and (
-            room(module) not in FLOOR or (room(module) == "physics" and module not in STEP)
+            room(module) not in FLOOR
+            or (room(module) == "physics" and declared(module) not in STEP)
         ):
             found.append(f"{name} has no declared floor")
             continue
@@ -241,6 +272,42 @@ def test_no_module_waits_for_itself():
     assert [module for module in bare if module in reach(bare, module)] == []
 
 
+def box(module: str, package: str) -> str | None:
+    """Return the part of a package that a module belongs to: a folder, or the module itself."""
+    inner = module.removeprefix(f"{package}.")
+    return None if inner == module else inner.partition(".")[0]
+
+
+def arrows(imported_by: dict[str, set[str]], package: str) -> set[tuple[str, str]]:
+    """Return (importer, imported) of the parts of a package that import each other."""
+    found = {
+        (box(importer, package), box(module, package))
+        for importer, modules in imported_by.items()
+        for module in modules
+    }
+    return {(a, b) for a, b in found if a and b and a != b}
+
+
+def upward(imported_by: dict[str, set[str]], package: str) -> list[tuple[str, str]]:
+    """Return the arrows of a package that do not lead to a lower floor of `INNER`."""
+    floor = {name: i for i, names in enumerate(INNER[package]) for name in names}
+    return sorted((a, b) for a, b in arrows(imported_by, package) if not floor[b] < floor[a])
+
+
+@pytest.mark.parametrize("package", INNER)
+def test_imports_within_a_package_point_down(package):
+    parts = {box(module, package) for module in sources()} - {None}
+    assert parts == {name for names in INNER[package] for name in names}
+    assert upward(graph(), package) == []
+
+
+def test_an_upward_import_within_a_package_is_caught():
+    forged = {**graph(), "baking.folder.layout": {"baking.scene.maps"}}
+    assert upward(forged, "baking") == [("folder", "scene")]
+    forged = {**graph(), "baking.workers.local": {"baking.finished.load"}}
+    assert upward(forged, "baking") == [("workers", "finished")]
+
+
 def test_names_on_the_stairs_belong_to_the_floor():
     for stair in STAIRS:
         modules = [module for steps in stair for module in steps]
@@ -262,6 +329,7 @@ KNOWN = {
     "physics",
     "physics.sea",
     "physics.spectra",
+    "physics.spectra.jonswap",
     "physics.dispersion",
     "kernels",
     "kernels.passes",
@@ -380,6 +448,11 @@ def complaints(module: str, source: str) -> list[str]:
             "physics.spectra",
             "from . import sea",
             "must not import physics.sea: it is no step further down",
+        ),
+        (
+            "physics.spreading.blend",
+            "from fftocean.physics.spectra.jonswap import JONSWAP",
+            "must not import physics.spectra.jonswap: it is no step further down",
         ),
         (
             "physics.moments",
@@ -531,6 +604,11 @@ def test_a_forged_breach_is_caught(module, source, says):
         (
             "cli",
             "import fftocean\nfrom fftocean import dispersion, Sea\nfftocean.bake()\nprint('done')",
+        ),
+        (
+            "physics.spectra.tma",
+            "from fftocean.physics.spectra.jonswap import JONSWAP\n"
+            "from .jonswap import fetch_limited",
         ),
         ("__main__", "from fftocean.cli import main"),
         ("limits", "from fftocean.errors import ParameterError"),

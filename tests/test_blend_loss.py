@@ -1,6 +1,4 @@
-"""
-Blending loss: the closed form on one wave, frames blended in earnest, and the rate that is enough.
-"""
+"""Blending loss: the closed form on one wave, blended frames of a sea, and the sufficient rate."""
 
 import json
 import math
@@ -136,9 +134,11 @@ def test_flat_water_loses_nothing():
 def test_what_is_told():
     ocean = fo.Job.default().ocean()
     few, some, many = (blend.loss(ocean, frames) for frames in (64, 80, 240))
-    head = "blending frames at {:.3g} a second keeps {:.1f} % of the waves' height and {:.1f} % of their slopes"
+    head = "blending frames at {:.3g} a second keeps {:.1f} % of the waves' height "
+    head += "and {:.1f} % of their slopes"
     told = [head.format(b.rate, 100 * b.kept, 100 * b.kept_slopes) for b in (few, some, many)]
-    slopes = f"{few.enough_frames_slopes} frames ({few.enough_rate_slopes:.3g} a second) keep 97 % of the slopes"
+    slopes = f"{few.enough_frames_slopes} frames ({few.enough_rate_slopes:.3g} a second) "
+    slopes += "keep 97 % of the slopes"
     assert (
         blend.sentence(few)
         == f"{told[0]}; {few.enough_frames} frames keep 97 % of the height, {slopes}"

@@ -1,4 +1,7 @@
-"""Foam of loops and of running seas against a dense quadrature and closed forms."""
+"""
+Foam remembers, decays, and closes its loop: against a dense quadrature of the integral, and against
+what must hold of any.
+"""
 
 import itertools
 import math
@@ -7,7 +10,8 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean.foam import DISPLACEMENT_GRADIENT, SPAN, Foam, coverage, longest_step, spans_of
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import SPAN, Foam, coverage, longest_step, spans_of
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 LOOP = 24.0
@@ -27,7 +31,7 @@ def ocean():
 
 
 def whole_loop(ocean, count, foam=FOAM):
-    """Return the states of every frame, (count, ny, nx)."""
+    """The states of every frame, (count, ny, nx)."""
     starts = foam.starts(
         [foam.response(ocean, count, *span) for span in spans_of(count)], ocean, count
     )
@@ -38,33 +42,31 @@ def whole_loop(ocean, count, foam=FOAM):
 
 
 def difference(a, b):
-    """Return the root mean square of a - b over that of b."""
+    """Root mean square of a - b over that of b."""
     return math.sqrt(np.mean((a - b) ** 2) / np.mean(b**2))
 
 
 def eigenvalues_summed(ocean, ix, iy, times):
     """
-    Return the smallest eigenvalue of the deformation gradient, (times, points).
-
-    Waves are summed one by one, and the eigenvalues are numpy's.
+    Return the smallest eigenvalue at grid points and times, (times, points): waves summed one by
+    one, eigenvalues by numpy.
     """
     w = ocean.modes()
     k = np.hypot(w.kx, w.ky)
     x, y = ix * ocean.grid.lx / ocean.grid.nx, iy * ocean.grid.ly / ocean.grid.ny
-    phase = np.exp(1j * (np.outer(x, w.kx) + np.outer(y, w.ky) - w.phase))
-    rotation = np.exp(-1j * np.outer(times, w.omega))
+    place = np.exp(1j * (np.outer(x, w.kx) + np.outer(y, w.ky) - w.phase))
+    turn = np.exp(-1j * np.outer(times, w.omega))
     xx, xy, yy = (
-        -np.real(np.einsum("tm,pm->tp", rotation * (w.amplitude * a * b / k), phase, optimize=True))
+        -np.real(np.einsum("tm,pm->tp", turn * (w.amplitude * a * b / k), place, optimize=True))
         for a, b in ((w.kx, w.kx), (w.kx, w.ky), (w.ky, w.ky))
     )
     c = ocean.choppiness
-    deformation = np.stack(
-        [np.stack([1 + c * xx, c * xy], -1), np.stack([c * xy, 1 + c * yy], -1)], -1
-    )
+    rows = [[1 + c * xx, c * xy], [c * xy, 1 + c * yy]]
+    deformation = np.stack([np.stack(row, -1) for row in rows], -1)
     return np.linalg.eigvalsh(deformation)[..., 0]
 
 
-def test_foam_of_a_loop_is_that_of_a_dense_quadrature(ocean):
+def test_against_a_dense_quadrature(ocean):
     """
     f(t) = integral over all the past of e^{-(t - s)/tau} source(s): 6000 rectangles a loop, whose
     error is 1e-4 here.
@@ -76,10 +78,12 @@ def test_foam_of_a_loop_is_that_of_a_dense_quadrature(ocean):
     dense = 6000
     times = np.arange(dense) * (LOOP / dense)
     source = 40.0 * np.maximum(0.8 - eigenvalues_summed(ocean, ix, iy, times), 0.0)
-    # of all the loops before
-    memory = np.exp(-times / 2.0) / (1.0 - math.exp(-LOOP / 2.0))
-    # both ends of the integral fall on one sample
-    memory[0] = 0.5 * memory[0] + 0.5 * memory[0] * math.exp(-LOOP / 2.0)
+    memory = np.exp(-times / 2.0) / (
+        1.0 - math.exp(-LOOP / 2.0)
+    )  # of all the turns of the loop before
+    memory[0] = 0.5 * memory[0] + 0.5 * memory[0] * math.exp(
+        -LOOP / 2.0
+    )  # both ends of the integral fall on one sample
     count = 60
     truth = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[
         :: dense // count
@@ -113,7 +117,7 @@ def test_halving_the_step_changes_less_than_one_percent(ocean, count):
     assert np.max(np.abs(coverage(coarse) - coverage(fine))) < 0.01
 
 
-def test_a_frame_s_bits_do_not_depend_on_the_frames_asked_for(ocean):
+def test_a_frame_s_bits_do_not_depend_on_who_asks(ocean):
     """
     From a stored state, frames alone, in any number, by another ocean: the same bits; and `loop`
     yields these.
@@ -134,7 +138,7 @@ def test_a_frame_s_bits_do_not_depend_on_the_frames_asked_for(ocean):
     assert all(np.array_equal(a, b) for a, b in zip(FOAM.loop(ocean, count), whole, strict=True))
 
 
-def test_the_mean_foam_of_one_wave_is_that_of_the_closed_form():
+def test_one_wave_on_average():
     """
     Threshold 1 and one wave: the source is strength c a k max(cos, 0), 1/pi of the amplitude on
     average; the mean foam is tau times that.
@@ -169,7 +173,7 @@ def test_no_foam_where_nothing_breaks():
     assert not np.any(list(Foam(threshold=1.0).loop(calm, 3)))
     assert longest_step(calm) == math.inf
     assert not np.any(Foam(threshold=1.0).live(calm).at(9.0))
-    small = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=20.0, loop=8.0)  # compressed by 3 %
+    small = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=20.0, loop=8.0)  # eigenvalue 0.97
     assert not np.any(list(Foam().loop(small, 3)))
 
 
@@ -199,12 +203,12 @@ def test_live_foam_does_not_depend_on_how_often_it_is_asked(ocean):
     assert np.array_equal(often.at(9.1), seldom.at(9.1))
     assert np.array_equal(often.at(9.1), seldom.at(9.1))  # the same moment once more
     with pytest.raises(
-        fo.ParameterError, match=r"cannot go back in time: t must be at least 9\.1, got 9\.0"
+        fo.ParameterError, match=r"cannot go back: t must be at least 9\.1, got 9\.0"
     ):
         often.at(9.0)
 
 
-def test_a_leap_of_live_foam_costs_twenty_decay_times(ocean, monkeypatch):
+def test_live_foam_leaps(ocean, monkeypatch):
     """
     A leap of a thousand decay times costs twenty, and ends where a start thirty before it ends.
     """
@@ -236,12 +240,12 @@ def test_live_foam_starts_clean(ocean):
         ({"tau": "long"}, "tau must be a number"),
     ],
 )
-def test_parameters_out_of_range_are_refused(changes, says):
+def test_impossible_foam_is_refused(changes, says):
     with pytest.raises(fo.ParameterError, match=says):
         Foam(**changes)
 
 
-def test_foam_of_a_loop_needs_a_loop():
+def test_a_sea_without_a_loop_has_no_foam_of_a_loop():
     free = fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=8, size=20.0)
     with pytest.raises(fo.ParameterError, match="needs an ocean that loops"):
         list(Foam().loop(free, 4))
@@ -270,7 +274,7 @@ def test_what_is_no_water_is_refused_by_name(wrong, ocean):
 
 
 @pytest.mark.parametrize(("tau", "count"), [(1e-3, 4), (1e6, 4)])
-def test_the_mean_foam_holds_for_extreme_decay_times(tau, count, ocean):
+def test_extreme_decay_times(tau, count, ocean):
     """
     Decay within a step, and none within a loop: the mean of the state is tau times the mean of the
     source, as for any tau.

@@ -15,7 +15,7 @@ A, M, L, C = 0.7, (2, 1), 60.0, 1.2
 
 @pytest.fixture(scope="module")
 def one_wave():
-    """A single wave, its phase angle at every sample, its wavenumber."""
+    """Return the frame of one wave, its phase [rad] at every sample (ny, nx), kx, ky, k [rad/m]."""
     ocean = fo.Ocean.from_modes([(*M, A, 0.4)], n=32, size=L, dtype="float64", choppiness=C)
     x, y = np.meshgrid(ocean.grid.x, ocean.grid.y)
     kx, ky = (2 * np.pi * m / L for m in M)
@@ -138,8 +138,8 @@ def test_folds_of_one_wave(steepness):
 
 def test_folds_of_a_sea_equal_those_of_the_direct_sum():
     """
-    Over a loop, at more choppiness than all samples bear: against eigenvalues by LAPACK of the
-    direct sum's stretches.
+    Over a loop, with some samples folded: against LAPACK's eigenvalues of the direct sum's
+    displacement gradient.
     """
     sea = fo.Sea.from_wind(speed=12.0, fetch=100e3)
     ocean = fo.Ocean(sea, n=24, size=80.0, seed=3, loop=60.0, dtype="float64", choppiness=5.0)

@@ -152,8 +152,7 @@ def test_an_ocean_without_waves_passes(n, dtype):
 @pytest.mark.parametrize("dtype", ["float32", "float64"])
 def test_waves_below_the_precision_of_the_type_count_as_none(dtype, scale):
     """
-    Amplitudes that float32 rounds to nothing, or to a few bits: a tile far from its sea's peak has
-    such.
+    float32 rounds such amplitudes to 0 or to a few bits; a tile far from its sea's peak has them.
     """
     tiny = fo.Ocean.from_modes(
         [(mx, my, a * scale, p) for mx, my, a, p in WAVES],
@@ -167,8 +166,7 @@ def test_waves_below_the_precision_of_the_type_count_as_none(dtype, scale):
 
 def test_a_tile_that_holds_nothing_of_its_sea_passes():
     """
-    Ripples of 2 m/s in a tile of a kilometre: what falls into its band is below the least number
-    there is.
+    Ripples of a wind of 2 m/s on a tile of a kilometre are below the least number of float32.
     """
     for size in (400.0, 1348.0):
         assert (
@@ -182,8 +180,7 @@ def test_a_tile_that_holds_nothing_of_its_sea_passes():
 @pytest.mark.parametrize("seed", range(60))
 def test_folds_do_not_fail_the_normals(seed):
     """
-    Where the surface is folded over to an edge a rounding turns its normal, and so it is weighted
-    with the area.
+    At the edge of a fold a rounding turns the normal; its error is weighted with the area there.
     """
     rng = np.random.default_rng(seed)
     waves = [
@@ -200,22 +197,21 @@ def test_folds_do_not_fail_the_normals(seed):
 @pytest.mark.parametrize("tile", [(8, 60.0), (16, 150.0)])
 def test_the_tolerance_of_m0_covers_2000_realisations(tile):
     """
-    m0 of 2000 draws of few waves, exponential each: all within the bound, which is no more than
-    three times what one in 1000 exceeds.
+    Energies are exponential: m0 of 2000 realisations is within the tolerance, which is at most 3
+    times the 99.9th percentile of the errors.
     """
     base = ocean(n=tile[0], size=tile[1])
-    bound, _ = proof._likely(base)
+    tolerance, _ = proof._likely(base)
     a = base.amplitudes
     energy = np.concatenate([a.variance_forward.ravel(), a.variance_backward[:, 1:].ravel()])
-    draws = np.random.default_rng(1).exponential(size=(2000, energy.size)) @ energy / a.variance
-    assert np.all(np.abs(draws - 1.0) <= bound)
-    assert bound < 3.0 * np.quantile(np.abs(draws - 1.0), 0.999)
+    m0 = np.random.default_rng(1).exponential(size=(2000, energy.size)) @ energy / a.variance
+    assert np.all(np.abs(m0 - 1.0) <= tolerance)
+    assert tolerance < 3.0 * np.quantile(np.abs(m0 - 1.0), 0.999)
 
 
 def test_checks_have_names_reasons_and_small_tolerances():
     """
-    Every field within 1e-12 (1e-6 in float32), and no bound above a hundredth but for the one that
-    is about chance.
+    Fields have 1e-12 (1e-6 in float32), and only the check of a random quantity has more than 1e-2.
     """
     double, single = fo.verify(ocean()), fo.verify(ocean(dtype="float32"))
     assert [c.name for c in double] == [c.name for c in single]
@@ -239,8 +235,7 @@ def test_nan_does_not_pass():
 
 def rendered(patch, change):
     """
-    Let every frame that an ocean renders pass through `change(ocean, frame)`, whichever way it was
-    asked for.
+    Pass every frame of every ocean through `change(ocean, frame)`.
     """
     for name in ("frame", "loop_frame"):
         real = getattr(fo.Ocean, name)
@@ -254,17 +249,17 @@ def rendered(patch, change):
 
 
 def forget_plans():
-    """Whatever was drawn up from the table of signs and kept."""
-    for name, room in list(sys.modules.items()):
+    """Clear all caches of the package, which hold results of the table of signs."""
+    for name, module in list(sys.modules.items()):
         if name.startswith("fftocean"):
-            for value in list(vars(room).values()):
+            for value in list(vars(module).values()):
                 if hasattr(value, "cache_clear"):
                     value.cache_clear()
 
 
 @pytest.fixture
 def table(monkeypatch):
-    """The table of signs, to be written on."""
+    """Give a function that replaces a row of the table of signs."""
     forget_plans()
     yield lambda name, row: monkeypatch.setitem(FIELDS, name, row)
     monkeypatch.undo()
@@ -288,7 +283,7 @@ WRONG_ROWS = {
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_a_wrong_row_in_the_table_of_signs_fails_its_field(name, table):
-    """That field, what is made of it point by point, and no other field."""
+    """The field fails, its pointwise products fail, and no other field does."""
     of_it = {name, *(product for product, parts in POINTWISE.items() if name in parts)}
     table(name, FIELDS[WRONG_ROWS[name]])
     assert set(failed(few())) & {*FIELDS, *POINTWISE} == of_it
@@ -296,10 +291,7 @@ def test_a_wrong_row_in_the_table_of_signs_fails_its_field(name, table):
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_a_flipped_sign_fails_its_field(name, monkeypatch):
-    """
-    As a flipped sign in that row of the table would come out, with the products that are made of
-    it.
-    """
+    """The frame is as a flipped sign in that row would leave it, with its pointwise products."""
     of_it = {name, *(product for product, parts in POINTWISE.items() if name in parts)}
     of_it -= {"jacobian"} if name == "stretch_xy" else set()  # which has its square
 
@@ -315,7 +307,7 @@ def test_a_flipped_sign_fails_its_field(name, monkeypatch):
 
 
 def linear(change):
-    """Every linear field through `change(array)`, in place."""
+    """Pass every linear field through `change(array)`, in place."""
 
     def apply(_, frame):
         for name in set(frame.fields) - set(POINTWISE):
@@ -330,7 +322,7 @@ def lifted(_, frame):
 
 
 def product(name, change):
-    """One pointwise field through `change(ocean, frame)`."""
+    """Pass one pointwise field through `change(ocean, frame)`."""
 
     def apply(ocean, frame):
         if name in frame.fields:  # and so are all linear fields, where the proof asks for it
@@ -340,7 +332,7 @@ def product(name, change):
 
 
 def with_choppiness(factor, make):
-    """A product of the same moment with another choppiness than the ocean says it has."""
+    """Return a change of a product to another choppiness than the ocean's."""
 
     def change(_, frame):
         linear = {name: frame[name] for name in frame.fields if name in FIELDS}
@@ -359,7 +351,7 @@ def method(name, make):
 
 
 def drifting(modes):
-    """Waves whose frequencies are not whole turns of the loop."""
+    """Return waves whose frequencies are not whole numbers of cycles in the loop."""
 
     def changed(self):
         waves = modes(self)
@@ -475,7 +467,7 @@ def test_a_fault_fails_under_its_name(what, dtype, monkeypatch):
     ["choppiness twice in the normals", "no Jacobian off the diagonal", "the loop runs backwards"],
 )
 def test_a_fault_in_one_quantity_fails_that_check_alone(what, monkeypatch):
-    """The proof points at the fault: what is right beside it still passes."""
+    """Quantities beside the faulty one still pass."""
     BROKEN[what][0](monkeypatch)
     assert failed(few()) == BROKEN[what][1]
 
@@ -513,13 +505,13 @@ ENERGY_BROKEN = {
 
 @pytest.mark.parametrize("what", ENERGY_BROKEN)
 def test_wrong_energy_fails_under_its_name(what, monkeypatch):
-    """The fields follow their waves whatever these are; only the sums over energy can tell."""
+    """The fields agree with their waves; only the checks of energy fail."""
     patch, arguments, name = ENERGY_BROKEN[what]
     patch(monkeypatch)
     assert failed(ocean(**arguments)) == [name]
 
 
-def test_every_line_of_the_proof_has_been_seen_to_fail():
+def test_every_check_fails_for_some_fault():
     seen = {name for _, names in BROKEN.values() for name in names} | {
         name for *_, name in ENERGY_BROKEN.values()
     }
@@ -529,7 +521,7 @@ def test_every_line_of_the_proof_has_been_seen_to_fail():
 # From the command line
 
 
-def test_the_command_proves_the_default_sea(capsys):
+def test_the_command_passes_the_default_sea(capsys):
     assert main(["verify", "--n", "16"]) == 0
     out, err = capsys.readouterr()
     assert "23 of 23 checks passed\n" in out

@@ -17,7 +17,7 @@ import fftocean as fo
 from fftocean import host, science
 from fftocean.errors import OutputError, ParameterError, SeaWarning
 from fftocean.fields import FIELDS
-from fftocean.statistics import ordered
+from fftocean.statistics import specified
 
 xr = pytest.importorskip("xarray", reason="the extra `science` is not installed")
 
@@ -291,7 +291,7 @@ def test_attributes_hold_parameters_and_statistics():
     assert {key: told[key] for key in expected} == expected
     for key in ("m0", "hs", "tp", "mean_direction", "spread", "energy_above"):
         assert told[f"measured_{key}"] == getattr(s, key)
-    for key, value in dataclasses.asdict(ordered(SEA)).items():
+    for key, value in dataclasses.asdict(specified(SEA)).items():
         assert told[f"ordered_{key}"] == value
     assert told["loop_period"] == 60.0
     assert told["loop_rms"] == s.loop.rms
@@ -818,7 +818,7 @@ def test_a_sea_can_be_made_from_the_spectrum_again(tmp_path):
     again = readers.sea_from_spectrum(readers.open(tmp_path / "a.nc"))
     energy, _, theta = energies(o)
     direction, spread = fo.moments.mean_direction_and_spread(energy, theta)
-    state = ordered(again)
+    state = specified(again)
     assert again.depth == 25.0
     assert again.hs == pytest.approx(
         4 * math.sqrt(np.sum(energy)), rel=1e-6

@@ -62,8 +62,8 @@ def test_statistics_of_one_wave():
 
 def test_specified_values_are_those_of_from_sea_state():
     """
-    Hs as from_sea_state took it, Tp to the curve's own resolution, direction as given; spread of
-    cos^2 is 1 - 8/(3 pi) exactly.
+    Hs and direction are those given, Tp to the resolution of its curve; the spread of cos^2 follows
+    from 1 - 8/(3 pi).
     """
     sea = fo.Sea(
         fo.WaveSystem(
@@ -165,7 +165,7 @@ def test_the_shortest_and_the_longest_loop_have_an_error_too(period):
     assert 1e-2 <= e.better_period <= 1e9
 
 
-def test_a_flat_sea_measures_as_nothing():
+def test_statistics_of_a_flat_sea_are_zero():
     s = fo.measure(fo.Ocean(fo.Sea(), n=8, size=10.0, loop=5.0))
     assert (s.m0, s.hs, s.tp, s.mean_direction, s.spread) == (0.0,) * 5
     assert s.loop is not None
@@ -188,8 +188,7 @@ def test_folds_are_measured_over_the_loop():
 
 def test_folds_of_a_cascade_are_those_of_its_sum():
     """
-    Two tiles of which neither folds, and whose sum does: crests of 0.6 and of 0.7 in steepness, one
-    within the other.
+    Neither of two tiles folds, but their sum does: crests have steepnesses of 0.6 and 0.7.
 
     The share is that of cos f + 7/6 cos g > 1/0.6 over both phases, by quadrature; the smallest
     Jacobian is 1 - 1.3 within 2 %.

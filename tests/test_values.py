@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean.physics.tabulated import TabulatedSpreading
+from fftocean.physics.spreading import TabulatedSpreading
 
 TABLE = fo.TabulatedSpectrum(np.linspace(0.05, 0.5, 64), np.ones(64))
 ROSE = TabulatedSpreading(

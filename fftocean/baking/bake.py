@@ -46,7 +46,7 @@ from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
 
-SMALL = 2e7
+SERIAL_SAMPLES = 2e7
 """
 Samples of all frames and maps that one process writes in the time in which others would start.
 """
@@ -99,7 +99,8 @@ def bake(
     """
     if not isinstance(job, Job):
         raise JobError(
-            f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got {described(job)}"
+            f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got "
+            f"{described(job)}"
         )
     executor = check_executor(executor, workers)
     folder = path_of("folder", folder)
@@ -184,7 +185,8 @@ def scene_for(job: Job, downsample: int, frames: int) -> Scene:
             formats.require(scene.form.name, shape, scene.levels, gutter=scene.profile.gutter)
         except ParameterError as error:
             raise JobError(
-                f"{job.source}: bake.format {scene.form.name!r} cannot hold the map {name!r}: {error}"
+                f"{job.source}: bake.format {scene.form.name!r} cannot hold the map "
+                f"{name!r}: {error}"
             ) from None
     return scene
 
@@ -239,7 +241,7 @@ def _kept_frames(
     plan: Plan, scene: Scene, log: RunLog
 ) -> tuple[dict[int, dict[str, Any]], dict[str, Any]]:
     """
-    Return the rows of earlier runs whose files are unchanged, by frame, and the finished containers.
+    Return the rows of earlier runs with unchanged files, by frame, and the finished containers.
     """
     containers: dict[str, Any] = next(iter(log.recorded("containers")), {})
     places = {j: place for place, j in enumerate(plan.frames)}
@@ -268,7 +270,7 @@ def choose_workers(executor: str, workers: int | None, scene: Scene, todo: int) 
     count = max(1, min(workers or cores(), todo, int(min(most, 1024))))
     if executor == "auto":
         samples = float(grid.nx * grid.ny) * todo * len(scene.job.maps)
-        executor = "processes" if count > 1 and samples > SMALL else "serial"
+        executor = "processes" if count > 1 and samples > SERIAL_SAMPLES else "serial"
     return executor, 1 if executor == "serial" else count
 
 

@@ -161,7 +161,7 @@ class TileSet:
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield the rows of the table that `info` prints: a name and a text each."""
         s = self.statistics
-        assert s.ordered is not None  # a job has a sea
+        assert s.specified is not None  # a job has a sea
         for tile, ocean in zip(self.tile_jobs, self.cascade.oceans, strict=True):
             yield (
                 tile.path,
@@ -171,10 +171,11 @@ class TileSet:
             )
         yield (
             "significant wave height Hs",
-            f"{s.ordered.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
+            f"{s.specified.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
         )
-        yield "peak period Tp", f"{s.ordered.tp:.2f} s specified, {s.tp:.2f} s realised"
+        yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
+        yield "folds", str(s.folding)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "
@@ -224,13 +225,16 @@ def summable(job: Job) -> Job:
             )
     if job.lookup != "lagrangian":
         raise JobError(
-            f"{source}: bake.lookup 'eulerian' cannot be baked for tiles: the water at a place depends "
+            f"{source}: bake.lookup 'eulerian' cannot be baked for tiles: the water at a "
+            f"place depends "
             "on the sum of all tiles' displacements; bake lagrangian maps, or use fo.Query(cascade)"
         )
     if job.maps == BY_KEY["bake.maps"].default:
         warnings.warn(
-            f"the maps of each tile are {', '.join(INGREDIENTS)} in place of {', '.join(job.maps)}: the "
-            "normal of the sum is formed of summed slopes and stretches (cascade.json describes it)",
+            f"the maps of each tile are {', '.join(INGREDIENTS)} in place of "
+            f"{', '.join(job.maps)}: the "
+            "normal of the sum is formed of summed slopes and stretches (cascade.json "
+            "describes it)",
             SeaWarning,
             stacklevel=4,
         )

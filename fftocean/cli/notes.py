@@ -50,7 +50,7 @@ def note_folds(extremes: Mapping[str, Any]) -> None:
 
 
 def print_loading(job: "Job") -> None:
-    """Print how files of the format are loaded into the engine, where a job names one."""
+    """Print how files of the format are loaded into the engine, if the job names one."""
     from fftocean.export.engines import profile_for
 
     if job.engine != "canonical":

@@ -22,8 +22,8 @@ COMMANDS = (
 )
 
 EXIT_CODES = (
-    "exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity, 6 folder in use, "
-    "130 interrupted\n"
+    "exit codes: 0 ok, 2 usage or job, 3 bad input file, 4 output, 5 integrity,\n"
+    "            6 folder in use, 130 interrupted\n"
 )
 
 
@@ -69,8 +69,8 @@ def build_parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="fftocean",
         usage="fftocean COMMAND [options]",
-        description="Specify a sea state; get a seamlessly tiling, looping ocean surface; verify "
-        "that it has\nthe statistics you asked for; export it to any game engine.",
+        description="Specify a sea state; get a seamlessly tiling, looping ocean surface;\n"
+        "verify that it has the statistics you asked for; export it to any game engine.",
         epilog=f"example:\n  fftocean bake -o sea\n\n{EXIT_CODES}",
         formatter_class=layout,
     )

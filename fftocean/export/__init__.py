@@ -1,1 +1,1 @@
-"""Arrays to files. Scaling and conversion happen here and nowhere else."""
+"""Encoding of arrays in files, the only place where they are scaled and converted."""

@@ -1,9 +1,9 @@
 """
-Atlas of frames in one OpenEXR picture, with a gutter of repeated texels around each frame.
+Atlas of frames in one OpenEXR image, with a gutter of repeated texels around each frame.
 
-A bilinear sampler that comes near a frame's edge reads the texel beyond it. In an atlas that is
-another frame's; the gutter puts there the texel from the frame's opposite edge instead, so that
-the frame wraps. An engine that cuts the atlas into the layers of an array needs none.
+Near a frame's edge a bilinear sampler reads the texel beyond it. In an atlas that texel belongs to
+another frame; the gutter repeats the texel of the frame's opposite edge there, so that the frame
+wraps. An engine that cuts the atlas into the layers of an array needs no gutter.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,26 +20,26 @@ from fftocean.export.form import (
     Format,
     Layout,
     Scale,
-    counted,
-    halves,
-    numbered,
+    as_half,
+    enumerate_payloads,
     one_level,
     require_finite,
     require_shape,
     require_size,
+    select_channels,
 )
 
-LARGEST_SIDE = 16384  # of a texture, on today's graphics cards
+LARGEST_SIDE = 16384  # of a texture on current graphics cards
 
 
 def tiles(frames: int, rows: int, columns: int, gutter: int = 0) -> tuple[int, int]:
     """
-    Return how many frames stand side by side and one below the other, without an empty cell.
+    Return the numbers of frames across and down, as square as possible, without an empty cell.
 
-    As square as can be; an engine would play an empty cell as a frame.
+    An engine would play an empty cell as a frame.
 
     Raises:
-        ParameterError: there is no such arrangement within a texture's size.
+        ParameterError: no such arrangement fits in a texture.
     """
     high, wide = rows + 2 * gutter, columns + 2 * gutter
     fitting = [
@@ -72,12 +72,12 @@ def _join(payloads: Iterable[bytes], layout: Layout) -> bytes:
     rows, columns, channels = layout.frame
     g = layout.gutter
     high, wide = rows + 2 * g, columns + 2 * g
-    picture = np.empty((down, high, across, wide, channels), dtype=np.float16)
-    for i, payload in numbered(payloads, layout.frames, 2 * rows * columns * channels):
+    image = np.empty((down, high, across, wide, channels), dtype=np.float16)
+    for i, payload in enumerate_payloads(payloads, layout.frames, 2 * rows * columns * channels):
         frame = np.frombuffer(payload, dtype="<f2").reshape(rows, columns, channels)
         around = np.pad(frame, ((g, g), (g, g), (0, 0)), mode="wrap")
-        picture[i // across, :, i % across] = around
-    return exr.encode(picture.reshape(down * high, across * wide, channels), periodic=False)
+        image[i // across, :, i % across] = around
+    return exr.encode(image.reshape(down * high, across * wide, channels), periodic=False)
 
 
 def _split(data: bytes | memoryview, layout: Layout) -> list[bytes]:
@@ -88,7 +88,7 @@ def _split(data: bytes | memoryview, layout: Layout) -> list[bytes]:
     pixels = exr.read(bytes(data), (down * high, across * wide))
     if pixels.dtype != np.float16:
         raise IntegrityError(f"format exr-atlas must hold float16, got {pixels.dtype}")
-    whole = counted(pixels, (down * high, across * wide, channels))
+    whole = select_channels(pixels, (down * high, across * wide, channels))
     cells = whole.reshape(down, high, across, wide, channels)
     parts = []
     for i in range(layout.frames):
@@ -110,7 +110,7 @@ def _facts(layout: Layout) -> Mapping[str, Any]:
 
 
 def _encode(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
-    return halves(pixels).astype("<f2", copy=False).tobytes()
+    return as_half(pixels).astype("<f2", copy=False).tobytes()
 
 
 def _decode(

@@ -14,13 +14,13 @@ from fftocean.export.form import (
     Format,
     Layout,
     Scale,
-    counted,
-    halves,
-    numbered,
+    as_half,
+    enumerate_payloads,
     one_level,
     require_finite,
     require_shape,
     require_size,
+    select_channels,
 )
 from fftocean.files import as_json
 
@@ -43,18 +43,18 @@ def encode_rgba(pixels: Real, _scale: Scale, levels: Sequence[Real]) -> bytes:
     Return a frame as half RGBA, its smaller levels behind it.
 
     Raises:
-        ParameterError: a level has not the size that it must have.
+        ParameterError: a level has the wrong size.
     """
     sizes = level_sizes(pixels.shape[0], pixels.shape[1], 1 + len(levels))
     for level, size in zip(levels, sizes[1:], strict=True):
         if level.shape != (*size, pixels.shape[2]):
             wanted = (*size, pixels.shape[2])
             raise ParameterError(f"a mip level must have shape {wanted}, got {level.shape}")
-    return b"".join(_rgba(halves(part)).tobytes() for part in (pixels, *levels))
+    return b"".join(_rgba(as_half(part)).tobytes() for part in (pixels, *levels))
 
 
 def _rgba(pixels: npt.NDArray[np.float16]) -> npt.NDArray[np.float16]:
-    """Return one or three channels as four: one stands in R, G and B alike, and A is 1."""
+    """Return one or three channels as four: one channel is repeated in R, G and B, and A is 1."""
     out = np.ones((*pixels.shape[:2], 4), dtype="<f2")
     out[..., : max(3, pixels.shape[2])] = pixels
     return out
@@ -63,7 +63,7 @@ def _rgba(pixels: npt.NDArray[np.float16]) -> npt.NDArray[np.float16]:
 def decoder(
     name: str,
 ) -> Callable[[bytes, tuple[int, int, int] | None, Scale, int], list[npt.NDArray[Any]]]:
-    """Return the inverse of `encode_rgba`, for messages under a format's name."""
+    """Return the inverse of `encode_rgba`, with a format's name in its messages."""
 
     def decode(
         data: bytes, shape: tuple[int, int, int] | None, _scale: Scale, levels: int
@@ -80,7 +80,7 @@ def decoder(
                     f"format {name} must have a 1 in A where a map has {count} channels"
                 )
             held = texels if count == 4 else texels[..., :3]
-            found.append(require_finite(counted(held, (r, c, count))))
+            found.append(require_finite(select_channels(held, (r, c, count))))
             at += TEXEL * r * c
         return found
 
@@ -88,7 +88,7 @@ def decoder(
 
 
 def facts(layout: Layout) -> Mapping[str, Any]:
-    """Return what the sidecar of a container of half RGBA says of its bytes."""
+    """Return the facts about the bytes of a container of half RGBA, for its sidecar."""
     return {
         "dtype": "float16, little-endian",
         "shape": [layout.frames, layout.rows, layout.columns, 4],
@@ -97,18 +97,18 @@ def facts(layout: Layout) -> Mapping[str, Any]:
 
 
 def sidecar(found: Mapping[str, Any], _layout: Layout) -> bytes:
-    """Return the text beside a container."""
+    """Return the sidecar of a container."""
     return as_json(found)
 
 
 def any_layout(_layout: Layout) -> None:
-    """Refuse no layout."""
+    """Accept any layout."""
 
 
 def _join(payloads: Iterable[bytes], layout: Layout) -> memoryview:
     size = frame_bytes(layout)
     whole = memoryview(bytearray(layout.frames * size))
-    for i, payload in numbered(payloads, layout.frames, size):
+    for i, payload in enumerate_payloads(payloads, layout.frames, size):
         whole[i * size : (i + 1) * size] = payload
     return whole
 

@@ -1,10 +1,9 @@
 """
-CRC-32C, the checksum of a Zarr chunk, without a compiled library: many lanes side by side, then
-folded into one.
+CRC-32C, the checksum of Zarr chunks, in NumPy.
 
-A cyclic redundancy check is the remainder of a polynomial over two elements, and so linear: the
-lanes are computed as if each stood alone, and a lane's remainder moves past the n bytes that follow
-it by a multiplication with x^(8n). Leading zeros change nothing.
+A cyclic redundancy check is the remainder of a polynomial over GF(2), and so linear: the data are
+cut into lanes, whose remainders are computed side by side, and each remainder is multiplied by
+x^(8n) for the n bytes that follow its lane. Leading zeros change nothing.
 """
 
 import functools
@@ -14,7 +13,7 @@ import numpy.typing as npt
 
 Words = npt.NDArray[np.uint32]
 
-POLYNOMIAL = 0x82F63B78  # Castagnoli, its bits reversed
+POLYNOMIAL = 0x82F63B78  # Castagnoli, with its bits reversed
 LANES = 2048
 
 
@@ -68,7 +67,7 @@ def _past(count: int) -> Words:
 
 
 def _moved(bits: Words, registers: Words) -> Words:
-    """The linear map that takes bit i to `bits[i]`, of many registers."""
+    """Return registers after the linear map that takes bit i to `bits[i]`."""
     out = np.zeros_like(registers)
     for i, image in enumerate(bits):
         out ^= ((registers >> np.uint32(i)) & np.uint32(1)) * image

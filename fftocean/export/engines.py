@@ -2,7 +2,7 @@
 Table of engines and formats: how each engine opens files of each format, or why it cannot.
 
 A cell is a profile (with a note on how such a file gets into the engine), or a refusal with its
-reason and the format to take instead. A pair that is not listed is an error at import.
+reason and an alternative format. A pair that is not listed is an error at import.
 """
 
 from collections.abc import Mapping
@@ -19,11 +19,11 @@ class Refusal:
     """A format that an engine cannot use."""
 
     reason: str
-    instead: str  # the format to choose
+    instead: str  # format to choose instead
 
 
 PLAIN_LOADER = "by the engine's own loader of pictures"
-_PICTURES = "exr", "exr-float", "exr-atlas"
+_EXR_FORMATS = "exr", "exr-float", "exr-atlas"
 _ARRAYS = "npz", "zarr"
 _PYTHON = "by your own Python code: row 0 of the array at v = 0"
 _TOOLS = "for your own tools on the way: the engine has no loader for it, and takes bin"
@@ -44,7 +44,7 @@ def _upload(note: str) -> dict[str, Any]:
 
 
 def _row(**cells: dict[str, Any] | Refusal) -> dict[str, dict[str, Any] | Refusal]:
-    """Return a row by format names, in which `_` stands for `-`."""
+    """Return a row by format names; `_` in a keyword means `-`."""
     return {name.replace("_", "-"): cell for name, cell in cells.items()}
 
 
@@ -58,7 +58,7 @@ _WEB = _row(
 
 CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
     "canonical": {
-        **{name: _loader("as an image viewer shows it") for name in (*_PICTURES, "png16")},
+        **{name: _loader("as an image viewer shows it") for name in (*_EXR_FORMATS, "png16")},
         **{name: _upload(PLAIN_BYTES) for name in ("r16", *_ARRAYS, "bin", "ktx2")},
     },
     "blender": _row(
@@ -107,7 +107,7 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
     ),
     "bevy": {
         **_WEB,
-        **{name: _loader("by Bevy's feature exr, is_srgb false") for name in _PICTURES},
+        **{name: _loader("by Bevy's feature exr, is_srgb false") for name in _EXR_FORMATS},
         "png16": Refusal("it makes unfilterable integers of gray 16-bit PNG", "exr"),
         "ktx2": _loader("by Bevy's feature ktx2, as a texture array"),
     },
@@ -115,17 +115,17 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         **_WEB,
         **{
             name: _loader("no texture of core glTF: by an EXR loader with row 0 at v = 0")
-            for name in _PICTURES
+            for name in _EXR_FORMATS
         },
         "ktx2": Refusal("KHR_texture_basisu takes Basis Universal alone", "bin"),
     },
     "three": {
         **_WEB,
-        **{name: _loader("by EXRLoader", **{"as": "three-exr"}) for name in _PICTURES},
+        **{name: _loader("by EXRLoader", **{"as": "three-exr"}) for name in _EXR_FORMATS},
         "ktx2": _upload("read by ktx-parse into a DataArrayTexture; KTX2Loader takes no array"),
     },
     "three-exr": {
-        **{name: _loader("by EXRLoader") for name in _PICTURES},
+        **{name: _loader("by EXRLoader") for name in _EXR_FORMATS},
         **{name: _upload("for your own tools on the way") for name in _ARRAYS},
         **{
             name: Refusal("its rows are those of EXRLoader; engine three has the others", "exr")
@@ -136,7 +136,7 @@ CELLS: dict[str, Mapping[str, dict[str, Any] | Refusal]] = {
         **_WEB,
         **{
             name: _loader("by Texture, whose invertY is true", first_row="north", first_v=1)
-            for name in _PICTURES
+            for name in _EXR_FORMATS
         },
         "ktx2": Refusal(_NO_KTX2, "bin"),
     },
@@ -167,7 +167,7 @@ def table_of(
     Return the table by (engine, format), complete.
 
     Raises:
-        ImportError: an engine or a format is missing, unknown, or refused without a way out.
+        ImportError: an engine or a format is missing, unknown, or refused without an alternative.
     """
     if cells.keys() != PROFILES.keys():
         raise ImportError(f"engines must be {', '.join(PROFILES)}, got {', '.join(cells)}")
@@ -193,7 +193,7 @@ def profile_for(engine: str, format_name: str, normals: str = "engine") -> Profi
     Args:
         engine: by name.
         format_name: of the files.
-        normals: "signed" or "packed"; "engine" is what its stock materials read.
+        normals: "signed" or "packed"; "engine" is the encoding of its stock materials.
 
     Raises:
         ParameterError: no such engine, format or encoding, or the engine cannot use the format.

@@ -1,9 +1,8 @@
 """
-OpenEXR in the one profile that opens everywhere: single part, scanline, ZIP, channels named R, G, B
-(, A), half or single precision.
+OpenEXR in the profile that every program opens.
 
-OpenEXR compresses without the GIL, so that threads can encode side by side; ZIP is nine tenths of
-the time.
+It is single part, scanline, ZIP, with channels R, G, B (, A) in half or single precision. OpenEXR
+compresses without the GIL, so threads can encode in parallel; ZIP takes nine tenths of the time.
 """
 
 import io
@@ -22,17 +21,17 @@ from fftocean.export.form import (
     Format,
     Layout,
     Scale,
-    counted,
-    finite,
-    halves,
+    as_finite,
+    as_half,
     one_level,
     require_finite,
+    select_channels,
 )
 
 
 def encode(pixels: Real, *, periodic: bool = True) -> bytes:
     """
-    Encode pixels as they shall stand in the file, row 0 on top, marked as data, not colour.
+    Encode pixels without conversion, row 0 on top, marked as data, not colour.
 
     Args:
         pixels: (rows, columns, 1, 3 or 4), float16 or float32, every value finite. One channel is
@@ -41,7 +40,7 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
     """
     import OpenEXR
 
-    # OpenEXR writes wrong pixels from any array that is not C-contiguous, and does not say so
+    # OpenEXR silently writes wrong pixels from an array that is not C-contiguous.
     pixels = np.ascontiguousarray(pixels)
     one = pixels.shape[2] == 1
     channels = (
@@ -63,16 +62,15 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
 
 def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
     """
-    Return the pixels of a file as they stand in it, (rows, columns, 3 or 4), in the precision they
-    are stored in.
+    Return the stored pixels of a file, (rows, columns, 3 or 4), in their stored precision.
 
     Args:
         data: the file.
-        shape: what (rows, columns) must be; asked before any pixel is read.
+        shape: required (rows, columns), checked before any pixel is read.
 
     Raises:
-        IntegrityError: the file is cut or bent, or another shape, or no such file as `encode`
-            writes.
+        IntegrityError: the file is cut or damaged, of another shape, or not of the kind that
+            `encode` writes.
     """
     import OpenEXR
 
@@ -82,21 +80,21 @@ def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:
             found = int(high[1]) - int(low[1]) + 1, int(high[0]) - int(low[0]) + 1
             if found != tuple(shape):
                 raise IntegrityError(
-                    f"an EXR picture must be {shape[0]} rows of {shape[1]}, "
+                    f"an EXR image must be {shape[0]} rows of {shape[1]}, "
                     f"got {found[0]} of {found[1]}"
                 )
         channels = OpenEXR.File(io.BytesIO(data), separate_channels=True).channels()
         planes = [channels[name].pixels for name in ("RGBA" if len(channels) == 4 else "RGB")]
         if len(channels) != len(planes) or len({plane.dtype for plane in planes}) != 1:
             raise IntegrityError(
-                "an EXR picture must have channels R, G, B (, A) of one type, "
+                "an EXR image must have channels R, G, B (, A) of one type, "
                 f"got {', '.join(channels)}"
             )
         return np.stack(planes, axis=-1)
     except IntegrityError:
         raise
-    except Exception as error:  # whatever a library may do with a file that is not one
-        raise IntegrityError(f"an EXR picture cannot be read: {f'{error}'.strip():.200}") from None
+    except Exception as error:  # the library may raise anything on damaged bytes
+        raise IntegrityError(f"an EXR image cannot be read: {f'{error}'.strip():.200}") from None
 
 
 def encode_half(red: Real, green: Real, blue: Real) -> bytes:
@@ -122,11 +120,10 @@ def encode_half(red: Real, green: Real, blue: Real) -> bytes:
 
 def decode(data: bytes) -> tuple[Real, Real, Real]:
     """
-    Return the three channels of an EXR file, row 0 south again, in the precision they are stored
-    in.
+    Return the three channels of an EXR file, row 0 south, in their stored precision.
 
     Raises:
-        IntegrityError: the file is cut or bent.
+        IntegrityError: the file is cut or damaged.
     """
     pixels = read(data)[::-1]
     red, green, blue = (np.ascontiguousarray(pixels[..., c]) for c in range(3))
@@ -134,7 +131,7 @@ def decode(data: bytes) -> tuple[Real, Real, Real]:
 
 
 def no_sidecar(_facts: Mapping[str, Any], _layout: Layout) -> bytes:
-    """Return nothing: the manifest says all that is said of such files."""
+    """Return nothing: the manifest has all facts about such files."""
     return b""
 
 
@@ -155,7 +152,7 @@ def _format(
         pixels = read(data, None if shape is None else shape[:2])
         if pixels.dtype != stored:
             raise IntegrityError(f"format {name} must hold {stored}, got {pixels.dtype}")
-        return [require_finite(counted(pixels, shape))]
+        return [require_finite(select_channels(pixels, shape))]
 
     return Format(
         name=name,
@@ -174,10 +171,10 @@ def _format(
     )
 
 
-EXR = _format("exr", "float16", "OpenEXR, half, ZIP", halves)
+EXR = _format("exr", "float16", "OpenEXR, half, ZIP", as_half)
 EXR_FLOAT = _format(
     "exr-float",
     "float32",
     "OpenEXR, single precision, ZIP",
-    lambda pixels: finite(pixels, np.float32),
+    lambda pixels: as_finite(pixels, np.float32),
 )

@@ -1,8 +1,8 @@
 """
-One file format as one object: what it can hold, where its files stand, and its functions.
+Type of a file format: limits, file names and functions in one object.
 
-Each format's own module makes its object, and `formats.FORMATS` lists them. A part that is left
-out is an error at import.
+The module of each format makes its object, and `formats.FORMATS` lists them. A missing part is an
+error at import.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -37,7 +37,7 @@ class Layout:
     channels: int
     levels: int = 1
     gutter: int = 0  # of an atlas
-    loop: float = 1.0  # what the frames take to play through [s]
+    loop: float = 1.0  # duration of all frames [s]
     row0_on_top: bool = True
 
     @property
@@ -52,11 +52,11 @@ class Container:
     One file for all frames of a map.
 
     Attributes:
-        join: the file's bytes, of each frame's payload in order.
-        split: each frame's payload, of the file's bytes.
-        facts: what its sidecar says beyond what every sidecar does.
-        separable: whether a damaged file leaves the payloads of other frames as they were.
-        require: refuses a layout that the container cannot have, with a ParameterError.
+        join: function from the frames' payloads, in order, to the file's bytes.
+        split: function from the file's bytes to the frames' payloads.
+        facts: function that returns entries of its sidecar beyond those of every sidecar.
+        separable: True if damage to the file leaves the payloads of other frames intact.
+        require: function that raises a ParameterError for a layout that it cannot have.
     """
 
     join: Callable[[Iterable[bytes], Layout], bytes | memoryview]
@@ -72,19 +72,21 @@ class Format:
     One file format.
 
     Attributes:
-        name: as in a job file.
-        caption: in words.
+        name: name in a job file.
+        caption: description in words.
         file: path of its files, with {stem} and {frame}; a format with a container has no {frame}.
-        numbered: what {frame} counts: frames of the loop, or places of the sequence that is baked.
+        numbered: meaning of {frame}: number in the loop, or place in the baked sequence.
         stored: type of its numbers; uint16 holds (v - lo) / (hi - lo) in 65535 steps.
-        channels: how many a map may have.
-        least: how many channels its files have at least.
-        sidecar: path of the text beside it, with {stem}; "" is none.
-        sidecar_bytes: that text, of the facts and the layout.
-        most_levels: how many mip levels it can hold, of the larger side of a map.
-        encode: bytes of a frame, or of its part in a container: (pixels, scale, smaller levels).
-        decode: its mip levels, largest first: (bytes, shape or None, scale, number of levels).
-        container: for a format with one file for all frames.
+        channels: possible numbers of channels of a map.
+        least: smallest number of channels of its files.
+        sidecar: path of the sidecar, with {stem}; "" for none.
+        sidecar_bytes: function from facts and layout to the sidecar.
+        most_levels: function from the larger side of a map to the most mip levels.
+        encode: function from (pixels, scale, smaller levels) to the bytes of a frame, or of its
+            part in a container.
+        decode: function from (bytes, shape or None, scale, number of levels) to the mip levels,
+            largest first.
+        container: container of all frames, or None for one file a frame.
     """
 
     name: str
@@ -114,17 +116,17 @@ class Format:
 
     @property
     def scaled(self) -> bool:
-        """True if one lo and hi for the whole sequence must be known beforehand."""
+        """True if encoding needs one lo and hi for the whole sequence."""
         return self.stored == "uint16"
 
     @property
     def suffix(self) -> str:
-        """End of the name of its file, or of the folder that is named after the map."""
+        """Ending of the name of its file, or of the folder named after the map."""
         first = self.file.split("/")[0].removeprefix("{stem}")
         return first or self.file[self.file.rindex(".") :]
 
     def letters(self, count: int) -> dict[str, int | None]:
-        """Return which of a map's channels stands in each of the file's; None is a 1."""
+        """Return the map's channel in each channel of the file; None is a constant 1."""
         if self.least == 1:
             return {letter: c for c, letter in enumerate("RGBA"[:count] if count > 1 else "Y")}
         held = {x: c if count > 1 else 0 for c, x in enumerate("RGBA"[: max(count, 3)])}
@@ -132,28 +134,28 @@ class Format:
 
 
 def one_level(_side: int) -> int:
-    """Return the number of mip levels of a format that has none but the map itself."""
+    """Return 1, the number of mip levels of a format that holds only the map itself."""
     return 1
 
 
 def require_shape(shape: tuple[int, int, int] | None, name: str) -> tuple[int, int, int]:
     """
-    Return a shape that must be given, since the format does not say it itself.
+    Return the shape, which a format that does not store it needs.
 
     Raises:
-        ParameterError: it is not given.
+        ParameterError: it is None.
     """
     if shape is None:
         raise ParameterError(f"format {name} does not say what shape its frames have: give it")
     return shape
 
 
-def finite(pixels: Real, dtype: type[np.floating[Any]]) -> npt.NDArray[Any]:
+def as_finite(pixels: Real, dtype: type[np.floating[Any]]) -> npt.NDArray[Any]:
     """
-    Return pixels in a type, C-contiguous, every one finite in it.
+    Return pixels converted to a type, C-contiguous.
 
     Raises:
-        OutputError: one is not.
+        OutputError: one is not finite in that type.
     """
     with np.errstate(over="ignore"):
         out = np.ascontiguousarray(pixels, dtype=dtype)
@@ -164,12 +166,12 @@ def finite(pixels: Real, dtype: type[np.floating[Any]]) -> npt.NDArray[Any]:
     return out
 
 
-def halves(pixels: Real) -> npt.NDArray[np.float16]:
+def as_half(pixels: Real) -> npt.NDArray[np.float16]:
     """
-    Return pixels rounded to half, every one within its range; halves as they are.
+    Return pixels rounded to half; halves are unchanged.
 
     Raises:
-        OutputError: one is too large or no number.
+        OutputError: one is too large or NaN.
     """
     if pixels.dtype != np.float16:
         extreme = float(np.max(np.abs(pixels), initial=0.0))
@@ -177,24 +179,26 @@ def halves(pixels: Real) -> npt.NDArray[np.float16]:
             raise OutputError(
                 f"values must stay within +-{HALF_MAX:g} to be half floats, got {extreme:g}"
             )
-    return finite(pixels, np.float16)
+    return as_finite(pixels, np.float16)
 
 
 def require_finite(pixels: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """
-    Return pixels that were stored, after a check that they are finite, as they were then.
+    Return decoded pixels, which were finite when they were encoded.
 
     Raises:
-        IntegrityError: one is not.
+        IntegrityError: one is not finite.
     """
     if not np.all(np.isfinite(pixels)):
         raise IntegrityError("a frame must hold finite values only")
     return pixels
 
 
-def counted(pixels: npt.NDArray[Any], shape: tuple[int, int, int] | None) -> npt.NDArray[Any]:
+def select_channels(
+    pixels: npt.NDArray[Any], shape: tuple[int, int, int] | None
+) -> npt.NDArray[Any]:
     """
-    Return pixels of a file with the channels that the map has: of three that are one, the one.
+    Return pixels of a file with the channels of the map: one of three equal channels.
 
     Raises:
         IntegrityError: the file holds a map of another shape.
@@ -204,23 +208,25 @@ def counted(pixels: npt.NDArray[Any], shape: tuple[int, int, int] | None) -> npt
     alike = pixels.shape[2] == 3 and shape[2] == 1 and bool(np.all(pixels == pixels[..., :1]))
     if pixels.shape[:2] != tuple(shape[:2]) or not alike:
         raise IntegrityError(
-            f"a picture must hold a map of shape {tuple(shape)}, got {pixels.shape}"
+            f"an image must hold a map of shape {tuple(shape)}, got {pixels.shape}"
         )
     return np.ascontiguousarray(pixels[..., :1])
 
 
 def require_size(data: bytes | memoryview, size: int, name: str) -> None:
-    """Refuse a file of another length, which is all that a bare format can tell."""
+    """Raise if a file has another length, the only check of a format without a header."""
     if len(data) != size:
         raise IntegrityError(f"a {name} file of this shape must have {size} bytes, got {len(data)}")
 
 
-def numbered(payloads: Iterable[bytes], count: int, size: int) -> Iterable[tuple[int, bytes]]:
+def enumerate_payloads(
+    payloads: Iterable[bytes], count: int, size: int
+) -> Iterable[tuple[int, bytes]]:
     """
-    Yield payloads with their numbers.
+    Yield the number and the bytes of each payload.
 
     Raises:
-        ValueError: they are not `count`, or one has not `size` bytes.
+        ValueError: their number is not `count`, or the length of one is not `size`.
     """
     i = -1
     for i, payload in enumerate(payloads):

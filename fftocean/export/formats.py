@@ -1,9 +1,9 @@
 """
-Registry of file formats, and the functions by which all of them are written and read.
+Registry of file formats.
 
-Nothing is clipped, ever: a value that a format cannot hold is an error that names it. The same
-pixels are always the same bytes. What a format is and does stands in its own module, as one
-object; a new format is that object and its name in `FORMATS`.
+`encode`, `decode`, `assemble` and `payloads` write and read all of them. No value is clipped: one
+that a format cannot hold is an error that names it. The same pixels always give the same bytes. A
+format is one object in a module of its own; a new format is that object and its name in `FORMATS`.
 """
 
 import hashlib
@@ -24,11 +24,12 @@ from fftocean.export.npz import NPZ
 from fftocean.export.png import PNG16
 from fftocean.export.profiles import PROFILES, Kind, Profile
 from fftocean.export.quantised import Limit
+from fftocean.export.registry import by_name
 from fftocean.export.zarr3 import ZARR
 
-FORMATS: dict[str, Format] = {
-    one.name: one for one in (EXR, EXR_FLOAT, PNG16, R16, NPZ, BIN, KTX2, EXR_ATLAS, ZARR)
-}
+FORMATS: dict[str, Format] = by_name(
+    (EXR, EXR_FLOAT, PNG16, R16, NPZ, BIN, KTX2, EXR_ATLAS, ZARR),
+)
 
 __all__ = [
     "FORMATS", "Format", "assemble", "atlas", "decode", "decode_levels", "encode", "payloads",
@@ -38,23 +39,23 @@ __all__ = [
 atlas = tiles
 
 SCHEMA = 1
-"""Version of the sidecars: what a reader of another one must not guess at."""
+"""Version of the sidecars; readers refuse other versions."""
 
 
 def require(
     name: str, shape: tuple[int, int, int, int], levels: int = 1, *, gutter: int = 0
 ) -> None:
     """
-    Refuse what a format cannot hold, before anything is baked.
+    Raise if a format cannot hold a map, before anything is baked.
 
     Args:
-        name: of the format.
+        name: name of the format.
         shape: (frames, rows, columns, channels) of the map.
-        levels: of mipmaps.
-        gutter: of the atlas, where there is one.
+        levels: number of mip levels.
+        gutter: gutter of an atlas.
 
     Raises:
-        ParameterError: there is no such format, or it cannot hold such a map.
+        ParameterError: the format does not exist, or cannot hold such a map.
     """
     if name not in FORMATS:
         raise ParameterError(f"format must be one of {', '.join(FORMATS)}, got {name!r:.40}")
@@ -84,17 +85,17 @@ def encode(
     name: str, pixels: Real, *, lo: Limit = None, hi: Limit = None, levels: Sequence[Real] = ()
 ) -> bytes:
     """
-    Encode one frame: its whole file, or the part of it in a container.
+    Encode one frame: its whole file, or its part in a container.
 
     Args:
-        name: of the format.
+        name: name of the format.
         pixels: (rows, columns, channels) as `profiles.arrange` gives them, or rounded to half.
-        lo, hi: the range of the whole sequence, for a format that is scaled.
-        levels: the mip levels below this one, for a format that has them.
+        lo, hi: range of the whole sequence, for a scaled format.
+        levels: smaller mip levels, for a format that has them.
 
     Raises:
         OutputError: a value that the format cannot hold: not finite, too large, out of the range.
-        ParameterError: channels or levels that the format has not.
+        ParameterError: a number of channels or levels that the format does not have.
     """
     if pixels.ndim != 3:
         raise ParameterError(f"pixels must be (rows, columns, channels), got shape {pixels.shape}")
@@ -113,19 +114,19 @@ def decode(
     levels: int = 1,
 ) -> npt.NDArray[Any]:
     """
-    Return one frame's pixels out of what `encode` made of it: float16 as stored, else float32.
+    Return one frame's pixels from the bytes of `encode`: float16 as stored, else float32.
 
     Args:
-        name: of the format.
-        data: the frame's file or part; None is a missing one.
-        shape: (rows, columns, channels); needed for a format that does not say so itself.
-        lo, hi: as it was encoded with.
-        levels: of mipmaps that it was encoded with; `decode_levels` returns all.
+        name: name of the format.
+        data: the frame's file or part; None if it is missing.
+        shape: (rows, columns, channels); required for a format that does not store it.
+        lo, hi: range passed to `encode`.
+        levels: number of mip levels encoded; `decode_levels` returns all.
 
     Raises:
-        IntegrityError: it is missing, cut or damaged, as far as the format can tell, or of
+        IntegrityError: it is missing, cut or damaged, as far as the format can detect, or of
             another shape.
-        ParameterError: there is no such format, or the shape is needed.
+        ParameterError: the format does not exist, or needs the shape.
     """
     return decode_levels(name, data, shape=shape, lo=lo, hi=hi, levels=levels)[0]
 
@@ -139,7 +140,7 @@ def decode_levels(
     hi: Limit = None,
     levels: int = 1,
 ) -> list[npt.NDArray[Any]]:
-    """Return every mip level, the largest first; else as `decode`."""
+    """Return every mip level, largest first, with the arguments of `decode`."""
     if shape is not None or name not in FORMATS:
         require(name, (1, *(shape or (1, 1, 1))), levels)
     if data is None:
@@ -168,31 +169,31 @@ def assemble(
     levels: int = 1,
 ) -> dict[str, bytes | memoryview]:
     """
-    Return every file of a map but those that `encode` made whole, by relative path.
+    Return the containers and sidecars of a map by relative path.
 
-    These are containers, and the text beside files and containers.
+    Files of single frames are whole after `encode`.
 
     Args:
-        name: of the format.
-        payloads: of all frames in order, from `encode`; not used where each is a file of its own.
+        name: name of the format.
+        payloads: results of `encode` for all frames in order; unused if each is a file of its own.
         stem: the map's name.
         shape: (frames, rows, columns, channels) of the map.
         profile: conventions that the pixels have.
-        kind: how the channels change with the axes.
-        names: what each channel holds, in words.
-        unit: of its values.
-        size: of the tile, along x and y [m].
-        loop: what the frames take to play through [s].
+        kind: kind of map, which determines how the channels change with the axes.
+        names: contents of each channel, in words.
+        unit: unit of its values.
+        size: size of the tile along x and y [m].
+        loop: duration of all frames [s].
         start: time of the first frame [s].
-        closes: whether the last frame leads to the first.
+        closes: True if the first frame follows the last.
         lookup: "lagrangian" or "eulerian".
         bounds: largest "horizontal" and "vertical" displacement [m], for culling.
-        lo, hi: the range, for a format that is scaled.
-        levels: of mipmaps.
+        lo, hi: range, for a scaled format.
+        levels: number of mip levels.
 
     Raises:
         ParameterError: the format cannot hold it.
-        ValueError: the payloads are not as many, or not as long, as the shape says.
+        ValueError: the number or length of the payloads does not match the shape.
     """
     profile = profile or PROFILES["canonical"]
     require(name, shape, levels, gutter=profile.gutter)
@@ -222,19 +223,19 @@ def assemble(
         "size": [side * profile.scale for side in size],
         "size_unit": profile.unit,
         "time_unit": "s",
-        # of a height at X and Z: row = origin + sign Z / size rows, modulo rows
+        # Of a height at X and Z: row = origin + sign Z / size rows, modulo rows.
         "row_origin": -1 if profile.first_row == "north" else 0,
         "row_sign": rules.row_sign(profile),
     }
     if bounds is not None:
         facts["bounds"] = {side: profile.scale * value for side, value in bounds.items()}
         facts["bounds"]["unit"] = profile.unit
-    special = {} if container is None else dict(container.facts(layout))
+    container_facts = {} if container is None else dict(container.facts(layout))
     values = rules.numbers(profile, size, (columns, rows), frames, loop, start)
     rule = rules.sampling(profile)
-    if "tiles" in special:
+    if "tiles" in container_facts:
         rule |= rules.atlas(profile)
-        across, down = special["tiles"]
+        across, down = container_facts["tiles"]
         values |= {"tiles_across": across, "tiles_down": down, "gutter": profile.gutter}
     facts["sampling"] = {**rule, "values": values}
     facts["world"] = rules.world(profile, kind)
@@ -242,14 +243,14 @@ def assemble(
     if form.scaled:
         low, high = quantised.limits(lo, hi, channels)
         facts |= {"lo": low.tolist(), "hi": high.tolist(), "value": quantised.VALUE}
-    facts |= special
+    facts |= container_facts
     files: dict[str, bytes | memoryview] = {}
     if container is not None:
         file = form.file.format(stem=stem)
         files[file] = container.join(payloads, layout)
         facts["sha256"] = hashlib.sha256(files[file]).hexdigest()
-        if "tiles" in special:
-            files |= recipes.beside(profile, file, facts)
+        if "tiles" in container_facts:
+            files |= recipes.files_beside(profile, file, facts)
     if form.sidecar:
         files[form.sidecar.format(stem=stem)] = form.sidecar_bytes(facts, layout)
     return files
@@ -264,19 +265,19 @@ def payloads(
     gutter: int = PROFILES["canonical"].gutter,
 ) -> list[bytes]:
     """
-    Return what each frame's `encode` made, out of the container that `assemble` put it in.
+    Return the payloads of all frames from the container of `assemble`.
 
     Args:
-        name: of a format with one file for the sequence.
-        data: that file; None is a missing one.
-        shape: (frames, rows, columns, channels) that it must have.
-        levels: of mipmaps.
-        gutter: of the profile that the atlas was made for.
+        name: name of a format with one file for the sequence.
+        data: that file; None if it is missing.
+        shape: required (frames, rows, columns, channels).
+        levels: number of mip levels.
+        gutter: gutter of the atlas' profile.
 
     Raises:
-        IntegrityError: the file is missing, cut or damaged, as far as the format can tell, or of
+        IntegrityError: the file is missing, cut or damaged, as far as the format can detect, or of
             another shape.
-        ParameterError: the format has a file a frame.
+        ParameterError: the format has one file a frame.
     """
     require(name, shape, levels, gutter=gutter)
     container = FORMATS[name].container

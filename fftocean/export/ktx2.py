@@ -1,9 +1,8 @@
 """
-KTX 2.0: the frames of a loop as one texture array of half-float RGBA, as a graphics card takes it,
-with mip levels on request.
+KTX 2.0: the frames of a loop as one texture array of half-float RGBA, with optional mip levels.
 
-Levels stand in the file from the smallest to the largest, and in each all frames; a frame's own
-bytes are its levels, largest first.
+The file holds the levels from the smallest to the largest, and in each level all frames; a frame's
+own bytes are its levels, largest first.
 """
 
 import struct
@@ -15,7 +14,7 @@ import fftocean
 from fftocean.errors import IntegrityError
 from fftocean.export import bare
 from fftocean.export.bare import TEXEL, level_sizes
-from fftocean.export.form import Container, Format, Layout, numbered
+from fftocean.export.form import Container, Format, Layout, enumerate_payloads
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 RGBA16F = 97  # VK_FORMAT_R16G16B16A16_SFLOAT
@@ -35,18 +34,18 @@ def pack(
     row0_on_top: bool,
 ) -> memoryview:
     """
-    Put the frames of a loop into one file.
+    Return one file with the frames of a loop.
 
     Args:
-        frames: each with its number: its levels, largest first, each (rows, columns, 4)
+        frames: number and bytes of each frame: its levels, largest first, each (rows, columns, 4)
             little-endian halves.
-        count, rows, columns, levels: how many there are.
-        loop: what the frames take to play through [s].
-        row0_on_top: whether a viewer should show row 0 on top.
+        count, rows, columns, levels: their numbers.
+        loop: duration of all frames [s].
+        row0_on_top: True if a viewer should show row 0 on top.
 
     Source: the KTX File Format Specification 2.0.4, and the Khronos Data Format Specification 1.4
     for the descriptor. Pinned by tests/export/test_ktx2.py, against a reader written from those
-    texts.
+    specifications.
     """
     descriptor, values = _descriptor(), _key_values(count, loop, row0_on_top)
     first = 12 + struct.calcsize(HEADER) + 24 * levels
@@ -55,7 +54,7 @@ def pack(
     offsets = [0] * levels
     for level in reversed(
         range(levels)
-    ):  # the smallest first, so that a streaming reader has something to show
+    ):  # smallest first, so that a streaming reader can show something early
         offsets[level] = at = -(-at // TEXEL) * TEXEL
         at += count * sizes[level]
     out = bytearray(at)
@@ -79,10 +78,10 @@ def unpack(
     data: bytes | memoryview, count: int, rows: int, columns: int, levels: int
 ) -> list[bytes]:
     """
-    Return the bytes of each frame, its levels largest first, of a file that `pack` wrote.
+    Return the bytes of each frame, its levels largest first, from a file of `pack`.
 
     Raises:
-        IntegrityError: the file is cut or bent, or holds another texture.
+        IntegrityError: the file is cut or damaged, or holds another texture.
     """
     data = memoryview(data)
     try:
@@ -138,7 +137,7 @@ def _descriptor() -> bytes:
         0,
         1,
         0,
-    )  # RGBSDA; unspecified, for it is no colour
+    )  # RGBSDA; unspecified, because the data are not colour
     block = struct.pack(
         "<2I4B4B8B",
         0,
@@ -158,7 +157,7 @@ def _descriptor() -> bytes:
         lower, upper = (
             0xBF800000,
             0x3F800000,
-        )  # -1.0 and 1.0: what is black and what is full, for those who must show it
+        )  # -1.0 and 1.0: the values that a viewer shows as black and as full intensity
         block += struct.pack(
             "<HBB4BII", 16 * i, 15, 0xC0 | channel, 0, 0, 0, 0, lower, upper
         )  # 0xC0: float, signed
@@ -168,9 +167,8 @@ def _descriptor() -> bytes:
 def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
     """Return duration of a frame, orientation and writer, in the order of the keys."""
     exact = Fraction(loop).limit_denominator(1000)
-    animation = struct.pack(
-        "<3I", exact.numerator, exact.denominator * count, 0
-    )  # frame time, in units of 1 / the second; for ever
+    # Frame time, its unit as 1 / timescale, and the number of repetitions (0: endless).
+    animation = struct.pack("<3I", exact.numerator, exact.denominator * count, 0)
     entries = (
         (b"KTXanimData", animation),
         (b"KTXorientation", b"rd\0" if row0_on_top else b"ru\0"),
@@ -186,7 +184,7 @@ def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
 def _join(payloads: Iterable[bytes], layout: Layout) -> memoryview:
     rows, columns, levels = layout.rows, layout.columns, layout.levels
     return pack(
-        numbered(payloads, layout.frames, bare.frame_bytes(layout)),
+        enumerate_payloads(payloads, layout.frames, bare.frame_bytes(layout)),
         layout.frames,
         rows,
         columns,

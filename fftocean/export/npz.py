@@ -1,6 +1,4 @@
-"""
-One frame as a NumPy archive with one array, `pixels`, and without a clock: what `np.load` reads.
-"""
+"""NumPy archive of one frame, with one array, `pixels`, and a constant time stamp."""
 
 import io
 import zipfile
@@ -13,15 +11,16 @@ import numpy.typing as npt
 from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
 from fftocean.export.exr import no_sidecar
-from fftocean.export.form import Format, Scale, finite, one_level, require_finite
+from fftocean.export.form import Format, Scale, as_finite, one_level, require_finite
 
 MEMBER = "pixels.npy"
 
 
 def encode(pixels: npt.NDArray[np.float32]) -> bytes:
     """
-    Return (rows, columns, channels) of float32 as an archive: stored, for floats hardly compress,
-    with the checksum that ZIP has.
+    Return (rows, columns, channels) of float32 as an archive with the checksum of ZIP.
+
+    The data are stored uncompressed, because floats hardly compress.
     """
     array, archive = io.BytesIO(), io.BytesIO()
     np.lib.format.write_array(array, pixels.astype("<f4", copy=False), version=(1, 0))
@@ -32,14 +31,14 @@ def encode(pixels: npt.NDArray[np.float32]) -> bytes:
 
 def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[np.float32]:
     """
-    Return the pixels of an archive that `encode` made.
+    Return the pixels of an archive of `encode`.
 
     Args:
         data: the file.
-        shape: what the array must be.
+        shape: required shape of the array.
 
     Raises:
-        IntegrityError: the file is cut or bent, another shape, or another's.
+        IntegrityError: the file is cut or damaged, of another shape, or from another program.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as file:
@@ -48,11 +47,11 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
                 raise IntegrityError(
                     f"an NPZ file of ours must hold {MEMBER}, stored, got {member.filename:.60}"
                 )
-            content = file.read(member)  # asks its checksum
+            content = file.read(member)  # verifies its checksum
         pixels = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)
     except IntegrityError:
         raise
-    except Exception as error:  # whatever a library may do with a file that is not one
+    except Exception as error:  # the library may raise anything on damaged bytes
         raise IntegrityError(f"an NPZ file cannot be read: {error!s:.200}") from None
     if (
         pixels.dtype != np.float32
@@ -67,7 +66,7 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
 
 
 def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
-    return encode(finite(pixels, np.float32))
+    return encode(as_finite(pixels, np.float32))
 
 
 def _decode_frame(

@@ -1,8 +1,8 @@
 """
-PNG with sixteen bits a channel, gray or RGB: what Pillow and imageio cannot write.
+PNG with 16 bits a channel, gray or RGB, which Pillow and imageio cannot write.
 
-Each row holds its differences from the row above (filter 2), which the sea's smoothness makes
-small; one IDAT chunk holds them all.
+Each row holds its differences from the row above (filter 2), which are small on a smooth sea; one
+IDAT chunk holds them all.
 """
 
 import struct
@@ -35,25 +35,25 @@ def encode(pixels: npt.NDArray[np.uint16]) -> bytes:
     filtered = np.empty((rows, 1 + lines.shape[1]), dtype=np.uint8)
     filtered[:, 0] = UP
     filtered[0, 1:] = lines[0]
-    np.subtract(lines[1:], lines[:-1], out=filtered[1:, 1:])  # modulo 256, as PNG has it
+    np.subtract(lines[1:], lines[:-1], out=filtered[1:, 1:])  # modulo 256, as PNG defines it
     header = struct.pack(">IIBBBBB", columns, rows, 16, COLOUR[channels], 0, 0, 0)
     packer = zlib.compressobj(
         1, zlib.DEFLATED, 15, 9, zlib.Z_RLE
-    )  # in noise no string returns: looking for none is faster, and smaller
+    )  # noise has no repeated strings: Huffman coding alone is faster, and smaller
     packed = packer.compress(filtered.tobytes()) + packer.flush()
     return SIGNATURE + _chunk(b"IHDR", header) + _chunk(b"IDAT", packed) + _chunk(b"IEND", b"")
 
 
 def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[np.uint16]:
     """
-    Return the (rows, columns, channels) uint16 of a file that `encode` wrote.
+    Return the (rows, columns, channels) uint16 of a file of `encode`.
 
     Args:
         data: the file.
-        shape: what it must be; asked before anything is unpacked.
+        shape: required shape, checked before anything is unpacked.
 
     Raises:
-        IntegrityError: the file is cut or bent, another shape, or another's.
+        IntegrityError: the file is cut or damaged, of another shape, or from another program.
     """
     try:
         chunks = _chunks(data)
@@ -87,7 +87,7 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
-    """Length, name, content, and the checksum of the last two."""
+    """Return the bytes of a chunk: length, name, content, and the checksum of name and content."""
     return (
         struct.pack(">I", len(content))
         + name
@@ -97,7 +97,7 @@ def _chunk(name: bytes, content: bytes) -> bytes:
 
 
 def _chunks(data: bytes) -> list[tuple[bytes, bytes]]:
-    """Every chunk of a file, its checksum found to be right."""
+    """Return name and content of every chunk of a file after verifying its checksum."""
     if data[:8] != SIGNATURE:
         raise IntegrityError("a PNG file must begin with PNG's signature")
     at, found = 8, []

@@ -1,11 +1,11 @@
 """
-Conventions of each engine for picture files: axes, row order, unit, green sign, normal encoding.
+Conventions of each engine for texture files: axes, row order, unit, green sign, normal encoding.
 
-Ours is x east, y north, z up, right-handed, in metres, and our arrays begin in the south-west. An
-engine names its own axes, and a file's row 0 comes to lie at v = 0 or at v = 1 of a texture. These
-go together: rows mirrored without negating the displacement along them round the crests and
-sharpen the troughs. Here is the one place for all of them; `rules` writes them as formulas, and
-`engines` says which profile belongs to an engine and a format.
+The library's own convention is x east, y north, z up, right-handed, in metres, with arrays that
+begin in the south-west. An engine has its own axes, and puts a file's row 0 at v = 0 or v = 1 of a
+texture. These belong together: mirrored rows without negated displacement along them give round
+crests and sharp troughs. This module defines all of them; `rules` writes them as formulas, and
+`engines` gives the profile of each engine and format.
 """
 
 from collections.abc import Callable
@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError
+from fftocean.export.registry import by_name
 
 Pixels = npt.NDArray[np.float32]
 """(rows, columns, channels) float32, C-contiguous, as a file holds it."""
@@ -40,35 +41,35 @@ class Profile:
     """Conventions of the files that one engine reads in one way."""
 
     name: str
-    axes: tuple[str, str, str]  # R, G and B of a vector map: a sign and one of our axes
+    axes: tuple[str, str, str]  # R, G and B of a vector map: sign and axis of the library
     first_row: Literal["north", "south"]  # edge of the sea that is row 0 of the file
-    first_v: Literal[0, 1]  # texture coordinate at which row 0 of the file comes to lie
+    first_v: Literal[0, 1]  # texture coordinate of row 0 of the file
     unit: Literal["m", "cm"]
     green: Literal[1, -1]  # of a normal map: toward row 0, or away from it
     normals: Normals
     caption: str
-    loaded: bool = True  # by the engine's own loader; otherwise the user's code uploads bytes
-    gutter: int = 1  # texels repeated around each frame of an atlas; 0: the engine cuts it up
-    note: str = ""  # how such files get into the engine
+    loaded: bool = True  # True: the engine's own loader; False: the user's code uploads bytes
+    gutter: int = 1  # texels repeated around each frame of an atlas; 0: the engine cuts the atlas
+    note: str = ""  # way of the files into the engine
 
     @property
     def scale(self) -> int:
-        """Units of the engine in a metre."""
+        """Number of the engine's units in a metre."""
         return 100 if self.unit == "cm" else 1
 
     @property
     def north(self) -> int:
-        """Sign with which north enters the engine's second horizontal axis."""
+        """Sign of north along the engine's second horizontal axis."""
         return -1 if "-y" in self.axes else 1
 
     @property
     def v_north(self) -> int:
-        """Sign with which north enters v."""
+        """Sign of north along v."""
         return 1 if (self.first_row == "north") == (self.first_v == 1) else -1
 
     @property
     def green_north(self) -> int:
-        """Sign with which north enters green of a normal map."""
+        """Sign of north in the green channel of a normal map."""
         return self.green * (1 if self.first_row == "north" else -1)
 
     @property
@@ -94,40 +95,37 @@ class Profile:
         return "left" if round(np.linalg.det(self._matrix())) < 0 else "right"
 
     def _matrix(self) -> npt.NDArray[np.float64]:
-        """Return the engine's axes in ours, one a row."""
+        """Return the engine's axes in library axes, one a row."""
         return np.array(
             [[float(f"{a[0]}1") * (AXES[a[1]] == i) for i in range(3)] for a in self.axes]
         )
 
 
-PROFILES: dict[str, Profile] = {
-    profile.name: profile
-    for profile in (
-        #        name         R, G, B              row 0   at v  unit green normals
-        Profile("canonical", ("+x", "+y", "+z"), "north", 1, "m", +1, "signed",
-                "our own axes, as an image viewer shows them"),
-        Profile("blender",   ("+x", "+y", "+z"), "north", 1, "m", +1, "packed",
-                "Blender: z up; RGB to XYZ"),
-        Profile("unity",     ("+x", "+z", "+y"), "north", 1, "m", +1, "packed",
-                "Unity: y up, left-handed, z north", gutter=0),
-        Profile("unreal",    ("+x", "-y", "+z"), "north", 0, "cm", -1, "packed",
-                "Unreal: z up, left-handed, y south, centimetres"),
-        Profile("godot",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
-                "Godot: y up, z south", gutter=0),
-        Profile("bevy",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
-                "Bevy: y up, z south"),
-        Profile("gltf",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
-                "glTF: y up, z south"),
-        Profile("three",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
-                "three.js, raw half or KTX2: y up, z south"),
-        Profile("three-exr", ("+x", "+z", "-y"), "south", 1, "m", +1, "packed",
-                "three.js by its EXRLoader, which turns the rows over"),
-        Profile("babylon",   ("+x", "+z", "+y"), "south", 0, "m", +1, "packed",
-                "Babylon.js, raw: y up, left-handed, z north"),
-        Profile("houdini",   ("+x", "+z", "-y"), "south", 1, "m", +1, "packed",
-                "Houdini, USD: y up, z south"),
-    )
-}  # fmt: skip
+PROFILES: dict[str, Profile] = by_name((
+    #        name         R, G, B              row 0   at v  unit green normals
+    Profile("canonical", ("+x", "+y", "+z"), "north", 1, "m", +1, "signed",
+            "our own axes, as an image viewer shows them"),
+    Profile("blender",   ("+x", "+y", "+z"), "north", 1, "m", +1, "packed",
+            "Blender: z up; RGB to XYZ"),
+    Profile("unity",     ("+x", "+z", "+y"), "north", 1, "m", +1, "packed",
+            "Unity: y up, left-handed, z north", gutter=0),
+    Profile("unreal",    ("+x", "-y", "+z"), "north", 0, "cm", -1, "packed",
+            "Unreal: z up, left-handed, y south, centimetres"),
+    Profile("godot",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
+            "Godot: y up, z south", gutter=0),
+    Profile("bevy",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
+            "Bevy: y up, z south"),
+    Profile("gltf",      ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
+            "glTF: y up, z south"),
+    Profile("three",     ("+x", "+z", "-y"), "north", 0, "m", +1, "packed",
+            "three.js, raw half or KTX2: y up, z south"),
+    Profile("three-exr", ("+x", "+z", "-y"), "south", 1, "m", +1, "packed",
+            "three.js by its EXRLoader, which turns the rows over"),
+    Profile("babylon",   ("+x", "+z", "+y"), "south", 0, "m", +1, "packed",
+            "Babylon.js, raw: y up, left-handed, z north"),
+    Profile("houdini",   ("+x", "+z", "-y"), "south", 1, "m", +1, "packed",
+            "Houdini, USD: y up, z south"),
+))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,10 +134,11 @@ class KindRow:
     Behaviour of one kind of map.
 
     Attributes:
-        channels: how many it has; None is any number.
-        scaled: whether values are lengths, in the profile's unit.
-        signs: factor on each channel in a profile, given the number of channels.
-        world: what the channels R, G, B, A of the file give in the engine's axes, as formulas.
+        channels: number of channels; None is any number.
+        scaled: True if values are lengths, in the profile's unit.
+        signs: function from profile and number of channels to the factor on each channel.
+        world: function from a profile to formulas of the values along the engine's axes in terms of
+            the file's channels R, G, B, A.
     """
 
     channels: int | None
@@ -158,7 +157,7 @@ def _normal_world(profile: Profile) -> dict[str, str]:
 
 
 def _derivative_world(profile: Profile) -> dict[str, str]:
-    """Return slopes, stretches, and the normal that follows (without shear, not of length 1)."""
+    """Return slopes, stretches, and their normal (without shear, not of length 1)."""
     one, two = profile.horizontal
     return {
         f"slope_{one}": "R",
@@ -182,8 +181,8 @@ def _pairs(name: str) -> Callable[[Profile], dict[str, str]]:
     return world
 
 
-# Slopes have no unit: centimetres per centimetre. A mirrored axis turns what is odd in it: the
-# slope along it and the mixed entries, not a stretch along it, which is mirrored twice.
+# Slopes have no unit: centimetres per centimetre. A mirrored axis negates quantities that are odd
+# in it: the slope along it and the mixed entries, not the stretch along it, mirrored twice.
 KINDS: dict[str, KindRow] = {
     "scalar": KindRow(None, False, lambda _, n: (1,) * n, lambda _: {"value": "R"}),
     "height": KindRow(None, True, lambda _, n: (1,) * n, lambda p: {p.up: "R"}),
@@ -202,12 +201,12 @@ if set(KINDS) != set(get_args(Kind)):
     raise ImportError(f"KINDS must have a row for each Kind, got {', '.join(KINDS)}")
 
 CHANNELS: dict[str, int] = {name: row.channels for name, row in KINDS.items() if row.channels}
-"""Number of channels of a kind; scalars and heights come in any number."""
+"""Number of channels of a kind; scalars and heights may have any number."""
 
 
 def recorded(profile: Profile, conventions: Any) -> Profile:
     """
-    Return a profile as a manifest says that the files were written: row order, normal encoding.
+    Return a profile with the row order and normal encoding that a manifest states.
 
     Bakes of version 0.1 do not name the encoding of normals, which were signed then.
     """
@@ -220,22 +219,22 @@ def recorded(profile: Profile, conventions: Any) -> Profile:
 
 def range_of_normals(profile: Profile) -> tuple[float, float]:
     """
-    Return the range over which 16-bit steps stand for components of a normal.
+    Return the range of normal components that 16-bit steps cover.
 
-    Signed: steps of 1/32767, so that 0 and -1 and 1 are steps. Packed: a material computes
-    2 k / 65535 - 1 of step k, which is 0 for no whole k: the nearest is 1/65535 = 1.5e-5 off.
+    Signed: steps of 1/32767, so that -1, 0 and 1 are steps. Packed: a material computes
+    2 k / 65535 - 1 of step k, which is 0 for no integer k: the nearest is 1/65535 = 1.5e-5 off.
     """
     return (0.0, 1.0) if profile.normals == "packed" else (-1.0, 1.0 + 1.0 / 32767.0)
 
 
 def arrange(profile: Profile, kind: Kind, channels: Real) -> Pixels:
     """
-    Turn a map of ours into what the engine's file holds.
+    Return the pixels of an engine's file for a map of the library.
 
     Args:
         profile: conventions of the file.
-        kind: how the channels change.
-        channels: (ny, nx, c), row 0 south, our axes, metres; float32, or float64 rounded once.
+        kind: kind of map, which determines how the channels change.
+        channels: (ny, nx, c), row 0 south, library axes, metres; float32, or float64 rounded once.
 
     Returns:
         (rows, columns, c) float32, C-contiguous, in the file's own axes and unit.
@@ -261,9 +260,9 @@ def arrange(profile: Profile, kind: Kind, channels: Real) -> Pixels:
 
 def restore(profile: Profile, kind: Kind, pixels: Real) -> Pixels:
     """
-    Turn what an engine's file holds back into a map of ours.
+    Return the map of the library from the pixels of an engine's file.
 
-    The inverse of `arrange`: to the bit in metres, to a rounding in centimetres, to 2^-24 for
+    This is the inverse of `arrange`: exact in metres, up to rounding in centimetres, to 2^-24 for
     packed normals.
 
     Raises:
@@ -284,12 +283,12 @@ def restore(profile: Profile, kind: Kind, pixels: Real) -> Pixels:
 
 def meaning(profile: Profile, kind: Kind, names: tuple[str, ...]) -> tuple[str, ...]:
     """
-    Return in words what each channel of the file holds, for the manifest.
+    Return the contents of each channel of the file in words, for the manifest.
 
     Args:
         profile: conventions of the file.
-        kind: how the channels change.
-        names: what our own channels hold, such as ("x", "y", "height").
+        kind: kind of map, which determines how the channels change.
+        names: contents of the library's channels, such as ("x", "y", "height").
 
     Raises:
         ParameterError: another number of names than the kind has channels, or no such kind.
@@ -301,12 +300,12 @@ def meaning(profile: Profile, kind: Kind, names: tuple[str, ...]) -> tuple[str, 
 
 
 def unit_in(profile: Profile, kind: Kind, unit: str) -> str:
-    """Return a map's unit in the file: m is cm, and m/s is cm/s, where the profile has those."""
+    """Return a map's unit in the file: a profile in cm has cm for m, and cm/s for m/s."""
     return f"c{unit}" if _recipe(profile, kind, CHANNELS.get(kind, 1))[1] != 1 else unit
 
 
 def _recipe(profile: Profile, kind: Kind, count: int) -> tuple[list[tuple[int, int]], int]:
-    """Return for each channel of the file (which of ours, its sign), and a factor on all."""
+    """Return (library channel, sign) of each channel of the file, and a factor on all."""
     row = KINDS[kind]
     signs = row.signs(profile, count)
     sources = [AXES[a[1]] for a in profile.axes] if kind == "vector" else list(range(count))
@@ -314,14 +313,14 @@ def _recipe(profile: Profile, kind: Kind, count: int) -> tuple[list[tuple[int, i
 
 
 def _counted(kind: Kind, channels: Real) -> int:
-    """Return the number of channels of an array, after checking it against the kind."""
+    """Return the number of channels of an array; raise unless the kind has it."""
     if channels.ndim != 3:
         raise ParameterError(f"a map must be (rows, columns, channels), got shape {channels.shape}")
     return _count(kind, channels.shape[2])
 
 
 def _count(kind: Kind, count: int) -> int:
-    """Return a number of channels, after checking it against the kind."""
+    """Return a number of channels; raise unless the kind has it."""
     if kind not in KINDS:
         raise ParameterError(f"kind must be one of {', '.join(KINDS)}, got {kind!r:.40}")
     if count != CHANNELS.get(kind, count):

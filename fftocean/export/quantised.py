@@ -1,6 +1,5 @@
 """
-Sixteen-bit steps: values scaled to a range that holds for the whole sequence, and back. Nothing is
-clipped.
+16-bit steps over a range of the whole sequence, without clipping.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,10 +22,10 @@ def limits(
     lo: Limit, hi: Limit, channels: int
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     """
-    Return the two ends of the range, each for every channel.
+    Return lower and upper end of the range for every channel.
 
     Raises:
-        ParameterError: an end is missing, not finite, or they are the wrong way round.
+        ParameterError: an end is missing or not finite, or the lower one is the larger.
     """
     if lo is None or hi is None:
         raise ParameterError(
@@ -43,15 +42,15 @@ def limits(
 
 def to_steps(pixels: Real, lo: Limit, hi: Limit) -> npt.NDArray[np.uint16]:
     """
-    Return the nearest of 65536 steps from lo to hi; the first one where the two are the same.
+    Return the nearest of 65536 steps from lo to hi; the first step if lo equals hi.
 
     Raises:
-        OutputError: a value lies outside the range, or is no number.
-        ParameterError: the range is none.
+        OutputError: a value is outside the range, or NaN.
+        ParameterError: the range is invalid.
     """
     low, high = limits(lo, hi, pixels.shape[2])
     smallest, largest = pixels.min(axis=(0, 1)), pixels.max(axis=(0, 1))
-    if not (np.all(smallest >= low) and np.all(largest <= high)):  # so put that a NaN is outside
+    if not (np.all(smallest >= low) and np.all(largest <= high)):  # false for NaN too
         raise OutputError(
             f"values must lie between {low.tolist()} and {high.tolist()}, "
             f"got {smallest.tolist()} to {largest.tolist()}"
@@ -62,10 +61,10 @@ def to_steps(pixels: Real, lo: Limit, hi: Limit) -> npt.NDArray[np.uint16]:
 
 def from_steps(steps: npt.NDArray[np.uint16], lo: Limit, hi: Limit) -> npt.NDArray[np.float32]:
     """
-    Return the values that steps stand for.
+    Return the values of steps.
 
     Raises:
-        ParameterError: the range is none.
+        ParameterError: the range is invalid.
     """
     low, high = limits(lo, hi, steps.shape[2])
     return (low + steps * ((high - low) / LARGEST)).astype(np.float32)
@@ -76,5 +75,5 @@ VALUE = "lo + stored / 65535 * (hi - lo)"
 
 
 def sidecar(facts: Mapping[str, Any], _layout: object) -> bytes:
-    """Return the text beside a map that is stored in steps."""
+    """Return the sidecar of a map that is stored in steps."""
     return as_json({**facts, "dtype": "uint16"})

@@ -1,7 +1,7 @@
 """
 Settings of an engine for an atlas of frames: Godot's `.import`, and pages for Unity and Unreal.
 
-Every figure, unit and rule of a page is the sidecar's: nothing is said twice.
+Every figure, unit and rule of a page comes from the sidecar.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,20 +13,20 @@ from fftocean.export.profiles import PROFILES, Profile
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A file beside an atlas: the end of its name after the atlas' own, and its text."""
+    """File beside an atlas: the suffix to the atlas' name, and a function for its text."""
 
     suffix: str
     text: Callable[[str, Mapping[str, Any]], str]
 
 
-def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
+def files_beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
     """
-    Return the files that belong beside an atlas in one engine's project, by name.
+    Return the files beside an atlas in an engine's project, by name.
 
     Args:
         profile: conventions of the atlas.
-        file: the atlas' own name, without a folder.
-        facts: what its sidecar says.
+        file: name of the atlas, without a folder.
+        facts: contents of its sidecar.
     """
     if profile.name not in PAGES:
         return {}
@@ -35,12 +35,12 @@ def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, b
 
 
 def godot_import(across: int, down: int) -> bytes:
-    """Return Godot's settings of an atlas that is cut into a texture array."""
+    """Return Godot's settings for cutting an atlas into a texture array."""
     return _GODOT.format(across=across, down=down).encode()
 
 
 def _facts(facts: Mapping[str, Any]) -> str:
-    """Return what must be known of a map to play and sample it, one fact a line."""
+    """Return the facts for playing and sampling a map, one a line."""
     rule, conventions = facts["sampling"], facts["conventions"]
     values, time = rule["values"], facts["time_unit"]
     letters = ", ".join(f"{letter}: {word}" for letter, word in facts["channels"].items())
@@ -70,8 +70,8 @@ def _facts(facts: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-# compress/mode 3 is VRAM Uncompressed: the halves as they are. Mode 2 would be BC6H, which is
-# coarse, and unsigned on some cards.
+# compress/mode 3 is VRAM Uncompressed, which keeps the halves. Mode 2 is BC6H, which is coarse, and
+# unsigned on some cards.
 _GODOT = """[remap]
 
 importer="2d_array_texture"
@@ -150,7 +150,7 @@ texels of its opposite edges, so that a bilinear sampler wraps.
 
 
 def _filled(template: str) -> Callable[[str, Mapping[str, Any]], str]:
-    """Return how a page is filled in for an atlas and what its sidecar says."""
+    """Return a function that fills in a page from an atlas' name and sidecar."""
 
     def text(file: str, facts: Mapping[str, Any]) -> str:
         across, down = facts["tiles"]
@@ -167,12 +167,25 @@ def _filled(template: str) -> Callable[[str, Mapping[str, Any]], str]:
     return text
 
 
-PAGES = {
-    "godot": Page(".import", _filled(_GODOT)),
-    "unity": Page(".unity.txt", _filled(_UNITY)),
-    "unreal": Page(".unreal.txt", _filled(_UNREAL)),
-}
-"""By profile."""
+def pages_of(pages: Mapping[str, Page]) -> Mapping[str, Page]:
+    """
+    Return pages by profile.
 
-if not PAGES.keys() <= PROFILES.keys():
-    raise ImportError(f"pages must be for profiles, got {', '.join(PAGES)}")
+    Raises:
+        ImportError: a page for an unknown profile, without a suffix, or with that of another page.
+    """
+    if not pages.keys() <= PROFILES.keys():
+        raise ImportError(f"pages must be for profiles, got {', '.join(pages)}")
+    suffixes = [page.suffix for page in pages.values()]
+    if len({*suffixes, ""}) <= len(suffixes):
+        raise ImportError(f"each page must have a suffix of its own, got {', '.join(suffixes)}")
+    return pages
+
+
+PAGES = pages_of(
+    {
+        "godot": Page(".import", _filled(_GODOT)),
+        "unity": Page(".unity.txt", _filled(_UNITY)),
+        "unreal": Page(".unreal.txt", _filled(_UNREAL)),
+    }
+)

@@ -5,7 +5,7 @@ Each rule is a string over named numbers, with + - * / and the functions floor(a
 (never negative for b > 0). Sidecars, manifests, `cascade.json`, the pages for engines and the
 documentation all show these strings, and a test evaluates them against the sea.
 
-Sample i of a map was computed at x = i size / n, and an engine has texel i at u = (i + 0.5) / n;
+Sample i of a map was computed at x = i size / n, and engines have texel i at u = (i + 0.5) / n;
 hence the half texel in u and v.
 """
 
@@ -16,12 +16,12 @@ from fftocean.export.profiles import KINDS, Kind, Profile
 
 def sampling(profile: Profile) -> dict[str, str]:
     """
-    Return the rules by which files of a profile are sampled.
+    Return the rules for sampling files of a profile.
 
-    Names in them: the profile's horizontal axes (`X`, and `Y` or `Z`) at rest, in its unit, as
+    Their variables are the profile's horizontal axes (`X`, and `Y` or `Z`) at rest, in its unit, as
     `size_x` and `size_y` are; `nx` and `ny`, texels of one frame; `time`, `start` and `loop` in
     seconds; `frames`. `column` and `row` count texels of the file from its first one, for code
-    that reads it without a sampler.
+    without a sampler.
     """
     one, two = profile.horizontal
     minus = "" if profile.v_north * profile.north > 0 else "-"
@@ -46,15 +46,15 @@ def numbers(
     start: float,
 ) -> dict[str, float]:
     """
-    Return the numbers that the rules of `sampling` name.
+    Return the values of the variables in the rules of `sampling`.
 
     Args:
         profile: conventions of the files.
-        size: of the tile along x and y [m].
+        size: size of the tile along x and y [m].
         n: texels of a frame along x and y.
-        frames: how many there are.
-        loop: what they take to play through [s].
-        start: time of the first [s].
+        frames: number of frames.
+        loop: duration of all frames [s].
+        start: time of the first frame [s].
     """
     return {
         "size_x": profile.scale * size[0],
@@ -69,12 +69,12 @@ def numbers(
 
 def atlas(profile: Profile) -> dict[str, str]:
     """
-    Return the rules by which frame `index` (whole, 0 to frames - 1) is found in an atlas.
+    Return the rules for finding frame `index` (integer, 0 to frames - 1) in an atlas.
 
     Without a gutter the engine cuts the atlas into layers, each sampled at (u, v) and repeated.
-    With one, (atlas_u, atlas_v) is a place in the whole texture, and the texels around each frame
-    make a bilinear sampler wrap. Names besides those of `sampling`: `tiles_across`, `tiles_down`,
-    `gutter`.
+    With one, (atlas_u, atlas_v) is a position in the whole texture, and the texels around each
+    frame make a bilinear sampler wrap. Variables besides those of `sampling`: `tiles_across`,
+    `tiles_down`, `gutter`.
     """
     if not profile.gutter:
         return {"layer": "index"}
@@ -90,21 +90,21 @@ def atlas(profile: Profile) -> dict[str, str]:
 
 
 def world(profile: Profile, kind: Kind) -> dict[str, str]:
-    """Return what the channels R, G, B, A of a map's file give along the engine's own axes."""
+    """Return formulas of a map's values along the engine's axes in terms of R, G, B, A."""
     return KINDS[kind].world(profile)
 
 
 def row_sign(profile: Profile) -> int:
-    """Return the sign with which the second horizontal axis enters the row of a file."""
+    """Return the sign of the second horizontal axis along the rows of a file."""
     return profile.north * (-1 if profile.first_row == "north" else 1)
 
 
 def cascade(profile: Profile) -> dict[str, Any]:
     """
-    Return how the tiles of a cascade are sampled, for `cascade.json`.
+    Return the rules for sampling the tiles of a cascade, for `cascade.json`.
 
-    The rules of `sampling`, with the tile's own `size` [m] and `n` in terms of which their names
-    are given as formulas too: `size[0]` is the tile's first number.
+    These are the rules of `sampling`, with formulas of their variables in terms of a tile's own
+    `size` [m] and `n`: `size[0]` is the first number of `size`.
     """
     rule = sampling(profile)
     scale = f"{profile.scale} * " if profile.scale != 1 else ""
@@ -123,7 +123,7 @@ def cascade(profile: Profile) -> dict[str, Any]:
 
 
 def cascade_text(profile: Profile) -> str:
-    """Return the same in a sentence."""
+    """Return the rules of `cascade` in a sentence."""
     one, two = profile.horizontal
     rule = sampling(profile)
     return (

@@ -1,9 +1,8 @@
 """
-Zarr version 3: a map as one array (frame, row, column, channel) of float32, one chunk a frame, each
-with its CRC-32C.
+Zarr version 3: a map as one array (frame, row, column, channel) of float32.
 
-An absent chunk reads as the fill value, which for a sea would be a flat one: it is NaN here, so
-that no reader takes it for water.
+Each frame is one chunk, with its CRC-32C. A missing chunk reads as the fill value: it is NaN,
+because 0 would be mistaken for a flat sea.
 """
 
 import struct
@@ -20,7 +19,7 @@ from fftocean.export.form import (
     Format,
     Layout,
     Scale,
-    finite,
+    as_finite,
     one_level,
     require_finite,
     require_shape,
@@ -43,10 +42,10 @@ def encode_chunk(pixels: npt.NDArray[np.float32]) -> bytes:
 
 def decode_chunk(data: bytes, shape: tuple[int, int, int]) -> npt.NDArray[np.float32]:
     """
-    Return a frame of a given shape out of its chunk.
+    Return a frame of a given shape from its chunk.
 
     Raises:
-        IntegrityError: the chunk is cut or bent.
+        IntegrityError: the chunk is cut or damaged.
     """
     size = 4 * int(np.prod(shape))
     if len(data) != size + 4:
@@ -54,14 +53,12 @@ def decode_chunk(data: bytes, shape: tuple[int, int, int]) -> npt.NDArray[np.flo
             f"a Zarr chunk of shape {tuple(shape)} must have {size + 4} bytes, got {len(data)}"
         )
     if struct.unpack("<I", data[size:])[0] != checksum(data[:size]):
-        raise IntegrityError(
-            "a Zarr chunk must have the checksum that it ends with, and has another"
-        )
+        raise IntegrityError("a Zarr chunk must match the checksum at its end, and does not")
     return np.frombuffer(data, dtype="<f4", count=size // 4).reshape(shape).astype(np.float32)
 
 
 def metadata(shape: tuple[int, int, int, int], attributes: Mapping[str, Any]) -> bytes:
-    """The array's zarr.json."""
+    """Return the zarr.json of the array."""
     tree = {
         "zarr_format": 3,
         "node_type": "array",
@@ -78,7 +75,7 @@ def metadata(shape: tuple[int, int, int, int], attributes: Mapping[str, Any]) ->
 
 
 def _encode_frame(pixels: Real, _scale: Scale, _levels: Sequence[Real]) -> bytes:
-    return encode_chunk(finite(pixels, np.float32))
+    return encode_chunk(as_finite(pixels, np.float32))
 
 
 def _decode_frame(

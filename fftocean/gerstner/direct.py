@@ -15,7 +15,7 @@ from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.errors import ParameterError, described
 
 
-class WaveList(Protocol):
+class WaveColumns(Protocol):
     """
     A list of waves, each array (m,): height = sum of amplitude cos(kx x + ky y - omega t - phase).
     """
@@ -39,7 +39,7 @@ class HasWaves(Protocol):
 
     @property
     def depth(self) -> float: ...
-    def modes(self) -> WaveList: ...
+    def modes(self) -> WaveColumns: ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,5 @@
 """Job: a sea, a tile of it, and maps to write. Read from TOML, checked key by key, immutable."""
 
-import hashlib
 import json
 import math
 import tomllib
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from fftocean.arrays import shortened
 from fftocean.errors import JobError, ParameterError, ReaderError, described
-from fftocean.files import path_of
+from fftocean.files import digest_of, path_of
 from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.job.wave_systems import measurement, systems_of, unknown_key
 from fftocean.ocean import Ocean
@@ -56,7 +55,8 @@ class Job:
             ],
         )
         return shortened(
-            f"Job({self.source!r}: {' and '.join(waves)}, n={s['ocean.n']}, size={s['ocean.size']}, {self.frames} frames of "
+            f"Job({self.source!r}: {' and '.join(waves)}, n={s['ocean.n']}, "
+            f"size={s['ocean.size']}, {self.frames} frames of "
             f"{', '.join(self.maps)} as {self.format} for {self.engine})"
         )
 
@@ -110,7 +110,8 @@ class Job:
         ):  # as TOML has them: `splitlines` would break a key at U+2028
             if len(line) > MAX_LINE:
                 raise JobError(
-                    f"{source}, line {number}: a line must have at most {MAX_LINE} characters, got {len(line)}"
+                    f"{source}, line {number}: a line must have at most {MAX_LINE} "
+                    f"characters, got {len(line)}"
                 )
         try:
             tree = tomllib.loads(text)
@@ -137,11 +138,13 @@ class Job:
             if key == "sea.systems":
                 if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
                     raise JobError(
-                        f"{source}: sea.systems must be tables, written [[sea.systems]], got {value!r:.60}"
+                        f"{source}: sea.systems must be tables, written [[sea.systems]], "
+                        f"got {value!r:.60}"
                     )
                 if len(value) > MAX_SYSTEMS:
                     raise JobError(
-                        f"{source}: sea.systems must be at most {MAX_SYSTEMS} tables, got {len(value)}"
+                        f"{source}: sea.systems must be at most {MAX_SYSTEMS} tables, got "
+                        f"{len(value)}"
                     )
                 systems = tuple(value)
             elif key in BY_KEY:
@@ -152,7 +155,7 @@ class Job:
         job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
         if at_sea:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # said once, when it is used
+                warnings.simplefilter("ignore")  # given once, when it is used
                 measured = job.measurements()
                 if "sea.depth" not in given:
                     job = job._at_measured_depth(measured)
@@ -179,8 +182,7 @@ class Job:
 
     def _at_measured_depth(self, measured: "Mapping[str, Realised]") -> "Job":
         """
-        Return the job in water as deep as its measured files say, where it names no sea.depth
-        itself.
+        Return the job with the depth of its measured files, where it names no sea.depth itself.
         """
         depths = {key: m.depth_source for key, m in measured.items() if m.depth_source is not None}
         if not depths:
@@ -189,7 +191,8 @@ class Job:
         for key, depth in others:
             if not math.isclose(depth, first[1], rel_tol=1e-3):
                 raise JobError(
-                    f"{self.source}: sea.depth must be given where measured files differ in it, got {first[1]:g} m of {first[0]} "
+                    f"{self.source}: sea.depth must be given where measured files differ "
+                    f"in it, got {first[1]:g} m of {first[0]} "
                     f"and {depth:g} m of {key}"
                 )
         return self.replaced({"sea.depth": first[1]})
@@ -206,12 +209,12 @@ class Job:
         for key, made in measured.items():
             depth, own = self.settings["sea.depth"], made.depth_source
             if own is None:
-                said = f"the file has no water depth; sea.depth is {depth:g} m"
+                note = f"the file has no water depth; sea.depth is {depth:g} m"
             elif math.isclose(own, depth, rel_tol=1e-9):
-                said = f"sea.depth is the file's own, {own:g} m"
+                note = f"sea.depth is the file's own, {own:g} m"
             else:
-                said = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
-            notes[key] = [said, *made.notes]
+                note = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
+            notes[key] = [note, *made.notes]
         return notes
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":
@@ -224,7 +227,8 @@ class Job:
         """
         if not isinstance(changes, Mapping):
             raise JobError(
-                f"changes must be keys with values, such as {{'ocean.n': 512}}, got {described(changes)}"
+                f"changes must be keys with values, such as {{'ocean.n': 512}}, got "
+                f"{described(changes)}"
             )
         for key in changes:
             if key == "sea.systems":
@@ -284,7 +288,8 @@ class Job:
         low, high = s["ocean.band_low"], s["ocean.band_high"]
         if not low < high:
             raise JobError(
-                f"{self.source}: ocean.band_low must be below ocean.band_high, got {low:g} and {high:g} rad/m"
+                f"{self.source}: ocean.band_low must be below ocean.band_high, got "
+                f"{low:g} and {high:g} rad/m"
             )
         try:
             return Ocean(
@@ -368,7 +373,8 @@ class Job:
             or any(side % factor for side in sides)
         ):
             raise JobError(
-                f"downsample must be a whole number that divides ocean.n = {', '.join(map(str, sides))}, got {factor!r:.40}"
+                f"downsample must be a whole number that divides ocean.n = "
+                f"{', '.join(map(str, sides))}, got {factor!r:.40}"
             )
         return (
             self
@@ -395,18 +401,13 @@ class Job:
             if "measured" in table:
                 name = table["measured"]["file"]
                 for path in measured_files(folder / name):
-                    digest = hashlib.sha256()
                     try:
-                        with path.open("rb") as file:
-                            while part := file.read(2**20):
-                                digest.update(part)
+                        sha256 = digest_of(path)
                     except OSError as error:
                         raise ReaderError(
                             f"{path.name} cannot be read: {error.strerror or error}"
                         ) from error
-                    found[name if path == folder / name else f"{name} ({path.name})"] = (
-                        digest.hexdigest()
-                    )
+                    found[name if path == folder / name else f"{name} ({path.name})"] = sha256
         return found
 
     @classmethod
@@ -414,7 +415,7 @@ class Job:
         cls, described: Mapping[str, Any], *, source: str = "job", at_sea: bool = True
     ) -> "Job":
         """
-        Return the job that `describe` described; without `at_sea` its measured files need not exist.
+        Return the job of a `describe`; without `at_sea` its measured files need not exist.
 
         Raises:
             JobError: the description is not that of a job.
@@ -463,7 +464,8 @@ def _brings_wind(given: Mapping[str, Any], source: str) -> bool:
     keys = [p.key for p in WIND if p.key in given]
     if keys and "sea.wind.speed" not in given:
         raise JobError(
-            f"{source}: sea.wind.speed must be given where {keys[0]} is, as sea.systems alone have no wind"
+            f"{source}: sea.wind.speed must be given where {keys[0]} is, as sea.systems "
+            f"alone have no wind"
         )
     return bool(keys)
 

@@ -194,8 +194,8 @@ OUTPUT = (
     Parameter(
         "bake.normals",
         "engine",
-        "values of normal maps: signed (-1 to 1), packed (0 to 1), or engine: as the engine's stock "
-        "materials read",
+        "values of normal maps: signed (-1 to 1), packed (0 to 1), "
+        "or engine: as the engine's stock materials read",
         choices=("engine", "signed", "packed"),
         flag="normals",
     ),

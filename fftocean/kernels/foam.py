@@ -1,4 +1,4 @@
-"""One step of the foam equation."""
+"""One time step of foam: decay, and growth where water breaks."""
 
 import numpy as np
 
@@ -19,11 +19,11 @@ def advance(
     state: Real,
 ) -> None:
     """
-    Set state = decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
+    Advance state to decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
 
-    The eigenvalue at time u_i, from `now` to `then`, is interpolated by a cubic through the four
-    given times: the sum of cubic[i] times the four. So a crest that breaks between two times is not
-    missed.
+    The smallest eigenvalue of the deformation gradient is a cubic through the four given times, and
+    u_i are times from `now` to `then`: eigenvalue(u_i) is the sum of cubic[i] times the four. So a
+    crest that breaks between two steps is not missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]
@@ -44,7 +44,7 @@ def advance(
 
 @compiled
 def coverage(state: Real, out: Real) -> None:
-    """Set out = 1 - e^{-state}, in 0..1."""
+    """Write out = 1 - e^{-state}, in 0..1."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             out[j, i] = -np.expm1(-state[j, i])

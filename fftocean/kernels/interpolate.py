@@ -1,9 +1,9 @@
 """
-Periodic interpolation of fields that lie side by side: texel i of n stands at u = i, and u + n is u
-again.
+Periodic interpolation of several fields at once, linear and cubic.
 
-`texels` is (ny, nx, channels), C-contiguous, any number of channels: what belongs to one point
-shares cache lines. All sums are in double precision, whatever the texels are.
+Texel i of n is at u = i, and u + n is the same place as u. `texels` is (ny, nx, channels),
+C-contiguous, any number of channels: the values of one texel share cache lines. All sums are in
+double precision, whatever the type of the texels.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def bilinear(texels: Real, u: Real, v: Real, out: Real) -> None:
     """
-    out[p] += the texels around (u[p], v[p]), linear in between; NaN where u or v is not finite.
+    Add the bilinear interpolant at (u[p], v[p]) to out[p]; NaN where u or v is not finite.
 
     u and v are (points,) in texels, any number of periods away; out is (points, channels).
     """
@@ -41,8 +41,7 @@ def bilinear(texels: Real, u: Real, v: Real, out: Real) -> None:
 @compiled
 def bicubic(texels: Real, u: Real, v: Real, spline: bool, out: Real) -> None:
     """
-    out[p] += the bicubic through or along the 4 x 4 texels around (u[p], v[p]); NaN where u or v is
-    not finite.
+    Add the bicubic interpolant at (u[p], v[p]) to out[p]; NaN where u or v is not finite.
 
     With `spline`, texels are the coefficients of a cubic B-spline, which is smooth to the second
     derivative (see `spline_response`); without, they are the values themselves, and the curve is
@@ -81,11 +80,10 @@ def bilinear_gradient(
     texels: Real, first: int, nx: int, ny: int, u: float, v: float
 ) -> tuple[float, ...]:
     """
-    Return the first three channels (a, b, c) at (u, v), and da/du, da/dv, db/du, db/dv of the
-    interpolant itself.
+    Return (a, b, c, da/du, da/dv, db/du, db/dv) of the bilinear interpolant at (u, v).
 
-    `texels` is flat, four channels to a texel: the tile's lie row by row from texel `first` on. (u,
-    v) is finite, and not too far away for an integer.
+    a, b and c are the first three channels. `texels` is flat, four channels to a texel; those of
+    the tile lie row by row from texel `first` on. (u, v) is finite, and fits into an integer.
     """
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
@@ -107,7 +105,7 @@ def bilinear_gradient(
 
 @compiled
 def _linear_row(texels: Real, i: int, right: int, f: float) -> tuple[float, ...]:
-    """(a, da/du, b, db/du, c) between two texels."""
+    """Return (a, da/du, b, db/du, c) between two texels."""
     a, b, c = _three(texels, i)
     p, q, r = _three(texels, right)
     return a + f * (p - a), p - a, b + f * (q - b), q - b, c + f * (r - c)
@@ -116,8 +114,9 @@ def _linear_row(texels: Real, i: int, right: int, f: float) -> tuple[float, ...]
 @compiled
 def _three(texels: Real, i: int) -> tuple[float, float, float]:
     """
-    The first three channels of a texel. Unsigned indices, here as above, spare the question whether
-    they count from the end.
+    Return the first three channels of a texel.
+
+    Unsigned indices, here and above, need no check for negative ones.
     """
     k = np.uint64(4 * i)
     return float(texels[k]), float(texels[k + _ONE]), float(texels[k + _TWO])
@@ -130,7 +129,7 @@ _ONE, _TWO = np.uint64(1), np.uint64(2)
 def spline_gradient(
     texels: Real, first: int, nx: int, ny: int, u: float, v: float
 ) -> tuple[float, ...]:
-    """The same, of the cubic B-spline whose coefficients the texels are."""
+    """Return the same of the cubic B-spline whose coefficients the texels are."""
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
     w, d = spline_weights(f), spline_slopes(f)
@@ -166,7 +165,7 @@ def _cubic_row(
     d: tuple[float, float, float, float],
 ) -> tuple[float, ...]:
     """
-    (a, da/du, b, db/du, c) along four texels of one row, with the weights of values and slopes.
+    Return (a, da/du, b, db/du, c) along four texels of a row, by the weights of values and slopes.
     """
     a0, b0, c0 = _three(texels, i)
     a1, b1, c1 = _three(texels, j)
@@ -181,73 +180,89 @@ def _cubic_row(
     )
 
 
+BLOCK = 128
+"""Points that are interpolated at a time."""
+
+ROWS = 23
+U, V, DISPLACE_X, DISPLACE_Y, HEIGHT, XX, XY, YX, YY = (row * BLOCK for row in range(9))
+"""Starts of the rows of a workspace: texel coordinates, then the sums of the interpolants."""
+
+# Then fractions of a texel along u and v, and the three channels of the four texels around.
+_F, _G = 9 * BLOCK, 10 * BLOCK
+_A, _B, _C, _A_RIGHT, _B_RIGHT, _C_RIGHT = (row * BLOCK for row in range(11, 17))
+_A_UP, _B_UP, _C_UP, _A_ACROSS, _B_ACROSS, _C_ACROSS = (row * BLOCK for row in range(17, 23))
+
+
 @compiled
 def bilinear_gradients(
-    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real
+    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, rows: Real
 ) -> None:
     """
-    Add what `bilinear_gradient` returns for `count` points at once, u a per_x and v a per_y to the
-    metre.
+    Add the results of `bilinear_gradient` for `count` points at once.
 
-    First all texels are fetched, then all is computed: fetches wait side by side, and sums go
-    several at a time. `desk` is `ROWS` rows of `BLOCK`, flat, so that a compiler sees that they do
-    not overlap: u, v, the seven sums (a, b, c, da/dx, da/dy, db/dx, db/dy), and room to work in.
+    First all texels are fetched, then all sums are computed: the processor waits for many fetches
+    at a time, and sums several points at a time.
+
+    Args:
+        texels, first, nx, ny: as in `bilinear_gradient`.
+        per_x, per_y: texels to the metre.
+        count: number of points, at most `BLOCK`.
+        rows: a workspace, (ROWS * BLOCK,): `U` and `V` are read, the seven sums from `DISPLACE_X`
+            to `YY` are added to, with derivatives by the metre (`XY` is d displace_x / dy). It is
+            flat, so that a compiler sees that its rows do not overlap.
     """
     for p in range(count):
-        i, f = _near_texel(desk[p], nx)
-        j, g = _near_texel(desk[BLOCK + p], ny)
+        i, f = _near_texel(rows[U + p], nx)
+        j, g = _near_texel(rows[V + p], ny)
         right, low, high = _after(i, nx), first + j * nx, first + _after(j, ny) * nx
-        desk[9 * BLOCK + p], desk[10 * BLOCK + p] = f, g
-        desk[11 * BLOCK + p], desk[12 * BLOCK + p], desk[13 * BLOCK + p] = _three(texels, low + i)
-        desk[14 * BLOCK + p], desk[15 * BLOCK + p], desk[16 * BLOCK + p] = _three(
-            texels, low + right
-        )
-        desk[17 * BLOCK + p], desk[18 * BLOCK + p], desk[19 * BLOCK + p] = _three(texels, high + i)
-        desk[20 * BLOCK + p], desk[21 * BLOCK + p], desk[22 * BLOCK + p] = _three(
-            texels, high + right
-        )
+        rows[_F + p], rows[_G + p] = f, g
+        rows[_A + p], rows[_B + p], rows[_C + p] = _three(texels, low + i)
+        rows[_A_RIGHT + p], rows[_B_RIGHT + p], rows[_C_RIGHT + p] = _three(texels, low + right)
+        rows[_A_UP + p], rows[_B_UP + p], rows[_C_UP + p] = _three(texels, high + i)
+        rows[_A_ACROSS + p], rows[_B_ACROSS + p], rows[_C_ACROSS + p] = _three(texels, high + right)
     for p in range(count):
-        f, g = desk[9 * BLOCK + p], desk[10 * BLOCK + p]
-        a, b, c = desk[11 * BLOCK + p], desk[12 * BLOCK + p], desk[13 * BLOCK + p]
-        a_low, b_low = desk[14 * BLOCK + p] - a, desk[15 * BLOCK + p] - b
-        c += f * (desk[16 * BLOCK + p] - c)
-        a_up, b_up, c_up = desk[17 * BLOCK + p], desk[18 * BLOCK + p], desk[19 * BLOCK + p]
-        a_high, b_high = desk[20 * BLOCK + p] - a_up, desk[21 * BLOCK + p] - b_up
-        c_up += f * (desk[22 * BLOCK + p] - c_up)
+        f, g = rows[_F + p], rows[_G + p]
+        a, b, c = rows[_A + p], rows[_B + p], rows[_C + p]
+        a_low, b_low = rows[_A_RIGHT + p] - a, rows[_B_RIGHT + p] - b
+        c += f * (rows[_C_RIGHT + p] - c)
+        a_up, b_up, c_up = rows[_A_UP + p], rows[_B_UP + p], rows[_C_UP + p]
+        a_high, b_high = rows[_A_ACROSS + p] - a_up, rows[_B_ACROSS + p] - b_up
+        c_up += f * (rows[_C_ACROSS + p] - c_up)
         a, b, a_up, b_up = a + f * a_low, b + f * b_low, a_up + f * a_high, b_up + f * b_high
-        desk[2 * BLOCK + p] += a + g * (a_up - a)
-        desk[3 * BLOCK + p] += b + g * (b_up - b)
-        desk[4 * BLOCK + p] += c + g * (c_up - c)
-        desk[5 * BLOCK + p] += per_x * (a_low + g * (a_high - a_low))
-        desk[6 * BLOCK + p] += per_y * (a_up - a)
-        desk[7 * BLOCK + p] += per_x * (b_low + g * (b_high - b_low))
-        desk[8 * BLOCK + p] += per_y * (b_up - b)
-
-
-BLOCK, ROWS = 128, 23
+        rows[DISPLACE_X + p] += a + g * (a_up - a)
+        rows[DISPLACE_Y + p] += b + g * (b_up - b)
+        rows[HEIGHT + p] += c + g * (c_up - c)
+        rows[XX + p] += per_x * (a_low + g * (a_high - a_low))
+        rows[XY + p] += per_y * (a_up - a)
+        rows[YX + p] += per_x * (b_low + g * (b_high - b_low))
+        rows[YY + p] += per_y * (b_up - b)
 
 
 @compiled
 def spline_gradients(
-    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, desk: Real
+    texels: Real, first: int, nx: int, ny: int, per_x: float, per_y: float, count: int, rows: Real
 ) -> None:
-    """The same for `spline_gradient`, point by point: 16 texels at a time are work enough."""
+    """
+    Add the results of `spline_gradient` for `count` points; arguments as in `bilinear_gradients`.
+
+    The 16 texels of one point are enough to fetch at a time.
+    """
     for p in range(count):
         a, b, c, a_u, a_v, b_u, b_v = spline_gradient(
-            texels, first, nx, ny, desk[p], desk[BLOCK + p]
+            texels, first, nx, ny, rows[U + p], rows[V + p]
         )
-        desk[2 * BLOCK + p] += a
-        desk[3 * BLOCK + p] += b
-        desk[4 * BLOCK + p] += c
-        desk[5 * BLOCK + p] += per_x * a_u
-        desk[6 * BLOCK + p] += per_y * a_v
-        desk[7 * BLOCK + p] += per_x * b_u
-        desk[8 * BLOCK + p] += per_y * b_v
+        rows[DISPLACE_X + p] += a
+        rows[DISPLACE_Y + p] += b
+        rows[HEIGHT + p] += c
+        rows[XX + p] += per_x * a_u
+        rows[XY + p] += per_y * a_v
+        rows[YX + p] += per_x * b_u
+        rows[YY + p] += per_y * b_v
 
 
 @compiled
 def catmull_rom_weights(f: float) -> tuple[float, float, float, float]:
-    """The weights of the four texels around, a fraction f beyond the second of them."""
+    """Return the weights of four texels at a fraction f beyond the second of them."""
     return (
         ((-0.5 * f + 1.0) * f - 0.5) * f,
         (1.5 * f - 2.5) * f * f + 1.0,
@@ -258,7 +273,7 @@ def catmull_rom_weights(f: float) -> tuple[float, float, float, float]:
 
 @compiled
 def spline_weights(f: float) -> tuple[float, float, float, float]:
-    """The same for the cubic B-spline."""
+    """Return the same for the cubic B-spline."""
     e = 1.0 - f
     return (
         e * e * e / 6.0,
@@ -270,39 +285,41 @@ def spline_weights(f: float) -> tuple[float, float, float, float]:
 
 @compiled
 def spline_slopes(f: float) -> tuple[float, float, float, float]:
-    """The derivatives of `spline_weights`."""
+    """Return the derivatives of `spline_weights`."""
     e = 1.0 - f
     return -0.5 * e * e, (1.5 * f - 2.0) * f, (2.0 - 1.5 * e) * e, 0.5 * f * f
 
 
-def spline_response(turns: Real) -> Real:
+def spline_response(cycles: Real) -> Real:
     """
-    How much a cubic B-spline weakens a wave that makes `turns` turns from texel to texel: (2 +
-    cos(2 pi turns))/3.
+    Return the response of a cubic B-spline to a wave, (2 + cos(2 pi cycles))/3.
 
     Waves divided by it, along x and y, are the coefficients of the spline that goes through the
-    waves' own texels (Unser 1999).
+    texels of the waves (Unser 1999).
+
+    Args:
+        cycles: of the wave from texel to texel.
     """
-    response: Real = (2.0 + np.cos(2.0 * np.pi * turns)) / 3.0
+    response: Real = (2.0 + np.cos(2.0 * np.pi * cycles)) / 3.0
     return response
 
 
 @compiled
 def _texel(u: float, n: int) -> tuple[int, float]:
-    """The texel at or before u, in [0, n), and the fraction beyond it; u is finite."""
+    """Return the texel at or before u, in [0, n), and the fraction beyond it; u is finite."""
     return _near_texel(u - np.floor(u / n) * n, n)
 
 
 @compiled
 def _near_texel(u: float, n: int) -> tuple[int, float]:
-    """The same without a division, for a u that an integer can hold."""
+    """Return the same without a division, for a u that an integer can hold."""
     whole = np.floor(u)
     return _wrapped(int(whole), n), u - whole
 
 
 @compiled
 def _wrapped(i: int, n: int) -> int:
-    """i mod n, without a division where i is next to the tile."""
+    """Return i mod n, without a division if i is next to the tile."""
     if i < 0:
         i += n
     elif i >= n:
@@ -312,5 +329,5 @@ def _wrapped(i: int, n: int) -> int:
 
 @compiled
 def _after(i: int, n: int) -> int:
-    """The texel after i, which is one of the tile's."""
+    """Return the texel after i, for i in [0, n)."""
     return i + 1 if i + 1 < n else 0

@@ -7,11 +7,11 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def halve(texels: Real, out: Real) -> None:
     """
-    Set out = means of texels over boxes.
+    Write the means of texels over boxes, from n samples an axis to m = max(1, n // 2).
 
-    Each axis has n samples and m = max(1, n // 2) boxes; box i covers i n/m to (i + 1) n/m. For odd
-    n a box ends within a sample, which is shared between two boxes by length; so all samples have
-    equal weight, and the mean is conserved. Both arrays are (rows, columns, channels).
+    Box i covers i n/m to (i + 1) n/m. Where n is odd a box ends within a sample, which is shared by
+    length; so all samples have one weight, and means are kept. Both arrays are (rows, columns,
+    channels).
     """
     rows, columns, channels = texels.shape
     tall, wide = out.shape[0], out.shape[1]

@@ -1,21 +1,16 @@
 """
-The inner loops of point queries: find the parameters whose water is at a world point, and sum or
-interpolate what is there.
+Loops of point queries: inversion of the horizontal displacement, and sums of waves at points.
 
-A source of waves is a few tiles, each periodic in its own size (inf: not at all), which add up.
-Tiles are either texels, to be interpolated, or lists of waves, to be summed. Parameters are kept as
-the world point, reduced to the first period of each tile, plus an offset of a few metres: far from
-the origin nothing but the reduction itself loses digits.
+A source of waves is one or more tiles, each periodic in its own size (inf: not periodic), which add
+up. Tiles are either texels, to be interpolated, or lists of waves, to be summed. The parameters of
+a point are kept as the world point, reduced to the first period of each tile, plus an offset of a
+few metres: far from the origin only the reduction itself loses digits.
 
-    kind     BILINEAR, SPLINE or WAVES
-    sizes    (tiles, 2)      lx, ly [m]
-    rates    (tiles, 2)      nx/lx, ny/ly: texels to the metre
-    layout   (tiles, 3)      first, nx, ny of each tile's texels in the flat arrays
-    texels   (4 all,)        displace_x, displace_y, height and nothing of each: 16 bytes in single
-    precision first    (tiles + 1,)    where the waves of each tile begin
-    waves    (5, all)        kx, ky, a, push, start: height a cos f, displacement -push (kx, ky) sin
-    f, with f = kx x + ky y - start
+Arrays that belong together are named tuples here, and plain tuples where Python calls a kernel: the
+dispatcher takes 1 us for a plain tuple, 6 us for a named one.
 """
+
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,6 +18,15 @@ from fftocean.arrays import Integer, Real
 from fftocean.kernels.compiler import compiled
 from fftocean.kernels.interpolate import (
     BLOCK,
+    DISPLACE_X,
+    DISPLACE_Y,
+    HEIGHT,
+    XX,
+    XY,
+    YX,
+    YY,
+    U,
+    V,
     bilinear_gradient,
     bilinear_gradients,
     spline_gradient,
@@ -30,13 +34,59 @@ from fftocean.kernels.interpolate import (
 )
 
 BILINEAR, SPLINE, WAVES = 0, 1, 2
+"""The kinds of a source: texels, with their interpolation, or waves."""
+
+KX, KY, AMPLITUDE, POTENTIAL, PHASE = range(5)
+"""Rows of `Tiles.waves`."""
 
 FAR = 4503599627370496.0  # 2^52 periods away the reduction below would not end in the first period
 
 
+class Tiles(NamedTuple):
+    """
+    A source of waves: texels or waves of one or more tiles, end to end.
+
+    With f = kx x + ky y - phase, a wave has the height amplitude cos f, and the displacement
+    -potential (kx, ky) sin f.
+    """
+
+    sizes: Real  # (tiles, 2): lx, ly [m]
+    layout: Integer  # (tiles, 3): first texel, nx, ny of each tile
+    texels: Real  # (4 all,): displace_x, displace_y, height and nothing: 16 bytes if single
+    first: Integer  # (tiles + 1,): number of the first wave of each tile
+    waves: Real  # (5, all): kx, ky [rad/m], amplitude [m], potential [m^2], phase [rad]
+
+
+class Found(NamedTuple):
+    """The result of an inversion, written to."""
+
+    offsets: Real  # (points, 2): from the point to its parameters [m]
+    heights: Real  # (points,) [m]
+    residuals: Real  # (points,): distance of the water found from the point [m]
+    jacobians: Real  # (points,): the least Jacobian met on the way [-]
+
+
+class Search(NamedTuple):
+    """Settings of `invert`."""
+
+    choppiness: float  # [-]
+    aim: float  # a residual that ends the search [m]
+    limit: float  # a residual that is accepted after some steps [m]
+    reach: float  # radius around the point from which to start again [m]
+
+
+class Workspace(NamedTuple):
+    """Buffers of `follow` for a block of points, written to."""
+
+    origins: Real  # (tiles, 2, BLOCK): the points, reduced, in texels
+    offsets: Real  # (2, BLOCK): of the points that are still searched for [m]
+    rows: Real  # (ROWS * BLOCK,): as in `bilinear_gradients`
+    points: Integer  # (BLOCK,): numbers of those points within the block
+
+
 @compiled
 def _reduce(x: float, y: float, sizes: Real, origin: Real) -> None:
-    """origin[i] = (x, y) in the first period of tile i."""
+    """Write origin[i] = (x, y) in the first period of tile i."""
     for i in range(sizes.shape[0]):
         origin[i, 0] = _reduced(x, sizes[i, 0])
         origin[i, 1] = _reduced(y, sizes[i, 1])
@@ -44,7 +94,7 @@ def _reduce(x: float, y: float, sizes: Real, origin: Real) -> None:
 
 @compiled
 def _reduced(x: float, size: float) -> float:
-    """x - size floor(x/size), or x itself where nothing repeats."""
+    """Return x - size floor(x/size), or x itself if nothing repeats."""
     if np.isinf(size):
         return x
     periods = float(np.floor(x / size))
@@ -56,161 +106,114 @@ def _reduced(x: float, size: float) -> float:
 @compiled
 def follow(
     cubic: bool,
-    sizes: Real,
+    tiles: tuple[Any, ...],
     rates: Real,
-    layout: Integer,
-    texels: Real,
     x: Real,
     y: Real,
     choppiness: float,
     limit: float,
-    origins: Real,
-    moved: Real,
-    desk: Real,
-    points: Integer,
-    offsets: Real,
-    heights: Real,
-    residuals: Real,
-    jacobians: Real,
+    workspace: tuple[Any, ...],
+    found: tuple[Any, ...],
 ) -> None:
     """
-    The same as `invert` for texels where the way is easy, which it nearly always is: Newton's steps
-    as they come, a few of them.
+    Do the same as `invert` for texels, by at most `EASY` plain Newton steps: the fast path.
 
-    Stops where the residual is at most `limit` [m]. What is left above it, with an infinite
-    residual, is for `invert`. The first step does without the last tile: the others displace the
-    water furthest, and where it ends up is as good a place to look at ripples as the start was.
-    Points go through in blocks, and leave them as they are found. Room to work in: `origins`
-    (tiles, 2, BLOCK), `moved` (2, BLOCK), `desk` as in `bilinear_gradients`, `points` (BLOCK,).
+    A point is done when its residual is at most `limit` [m]. The others keep an infinite residual,
+    and are left for `invert`. The first step leaves out the last tile: the others displace the
+    water furthest, and their result is as good a place to start with ripples as the point itself.
+    Points are searched for in blocks, and leave them as they are found.
+
+    Args:
+        cubic: interpolate by cubic splines, not linearly.
+        tiles: the fields of `Tiles`.
+        rates: nx/lx, ny/ly of each tile, (tiles, 2): texels to the metre.
+        x, y: the points [m].
+        choppiness: factor on the displacement [-].
+        limit: largest residual [m].
+        workspace: the fields of `Workspace`.
+        found: the fields of `Found`.
     """
-    tiles = sizes.shape[0]
-    for start in range(0, heights.size, BLOCK):
-        live = _enter(
-            x,
-            y,
-            start,
-            min(BLOCK, heights.size - start),
-            sizes,
-            rates,
-            origins,
-            points,
-            offsets,
-            heights,
-            residuals,
-            jacobians,
-        )
-        moved[:] = 0.0
-        for count in range(EASY):
-            known = tiles - 1 if count == 0 and tiles > 1 else tiles
-            desk[2 * BLOCK : 9 * BLOCK] = 0.0
-            for i in range(known):
+    source, buffers, result = Tiles(*tiles), Workspace(*workspace), Found(*found)
+    count = source.sizes.shape[0]
+    layout, rows, points = source.layout, buffers.rows, buffers.points
+    origins, offsets = buffers.origins, buffers.offsets
+    for start in range(0, result.heights.size, BLOCK):
+        size = min(BLOCK, result.heights.size - start)
+        live = _load_block(x, y, start, size, source.sizes, rates, buffers, result)
+        offsets[:] = 0.0
+        for step in range(EASY):
+            used = count - 1 if step == 0 and count > 1 else count
+            rows[DISPLACE_X : YY + BLOCK] = 0.0
+            for i in range(used):
+                per_x, per_y = rates[i, 0], rates[i, 1]
                 for q in range(live):
-                    desk[q] = origins[i, 0, points[q]] + moved[0, q] * rates[i, 0]
-                    desk[BLOCK + q] = origins[i, 1, points[q]] + moved[1, q] * rates[i, 1]
+                    rows[U + q] = origins[i, 0, points[q]] + offsets[0, q] * per_x
+                    rows[V + q] = origins[i, 1, points[q]] + offsets[1, q] * per_y
+                first, nx, ny = layout[i, 0], layout[i, 1], layout[i, 2]
                 if cubic:
-                    spline_gradients(
-                        texels,
-                        layout[i, 0],
-                        layout[i, 1],
-                        layout[i, 2],
-                        rates[i, 0],
-                        rates[i, 1],
-                        live,
-                        desk,
-                    )
+                    spline_gradients(source.texels, first, nx, ny, per_x, per_y, live, rows)
                 else:
-                    bilinear_gradients(
-                        texels,
-                        layout[i, 0],
-                        layout[i, 1],
-                        layout[i, 2],
-                        rates[i, 0],
-                        rates[i, 1],
-                        live,
-                        desk,
-                    )
-            enough = limit if known == tiles else -1.0
-            live = _step(
-                choppiness,
-                enough,
-                start,
-                live,
-                moved,
-                desk,
-                points,
-                offsets,
-                heights,
-                residuals,
-                jacobians,
-            )
+                    bilinear_gradients(source.texels, first, nx, ny, per_x, per_y, live, rows)
+            enough = limit if used == count else -1.0
+            live = _newton_step(choppiness, enough, start, live, buffers, result)
             if live == 0:
                 break
 
 
 @compiled
-def _enter(
+def _load_block(
     x: Real,
     y: Real,
     start: int,
     size: int,
     sizes: Real,
     rates: Real,
-    origins: Real,
-    points: Integer,
-    offsets: Real,
-    heights: Real,
-    residuals: Real,
-    jacobians: Real,
+    workspace: Workspace,
+    found: Found,
 ) -> int:
     """
-    Let the points of a block in that are finite: their places in texels, and how many they are. The
-    others are done with.
+    Load the finite points of a block, and return their number.
+
+    The results of the others become NaN.
     """
     live = 0
     for q in range(size):
         p = start + q
-        residuals[p] = jacobians[p] = np.inf
+        found.residuals[p] = found.jacobians[p] = np.inf
         if np.isfinite(x[p]) and np.isfinite(y[p]):
-            points[live] = q
+            workspace.points[live] = q
             live += 1
             for i in range(sizes.shape[0]):
-                origins[i, 0, q] = _reduced(x[p], sizes[i, 0]) * rates[i, 0]
-                origins[i, 1, q] = _reduced(y[p], sizes[i, 1]) * rates[i, 1]
+                workspace.origins[i, 0, q] = _reduced(x[p], sizes[i, 0]) * rates[i, 0]
+                workspace.origins[i, 1, q] = _reduced(y[p], sizes[i, 1]) * rates[i, 1]
         else:
-            offsets[p, 0] = offsets[p, 1] = heights[p] = residuals[p] = jacobians[p] = np.nan
+            found.offsets[p, 0] = found.offsets[p, 1] = found.heights[p] = np.nan
+            found.residuals[p] = found.jacobians[p] = np.nan
     return live
 
 
 @compiled
-def _step(
-    choppiness: float,
-    enough: float,
-    start: int,
-    live: int,
-    moved: Real,
-    desk: Real,
-    points: Integer,
-    offsets: Real,
-    heights: Real,
-    residuals: Real,
-    jacobians: Real,
+def _newton_step(
+    choppiness: float, enough: float, start: int, live: int, workspace: Workspace, found: Found
 ) -> int:
     """
-    Take Newton's step with the points whose residual is above `enough` [m], and let the others go;
-    return how many stay.
+    Move the points whose residual is above `enough` [m] by a Newton step; return their number.
+
+    The results of the others are written, and they leave the block.
     """
+    rows, points, offsets = workspace.rows, workspace.points, workspace.offsets
     kept = 0
     for q in range(live):
-        p, sx, sy = start + points[q], moved[0, q], moved[1, q]
-        rx, ry = sx + choppiness * desk[2 * BLOCK + q], sy + choppiness * desk[3 * BLOCK + q]
-        a, b = 1.0 + choppiness * desk[5 * BLOCK + q], choppiness * desk[6 * BLOCK + q]
-        c, d = choppiness * desk[7 * BLOCK + q], 1.0 + choppiness * desk[8 * BLOCK + q]
+        p, sx, sy = start + points[q], offsets[0, q], offsets[1, q]
+        rx, ry = sx + choppiness * rows[DISPLACE_X + q], sy + choppiness * rows[DISPLACE_Y + q]
+        a, b = 1.0 + choppiness * rows[XX + q], choppiness * rows[XY + q]
+        c, d = choppiness * rows[YX + q], 1.0 + choppiness * rows[YY + q]
         jacobian = a * d - b * c
-        jacobians[p] = min(jacobians[p], jacobian)
+        found.jacobians[p] = min(found.jacobians[p], jacobian)
         residual = np.sqrt(rx * rx + ry * ry)
         if residual <= enough:
-            offsets[p, 0], offsets[p, 1] = sx, sy
-            heights[p], residuals[p] = desk[4 * BLOCK + q], residual
+            found.offsets[p, 0], found.offsets[p, 1] = sx, sy
+            found.heights[p], found.residuals[p] = rows[HEIGHT + q], residual
             continue
         if jacobian > STEEP:
             inverse = 1.0 / jacobian
@@ -219,68 +222,65 @@ def _step(
         else:
             sx -= rx
             sy -= ry
-        points[kept], moved[0, kept], moved[1, kept] = points[q], sx, sy
+        points[kept], offsets[0, kept], offsets[1, kept] = points[q], sx, sy
         kept += 1
     return kept
 
 
-EASY, STEEP = 12, 0.1
+EASY, STEEP = 12, 0.1  # steps of the fast path; the least Jacobian that it trusts
 
 
 @compiled
 def invert(
     kind: int,
-    sizes: Real,
-    layout: Integer,
-    texels: Real,
-    first: Integer,
-    waves: Real,
+    tiles: tuple[Any, ...],
     x: Real,
     y: Real,
-    choppiness: float,
-    aim: float,
-    limit: float,
-    reach: float,
+    search: tuple[float, ...],
     origin: Real,
-    offsets: Real,
-    heights: Real,
-    residuals: Real,
-    jacobians: Real,
+    found: tuple[Any, ...],
 ) -> None:
     """
-    Find for each point x the offset s with s + c D(x + s) = 0: the parameters x + s are those of
-    the water at x.
+    Find for each point x the offset s with s + c D(x + s) = 0, the water at x having the parameters
+    x + s.
 
-    Newton's method with the exact Jacobian 1 + c dD/dx of whatever is summed or interpolated. A
-    step that does not bring the residual down is halved. Where that leads nowhere, as it can beside
-    a fold, the search starts again from points around, up to `reach` [m] away; an answer there is,
-    as a bounded displacement leaves no hole in the surface.
+    Newton's method with the exact Jacobian 1 + c dD/dx of the sum or interpolant. A step that does
+    not reduce the residual is halved. Where that fails, as it can beside a fold, the search starts
+    again from points around, up to `search.reach` away. An answer exists there, because a bounded
+    displacement leaves no hole in the surface. If none is within the limit, the best point is kept.
 
-    Stops where the residual is at most `aim` [m], or, after some steps, at most `limit`; else the
-    best point found is kept. `offsets` (points, 2), `heights`, `residuals` [m] and the least of the
-    `jacobians` met on the way are written: where the surface is folded, the way leads over water
-    that lies upside down. NaN for points that are not finite. `origin` (tiles, 2) is room to work
-    in.
+    The Jacobian written is the least on the way: where the surface is folded, the way leads over
+    water that lies upside down. Results are NaN for points that are not finite.
+
+    Args:
+        kind: `BILINEAR`, `SPLINE` or `WAVES`.
+        tiles: the fields of `Tiles`.
+        x, y: the points [m].
+        search: the fields of `Search`.
+        origin: a buffer, (tiles, 2).
+        found: the fields of `Found`.
     """
+    source, result = Tiles(*tiles), Found(*found)
+    choppiness, aim, limit, reach = search
+    offsets, heights = result.offsets, result.heights
+    residuals, jacobians = result.residuals, result.jacobians
     for p in range(heights.size):
         if not (np.isfinite(x[p]) and np.isfinite(y[p])):
             offsets[p, :] = np.nan
             heights[p] = residuals[p] = jacobians[p] = np.nan
             continue
-        _reduce(x[p], y[p], sizes, origin)
+        _reduce(x[p], y[p], source.sizes, origin)
         offsets[p, :] = np.nan  # until something is found
         heights[p] = residuals[p] = np.nan
         best = least = np.inf
         for start in range(STARTS):
-            # The first from the point itself, the next along a spiral that covers all within reach
-            # (steps of the golden angle).
+            # The first start is the point itself, the next lie on a spiral that covers the circle
+            # within reach (steps of the golden angle).
             angle, radius = 2.399963229728653 * start, reach * np.sqrt(start / STARTS)
             sx, sy = radius * np.cos(angle), radius * np.sin(angle)
             base_x, base_y, base, step_x, step_y, part = sx, sy, np.inf, 0.0, 0.0, 1.0
             for _ in range(STEPS):
-                dx, dy, height, xx, xy, yx, yy = _water(
-                    kind, sizes, layout, texels, first, waves, origin, sx, sy
-                )
+                dx, dy, height, xx, xy, yx, yy = _displacement(kind, source, origin, sx, sy)
                 rx, ry = sx + choppiness * dx, sy + choppiness * dy
                 residual = np.sqrt(rx * rx + ry * ry)
                 a, b, c, d = (
@@ -304,9 +304,8 @@ def invert(
                     else:
                         step_x, step_y = -rx, -ry  # the fixed point's step
                     length = np.sqrt(step_x * step_x + step_y * step_y)
-                    if (
-                        length > LONGEST * residual
-                    ):  # next to a fold, where the Jacobian says little
+                    # Next to a fold the Jacobian gives no useful length.
+                    if length > LONGEST * residual:
                         step_x *= LONGEST * residual / length
                         step_y *= LONGEST * residual / length
                 else:
@@ -323,31 +322,25 @@ STARTS, STEPS, LONGEST, SHORTEST = 100, 40, 10.0, 1e-3
 
 
 @compiled
-def _water(
-    kind: int,
-    sizes: Real,
-    layout: Integer,
-    texels: Real,
-    first: Integer,
-    waves: Real,
-    origin: Real,
-    sx: float,
-    sy: float,
+def _displacement(
+    kind: int, tiles: Tiles, origin: Real, sx: float, sy: float
 ) -> tuple[float, float, float, float, float, float, float]:
     """
-    Displacement, height, and d displacement/dx: (dx, dy, height, xx, xy, yx, yy) of all tiles at
-    origin + (sx, sy).
+    Return displacement, height and displacement gradient of all tiles at origin + (sx, sy).
+
+    As (dx, dy, height, xx, xy, yx, yy), with xy = d displace_x / dy.
     """
+    first, waves, layout, texels = tiles.first, tiles.waves, tiles.layout, tiles.texels
     dx = dy = height = xx = xy = yx = yy = 0.0
-    for i in range(sizes.shape[0]):
+    for i in range(tiles.sizes.shape[0]):
         px, py = origin[i, 0] + sx, origin[i, 1] + sy
         if kind == WAVES:
             for m in range(first[i], first[i + 1]):
-                kx, ky = waves[0, m], waves[1, m]
-                angle = kx * px + ky * py - waves[4, m]
-                cosine, sine = np.cos(angle), waves[3, m] * np.sin(angle)
-                height += waves[2, m] * cosine
-                cosine *= waves[3, m]
+                kx, ky = waves[KX, m], waves[KY, m]
+                angle = kx * px + ky * py - waves[PHASE, m]
+                cosine, sine = np.cos(angle), waves[POTENTIAL, m] * np.sin(angle)
+                height += waves[AMPLITUDE, m] * cosine
+                cosine *= waves[POTENTIAL, m]
                 dx -= kx * sine
                 dy -= ky * sine
                 xx -= kx * kx * cosine
@@ -356,7 +349,7 @@ def _water(
             yx = xy
         else:
             start, nx, ny = layout[i, 0], layout[i, 1], layout[i, 2]
-            per_x, per_y = nx / sizes[i, 0], ny / sizes[i, 1]
+            per_x, per_y = nx / tiles.sizes[i, 0], ny / tiles.sizes[i, 1]
             if kind == BILINEAR:
                 a, b, h, a_u, a_v, b_u, b_v = bilinear_gradient(
                     texels, start, nx, ny, px * per_x, py * per_y
@@ -377,9 +370,7 @@ def _water(
 
 @compiled
 def sum_waves(
-    sizes: Real,
-    first: Integer,
-    waves: Real,
+    tiles: tuple[Any, ...],
     omega: Real,
     x: Real,
     y: Real,
@@ -388,12 +379,19 @@ def sum_waves(
     out: Real,
 ) -> None:
     """
-    out[p] = the sums over all waves at (x, y) + offsets of the displaced surface's derivatives,
-    (points, 14):
+    Write the derivatives of the displaced surface at (x, y) + offsets, summed over all waves.
 
-    slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, then position, velocity and acceleration
-    (x, y and z of each), where position is the displacement before choppiness.
+    Args:
+        tiles: the fields of `Tiles`, of which the waves are used.
+        omega: of each wave [rad/s].
+        x, y, offsets: the points, and what to add to them, (points, 2) [m].
+        origin: a buffer, (tiles, 2).
+        out: (points, 14): slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, then position,
+            velocity and acceleration (x, y and z of each), where position is the displacement
+            before choppiness.
     """
+    source = Tiles(*tiles)
+    sizes, first, waves = source.sizes, source.first, source.waves
     for p in range(out.shape[0]):
         if not (np.isfinite(x[p]) and np.isfinite(y[p])):
             out[p, :] = np.nan
@@ -403,12 +401,12 @@ def sum_waves(
         for i in range(sizes.shape[0]):
             px, py = origin[i, 0] + offsets[p, 0], origin[i, 1] + offsets[p, 1]
             for m in range(first[i], first[i + 1]):
-                kx, ky, rate = waves[0, m], waves[1, m], omega[m]
-                angle = kx * px + ky * py - waves[4, m]
+                kx, ky, rate = waves[KX, m], waves[KY, m], omega[m]
+                angle = kx * px + ky * py - waves[PHASE, m]
                 cosine, sine = np.cos(angle), np.sin(angle)
-                up_cosine, up_sine = waves[2, m] * cosine, waves[2, m] * sine
-                cosine *= waves[3, m]
-                sine *= waves[3, m]
+                up_cosine, up_sine = waves[AMPLITUDE, m] * cosine, waves[AMPLITUDE, m] * sine
+                cosine *= waves[POTENTIAL, m]
+                sine *= waves[POTENTIAL, m]
                 out[p, 0] -= kx * up_sine
                 out[p, 1] -= ky * up_sine
                 out[p, 2] -= kx * kx * cosine
@@ -429,7 +427,7 @@ def sum_waves(
 def texel_coordinates(
     x: Real, y: Real, offsets: Real, lx: float, ly: float, nx: int, ny: int, u: Real, v: Real
 ) -> None:
-    """(u, v) = where (x, y) + offsets is on a tile, in texels; NaN where it is not finite."""
+    """Write u, v = the place of (x, y) + offsets on a tile, in texels; NaN if it is not finite."""
     for p in range(u.size):
         if np.isfinite(x[p]) and np.isfinite(y[p]):
             u[p] = (_reduced(x[p], lx) + offsets[p, 0]) * (nx / lx)
@@ -439,28 +437,30 @@ def texel_coordinates(
 
 
 @compiled
-def sum_heights(
-    sizes: Real, first: Integer, waves: Real, x: Real, y: Real, origin: Real, out: Real
-) -> None:
+def sum_heights(tiles: tuple[Any, ...], x: Real, y: Real, origin: Real, out: Real) -> None:
     """
-    out[p] = the sum of a cos f at (x, y): the surface of linear theory, where no water moves
-    sideways; NaN where not finite.
+    Write the height of linear theory at (x, y), without horizontal displacement.
+
+    Args:
+        tiles: the fields of `Tiles`, of which the waves are used.
+        x, y: the points [m].
+        origin: a buffer, (tiles, 2).
+        out: (points,) [m]; NaN for points that are not finite.
     """
+    source = Tiles(*tiles)
+    sizes, first, waves = source.sizes, source.first, source.waves
     for p in range(out.size):
         out[p] = 0.0 if np.isfinite(x[p]) and np.isfinite(y[p]) else np.nan
         _reduce(x[p], y[p], sizes, origin)
         for i in range(sizes.shape[0]):
             for m in range(first[i], first[i + 1]):
-                out[p] += waves[2, m] * np.cos(
-                    waves[0, m] * origin[i, 0] + waves[1, m] * origin[i, 1] - waves[4, m]
-                )
+                angle = waves[KX, m] * origin[i, 0] + waves[KY, m] * origin[i, 1] - waves[PHASE, m]
+                out[p] += waves[AMPLITUDE, m] * np.cos(angle)
 
 
 @compiled
 def sum_below(
-    sizes: Real,
-    first: Integer,
-    waves: Real,
+    tiles: tuple[Any, ...],
     omega: Real,
     depth: float,
     x: Real,
@@ -470,13 +470,22 @@ def sum_below(
     out: Real,
 ) -> None:
     """
-    out[p] = what the waves do at (x, y, z), z <= 0: velocity and acceleration, x, y and z of each,
-    and -d potential/dt, (points, 7).
+    Write the motion of the water below the surface, summed over all waves.
 
     A wave moves the water by cosh k(z + h)/sinh kh along and sinh k(z + h)/sinh kh up. Both are
     written with exponents that are never positive, so that nothing overflows; deep water is their
     limit, e^{kz}.
+
+    Args:
+        tiles: the fields of `Tiles`, of which the waves are used.
+        omega: of each wave [rad/s].
+        depth: still-water depth h [m].
+        x, y, z: the points, z <= 0 [m].
+        origin: a buffer, (tiles, 2).
+        out: (points, 7): velocity and acceleration, x, y and z of each, and -d potential/dt.
     """
+    source = Tiles(*tiles)
+    sizes, first, waves = source.sizes, source.first, source.waves
     for p in range(out.shape[0]):
         if not (np.isfinite(x[p]) and np.isfinite(y[p]) and np.isfinite(z[p])):
             out[p, :] = np.nan
@@ -485,16 +494,16 @@ def sum_below(
         _reduce(x[p], y[p], sizes, origin)
         for i in range(sizes.shape[0]):
             for m in range(first[i], first[i + 1]):
-                kx, ky, rate = waves[0, m], waves[1, m], omega[m]
+                kx, ky, rate = waves[KX, m], waves[KY, m], omega[m]
                 k = np.sqrt(kx * kx + ky * ky)
-                angle = kx * origin[i, 0] + ky * origin[i, 1] - waves[4, m]
+                angle = kx * origin[i, 0] + ky * origin[i, 1] - waves[PHASE, m]
                 along = up = np.exp(k * z[p])
                 if depth < np.inf:
                     mirrored = np.exp(-k * (z[p] + 2.0 * depth))
                     whole = -np.expm1(-2.0 * k * depth)
                     along, up = (along + mirrored) / whole, (up - mirrored) / whole
-                along *= waves[2, m] * rate / k
-                up *= waves[2, m] * rate
+                along *= waves[AMPLITUDE, m] * rate / k
+                up *= waves[AMPLITUDE, m] * rate
                 cosine, sine = np.cos(angle), np.sin(angle)
                 out[p, 0] += along * kx * cosine
                 out[p, 1] += along * ky * cosine

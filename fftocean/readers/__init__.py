@@ -1,4 +1,4 @@
-"""Measured and modelled wave spectra: their files, one layout for all, and on into a `Sea`."""
+"""Readers of measured and modelled wave spectra."""
 
 import os
 from pathlib import Path
@@ -43,20 +43,19 @@ FORMATS: Final[tuple[Reader, ...]] = (
     datawell.READER,
     octopus.READER,
 )
-"""The formats that are read; the first whose `sniff` accepts a file reads it."""
+"""The known formats; the first reader whose `sniff` accepts a file reads it."""
 
 MOST_IN_FOLDER: Final = 10_000
-"""The most entries of a folder among which a set of files is looked for."""
+"""Largest number of entries of a folder that is searched for a set of files."""
 
 
 def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dataset":
     """
-    Read the wave spectra of one place from a file of any known format, recognised by what is in it,
-    plain or gzip.
+    Read the wave spectra of one place from a file of any known format, plain or gzip.
 
-    `FORMATS` lists what is known; docs/readers.md has an example of each. Files that belong
-    together (the five of an NDBC buoy) are given by any one of them, or by the folder that holds
-    them and nothing else to read.
+    The format is recognised by the contents. `FORMATS` lists the known ones; docs/readers.md has an
+    example of each. Name files that belong together (the five of an NDBC buoy) by any one of them,
+    or by the folder that holds that set and no other.
 
     Args:
         path: the file.
@@ -71,8 +70,8 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
         counted in the attributes. `dataset_layout.py` has it in full.
 
     Raises:
-        ReaderError: whatever is wrong with the file: the message names it, the line or variable,
-            and the value.
+        ReaderError: the file cannot be read; the message names it, the line or variable, and the
+            value.
         ParameterError: `site` or `bins` out of range.
     """
     bins = BINS.check_whole("bins", bins)
@@ -81,13 +80,13 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
             f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})"
         )
     path = Path(os.fsdecode(path))
-    with bounded_reads.refusing(path.name or str(path)):
+    with bounded_reads.reader_errors(path.name or str(path)):
         folder = "\0" not in str(path) and path.is_dir()
     if folder:
         path = _only_set(path)
     bounded_reads.require_file(path)
     try:
-        return dataset_layout.announce(_read(path, site, bins))
+        return dataset_layout.warn_of_notes(_read(path, site, bins))
     except ReaderError as error:
         text = bounded_reads.printable(str(error))
         if text == str(error):
@@ -96,14 +95,14 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":
-    """Return what the first reader that accepts a file makes of it."""
+    """Return the spectra of a file, read by the first reader that accepts it."""
     head = Head.of(path)
     for reader in FORMATS:
         if reader.sniff(head):
-            return _ended(reader.files(path), reader.read(path, site, bins))
-    if (what := near_misses.name(head)) is not None:
-        raise ReaderError(f"{path.name} {what}")
-    for _ in bounded_reads.lines(path):  # cut, binary, or one endless line? Then say so
+            return _note_unterminated(reader.files(path), reader.read(path, site, bins))
+    if (hint := near_misses.hint(head)) is not None:
+        raise ReaderError(f"{path.name} {hint}")
+    for _ in bounded_reads.lines(path):  # raises if it is cut, binary, or one endless line
         break
     known = ", ".join(reader.name for reader in FORMATS)
     raise ReaderError(
@@ -125,12 +124,12 @@ def files_of(path: Path) -> list[Path]:
 
 def _only_set(folder: Path) -> Path:
     """
-    Return the file that stands for the one set of NDBC's files in a folder.
+    Return one file of the only set of NDBC's files in a folder.
 
     Raises:
         ReaderError: no set, or several; the message names them.
     """
-    with bounded_reads.refusing(folder.name):
+    with bounded_reads.reader_errors(folder.name):
         names = []
         for entry in folder.iterdir():
             names.append(entry.name)
@@ -147,15 +146,14 @@ def _only_set(folder: Path) -> Path:
         held = f"those of {', '.join(sorted(sets))}"[:200] if sets else "none"
         raise ReaderError(
             f"the spectrum must be a regular file, got {str(folder)!r} (a directory); a folder "
-            f"must hold the files of "
-            f"one NDBC buoy (41010.data_spec and its four, or 41010w2019.txt and its four), got "
-            f"{held}"
+            "must hold the files of one NDBC buoy (41010.data_spec and its four, "
+            f"or 41010w2019.txt and its four), got {held}"
         )
     return folder / next(iter(sets.values()))
 
 
-def _ended(read: list[Path], made: "Dataset") -> "Dataset":
-    """Say in the attributes which of the text files that were read lack their final newline."""
+def _note_unterminated(read: list[Path], made: "Dataset") -> "Dataset":
+    """Record in the attributes which of the text files read lack their final newline."""
     if "netCDF" in made.attrs["source_format"]:
         return made
     if cut := [other.name for other in read if not bounded_reads.has_final_newline(other)]:

@@ -1,4 +1,4 @@
-"""Frequency bands of measured spectra, and straight lines with the moments of their sums."""
+"""Frequency bands of measured spectra."""
 
 from typing import Final, NamedTuple
 
@@ -20,25 +20,25 @@ How far bands may overlap, as a share of their width. Where only widths are know
 evenly about their frequencies; those of a geometric series with a ratio of 1.1 then overlap by 5 %.
 """
 
-_MOST_CORRECTION: Final = 0.25  # of a density, to match Tm01 and Tm02
+_MOST_CORRECTION: Final = 0.25  # largest relative change of a density to match Tm01 and Tm02
 
 
 class Lines(NamedTuple):
-    """Straight lines through a spectrum."""
+    """A spectrum that is piecewise linear in frequency."""
 
     frequency: Real  # of the nodes, ascending [Hz]
     density: Real  # at the nodes [m2/Hz]
-    factor: float  # m0 of the bands over that of the lines through the unchanged densities [-]
+    factor: float  # m0 of the bands / m0 of the lines through the unchanged densities [-]
     moments: tuple[float, float, float]  # m0, m1, m2 of the bands' own sum [m2 Hz^n]
     matched: int  # the highest of these moments that the lines have, as all below it
 
 
 def between_neighbours(frequency: Real) -> Real:
     """
-    Return bands that reach half way to the neighbours, the outermost as far out as in, (f, 2) [Hz].
+    Return bands that reach half way to the neighbours, (f, 2) [Hz]; the outermost are symmetric.
 
-    Buoys are summed so, and so are spectra by the wavespectra package (`hs(tail=False)`). A first
-    edge below 0 Hz keeps the width of its band what it is in these sums.
+    Buoys and the wavespectra package (`hs(tail=False)`) sum their spectra over these bands. A first
+    edge below 0 Hz is kept, so that the width of its band is the one in these sums.
     """
     middle = 0.5 * (frequency[1:] + frequency[:-1])
     first, last = 2.0 * frequency[0] - middle[0], 2.0 * frequency[-1] - middle[-1]
@@ -102,9 +102,9 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
     return bands
 
 
-def without(frequency: Real, edges: Real | None, kept: npt.NDArray[np.bool_]) -> Real:
+def remaining(frequency: Real, edges: Real | None, kept: npt.NDArray[np.bool_]) -> Real:
     """
-    Return the bands of the frequencies that are kept: those beside a gap meet in its middle.
+    Return the bands of the remaining frequencies; the two beside a gap meet in its middle.
 
     Args:
         frequency: (f,) all of them [Hz].
@@ -124,15 +124,15 @@ def without(frequency: Real, edges: Real | None, kept: npt.NDArray[np.bool_]) ->
 
 def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
     """
-    Draw straight lines that have the moments of the sum over bands.
+    Return a piecewise linear spectrum with the moments of the sum over bands.
 
-    The nodes are the frequencies and the two outermost edges, up to which the first and last
-    density go on. Each density takes the factor by which its band is wider than the share of the
-    lines that hangs on it: then m0 is exact, and the factor is 1 where bands reach half way to the
-    neighbours. What m1 and m2 differ by, as a straight line is wider than its band, a factor
-    quadratic in frequency makes up for, some 0.5 % where bands are 10 % wide. A spectrum of too few
-    bands for that keeps its m0, and its m1 where a linear factor does: a single band misses Tm01
-    and Tm02 by at most a sixth of the squared ratio of step to frequency.
+    The nodes are the frequencies and the two outermost edges; the first and last density extend to
+    those. Each density is multiplied by the width of its band over the integral of its hat
+    function: then m0 is exact, and the factor is 1 where bands reach half way to the neighbours. A
+    hat function is wider than its band, so m1 and m2 still differ; a factor quadratic in frequency
+    corrects them, by some 0.5 % where bands are 10 % wide. A spectrum of too few bands for that
+    keeps its m0, and its m1 if a linear factor suffices: a single band misses Tm01 and Tm02 by at
+    most a sixth of the squared ratio of step to frequency.
 
     Args:
         frequency: (f,) ascending [Hz], at least 2.
@@ -144,13 +144,13 @@ def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
     width = edges[:, 1] - edges[:, 0]
     power = frequency[:, None] ** np.arange(3)
     want = np.sum((density * width)[:, None] * power, axis=0)
-    low = max(edges[0, 0], 0.5 * frequency[0])  # never as far as 0 Hz
+    low = max(edges[0, 0], 0.5 * frequency[0])  # stays above 0 Hz
     outer = [low] if low < frequency[0] * (1.0 - 1e-6) else []
     inner = [edges[-1, 1]] if edges[-1, 1] > frequency[-1] * (1.0 + 1e-6) else []
     nodes = np.concatenate([outer, frequency, inner])
     place = np.clip(
         np.arange(nodes.size) - len(outer), 0, frequency.size - 1
-    )  # whose density a node has
+    )  # index of the density at each node
     weights = np.zeros((frequency.size, 3))
     np.add.at(weights, place, _node_weights(nodes))
     whole = float(np.sum(density * weights[:, 0]))
@@ -169,7 +169,7 @@ def straight_lines(frequency: Real, density: Real, edges: Real) -> Lines:
 
 
 def _node_weights(x: Real) -> Real:
-    """Integrals of x^n, n = 0, 1, 2, times the hat function of each node, (nodes, 3)."""
+    """Return the integrals of x^n, n = 0, 1, 2, times each node's hat function, (nodes, 3)."""
     a, b = x[:-1], x[1:]
     h = b - a
     falling = np.stack(
@@ -186,9 +186,9 @@ def _node_weights(x: Real) -> Real:
 
 def _with_moments(frequency: Real, values: Real, weights: Real, want: Real) -> tuple[int, Real]:
     """
-    Multiply densities by a polynomial of frequency, so that as many moments as can be are met.
+    Return the highest moment matched and the densities times a polynomial of frequency that does.
 
-    Beyond twice the standard deviation from the mean frequency it stays what it is there.
+    Beyond twice the standard deviation from the mean frequency the polynomial is constant.
     """
     mean = want[1] / want[0]
     spread = np.sqrt(max(want[2] / want[0] - mean**2, 0.0))

@@ -1,8 +1,10 @@
 """
-Bytes and lines out of a file that may be broken, huge or hostile: every read is bounded, every
-failure is a `ReaderError`.
+Bounded reads of files that may be damaged, huge or hostile.
+
+Every failure is a `ReaderError`.
 """
 
+import codecs
 import gzip
 import io
 import os
@@ -18,25 +20,24 @@ from fftocean.errors import ReaderError
 
 MAX_BYTES: Final = 256 * 2**20
 """
-The most that is read of a text file or unpacked from a .gz: forty years of one buoy, a nested SWAN
+Most bytes read of a text file or unpacked from a .gz: forty years of one buoy, a nested SWAN
 boundary.
 """
 
 MAX_LINE: Final = 2**20
-"""The longest line: 65 000 directions of a SWAN row."""
+"""Longest line in bytes: 65 000 directions of a SWAN row."""
 
 MAX_MESSAGE: Final = 480
-"""The longest error message, in characters."""
+"""Longest error message in characters."""
 
 _GZIP = b"\x1f\x8b"
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 
 
 @contextmanager
-def refusing(name: str) -> Iterator[None]:
+def reader_errors(name: str) -> Iterator[None]:
     """
-    Turn what the operating system and the unpacker say about a file into a `ReaderError` that names
-    it.
+    Turn errors of the operating system and of gzip into a `ReaderError` that names the file.
     """
     try:
         yield
@@ -48,12 +49,12 @@ def refusing(name: str) -> Iterator[None]:
 
 def require_file(path: Path) -> None:
     """
-    Let a regular file through.
+    Raise if a path is not a regular file with contents.
 
     Raises:
         ReaderError: nothing is there, or a directory, a device, a pipe, an empty file.
     """
-    with refusing(path.name or str(path)):
+    with reader_errors(path.name or str(path)):
         if "\0" in str(path) or not path.exists():
             raise ReaderError(f"the spectrum must be a file that exists, got {str(path)!r}")
         if not path.is_file():
@@ -68,12 +69,14 @@ def require_file(path: Path) -> None:
 @contextmanager
 def opened(path: Path) -> Iterator[IO[bytes]]:
     """
-    Open a regular file, and wait for nothing: a pipe put in its place meanwhile is refused too.
+    Open a regular file without blocking.
+
+    A pipe put in its place after a check would block, and is refused too.
 
     Raises:
         ReaderError: no regular file, or one that cannot be read.
     """
-    with refusing(path.name):
+    with reader_errors(path.name):
         descriptor = os.open(
             path,
             os.O_RDONLY
@@ -90,43 +93,49 @@ def opened(path: Path) -> Iterator[IO[bytes]]:
 @contextmanager
 def unpacked(path: Path) -> Iterator[IO[bytes]]:
     """
-    Open the file's bytes as a stream, through gzip where they begin as gzip does (the name is not
-    asked).
+    Open a file as a stream of bytes, through gzip if its first bytes are those of gzip (whatever
+    its name).
     """
-    with refusing(path.name), opened(path) as raw:
+    with reader_errors(path.name), opened(path) as raw:
         if raw.read(2) == _GZIP:
             raw.seek(0)
             with gzip.GzipFile(fileobj=raw) as stream:
-                yield cast(IO[bytes], stream)
+                yield _after_mark(cast(IO[bytes], stream))
         else:
             raw.seek(0)
-            yield raw
+            yield _after_mark(raw)
+
+
+def _after_mark(stream: IO[bytes]) -> IO[bytes]:
+    """Return a stream at its first byte, after a byte-order mark if it has one."""
+    if stream.read(len(codecs.BOM_UTF8)) != codecs.BOM_UTF8:
+        stream.seek(0)
+    return stream
 
 
 def is_packed(path: Path) -> bool:
-    """Return whether a file is gzip."""
-    with refusing(path.name), opened(path) as raw:
+    """Return True if a file is gzip."""
+    with reader_errors(path.name), opened(path) as raw:
         return raw.read(2) == _GZIP
 
 
 def head(path: Path, count: int = 4096) -> bytes:
-    """The first `count` bytes, unpacked."""
+    """Return the first `count` bytes, unpacked."""
     with unpacked(path) as stream:
         return stream.read(count)
 
 
 def contents(path: Path) -> io.BytesIO:
     """
-    All bytes, unpacked into memory.
+    Return all bytes, unpacked into memory.
 
     Raises:
         ReaderError: more than `MAX_BYTES`; no more than that is ever unpacked.
     """
     held = io.BytesIO()
     with unpacked(path) as stream:
-        while part := stream.read(
-            2**20
-        ):  # one call for all of it would allocate all that it may be
+        # A single call would allocate as much as the file claims.
+        while part := stream.read(2**20):
             held.write(part)
             if held.tell() > MAX_BYTES:
                 raise ReaderError(
@@ -138,12 +147,10 @@ def contents(path: Path) -> io.BytesIO:
 
 def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
     """
-    The lines of a text file, each with its place in words (`buoy.txt: line 3`) for the error that
-    may name it.
+    Yield the lines of a text file, each after its place in words (`buoy.txt: line 3`), for errors.
 
-    A last line need not end with a newline. Where it does not, the file may have been cut within
-    its last number: that is refused where the number shows it, by fewer decimals than the one
-    before it.
+    The last line need not end with a newline. If it does not, the file may have been cut within its
+    last number; this is an error if that number has fewer decimals than the one before it.
 
     Raises:
         ReaderError: a line longer than `MAX_LINE`, more than `MAX_BYTES` in all, text that is not
@@ -179,36 +186,36 @@ def lines(path: Path, *, blank: bool = False) -> Iterator[tuple[str, str]]:
 
 
 def _require_whole_number(where: str, line: str) -> None:
-    """Refuse a line whose last number has fewer decimals than the one before it."""
+    """Raise if the last number of a line has fewer decimals than the one before it."""
     decimals = [re.fullmatch(r"[+-]?[0-9]*(?:\.([0-9]*))?", token) for token in line.split()[-2:]]
     if len(decimals) == 2 and all(decimals):
         before, last = (len(match[1] or "") for match in decimals if match)
         if last < before:
             raise ReaderError(
                 f"{where} has no end, and its last number {line.split()[-1]!r:.40} has fewer "
-                "decimals than the "
-                "one before it: the file is cut short (if it is whole, end it with a newline)"
+                "decimals than the one before it: "
+                "the file is cut short (if it is whole, end it with a newline)"
             )
 
 
 def has_final_newline(path: Path) -> bool:
     """
-    Return whether a text file ends with a newline; a packed one is whole, as its own check sums
-    say.
+    Return True if a text file ends with a newline, or is packed: then checksums show that it is
+    whole.
     """
     if is_packed(path):
         return True
-    with refusing(path.name), opened(path) as file:
+    with reader_errors(path.name), opened(path) as file:
         file.seek(-1, io.SEEK_END)
         return file.read(1) == b"\n"
 
 
 def printable(text: str) -> str:
     """
-    Return an error message that a terminal can show, whatever names a broken file holds.
+    Return an error message that is safe to show in a terminal.
 
-    Control characters, which could also steer the terminal, are written as escapes, and what is
-    longer than `MAX_MESSAGE` is cut.
+    A damaged file may hold any names. Control characters, which could steer the terminal, become
+    escapes, and the message is cut to `MAX_MESSAGE`.
     """
     shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
     return shown if len(shown) <= MAX_MESSAGE else shown[: MAX_MESSAGE - 4] + " ..."
@@ -216,8 +223,9 @@ def printable(text: str) -> str:
 
 def number(where: str, token: str) -> float:
     """
-    A plain decimal number. (`float` itself would also take `nan`, `1_0` and digits of every
-    script.)
+    Return a plain decimal number.
+
+    (`float` itself also accepts `nan`, `1_0` and digits of every script.)
 
     Raises:
         ReaderError: anything else, naming the place.
@@ -228,7 +236,7 @@ def number(where: str, token: str) -> float:
 
 
 def count(where: str, line: str, most: int) -> int:
-    """The whole number at the head of a line, from 1 to `most`."""
+    """Return the whole number at the start of a line, from 1 to `most`."""
     token = line.split()[0]
     if not re.fullmatch(r"[0-9]{1,9}", token) or not 1 <= int(token) <= most:
         raise ReaderError(

@@ -27,21 +27,20 @@ DENSITIES: Final = tuple(FAMILIES)
 
 _NDBC: Final = ("mean_wave_dir", "principal_wave_dir", "wave_spectrum_r1", "wave_spectrum_r2")
 _CDIP: Final = ("waveA1Value", "waveB1Value", "waveA2Value", "waveB2Value")
-_APART: Final = 2.0  # largest difference of `waveMeanDirection` from the moments' own [degrees]
+_APART: Final = 2.0  # largest difference of `waveMeanDirection` from that of the moments [degrees]
 
 
 def find(
     raw: "Dataset", name: object, source: str, values: Callable[["DataArray"], Real]
 ) -> tuple[Complex, Complex] | None:
     """
-    Return both moments of directions FROM, clockwise from north, or None where the dataset has
-    none.
+    Return both moments of the directions FROM, clockwise from north; None if the dataset has none.
 
     Args:
         raw: the dataset.
         name: of the variable of densities.
         source: what to call the dataset in errors.
-        values: gives the numbers of one place of such a variable, (time, f).
+        values: function that returns the values of such a variable at one place, (time, f).
 
     Raises:
         ReaderError: some of the variables without the others, of other dimensions or units, or out

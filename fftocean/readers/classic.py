@@ -1,6 +1,7 @@
 """
-Checks of a netCDF 3 file by its header, before its variables are read: the reader believes what the
-header says.
+Checks of the header of a netCDF 3 file.
+
+They come before any variable is read, because the netCDF 3 reader trusts the header.
 """
 
 import io
@@ -22,7 +23,7 @@ _STREAMING: Final = 0xFFFFFFFF
 
 def require_sound(name: str, stream: IO[bytes]) -> None:
     """
-    Refuse a file whose header does not fit its size.
+    Raise if the header of a file does not fit its size.
 
     Args:
         name: what to call the file in errors.
@@ -60,7 +61,7 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
             )
         header.attributes()
         bytes_each = header.bytes_of_type(where)
-        header.whole()  # its size, which is reckoned here
+        header.whole()  # its stored size, which is computed here instead
         begin = header.whole() if not wide else header.whole() << 32 | header.whole()
         shape = [lengths[axis] for axis in axes]
         if shape and shape[0] == 0:
@@ -77,7 +78,7 @@ def require_sound(name: str, stream: IO[bytes]) -> None:
 
 
 class _Header:
-    """The numbers and names of a header, one after another; big-endian, each padded to 4 bytes."""
+    """Sequential reader of a header's numbers and names: big-endian, padded to 4 bytes."""
 
     def __init__(self, name: str, stream: IO[bytes]) -> None:
         self.name = name
@@ -90,7 +91,7 @@ class _Header:
         return data
 
     def whole(self) -> int:
-        """Return a whole number of 4 bytes."""
+        """Return a 4-byte integer."""
         return int(struct.unpack(">I", self._read(4))[0])
 
     def whole_up_to(self, most: int, where: str) -> int:
@@ -103,7 +104,7 @@ class _Header:
         return count
 
     def items(self, tag: int) -> int:
-        """Return how many items a list has."""
+        """Return the number of items of a list."""
         found, count = self.whole(), self.whole_up_to(MOST_ITEMS, self.name)
         if found not in (0, tag) or (found == 0 and count):
             raise ReaderError(
@@ -130,7 +131,7 @@ class _Header:
         return _SIZES[code]
 
     def attributes(self) -> None:
-        """Pass over a list of attributes."""
+        """Skip a list of attributes."""
         for _ in range(self.items(_ATTRIBUTES)):
             where = f"{self.name}: attribute {self.text()}"
             length = self.bytes_of_type(where) * self.whole()

@@ -1,11 +1,12 @@
 """
-The one layout in which every measured spectrum comes out, and the door through which its numbers
-pass.
+Dataset layout of every measured spectrum, and the checks that its numbers pass.
 
-    dims (time, freq, dir)   efth [m2/Hz/degree]      or, without directions,   dims (time, freq)
-    ef [m2/Hz] freq   [Hz] ascending    dir  [degrees] where waves come FROM, clockwise from north,
-    ascending dpt    (time) water depth [m], where known        lon, lat   where known
-    freq_bnds (freq, 2) edges of the bands [Hz], where the file has its own
+    efth       (time, freq, dir) [m2/Hz/degree]; without directions: ef (time, freq) [m2/Hz]
+    freq       [Hz], ascending
+    dir        [degrees] where waves come FROM, clockwise from north, ascending
+    dpt        (time) water depth [m], if known
+    lon, lat   position [degrees], if known
+    freq_bnds  (freq, 2) edges of the bands [Hz], if the file states them
 
 It is the layout of the wavespectra package, so its accessor works on it (`dataset.efth.spec.hs()`).
 """
@@ -25,17 +26,17 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 LARGEST: Final = 1e6  # [m2/Hz/degree]; a 30 m sea, all in one bin of 0.01 Hz by 1 degree, is 6e3
-# beyond it stand the fill values of netCDF: 9.999e20, 9.969e36, 1e20, also where no attribute says
-# so
+# Larger values are the fill values of netCDF (9.999e20, 9.969e36, 1e20), even if no attribute
+# declares them.
 FILL: Final = 1e19
-ROUNDING: Final = 1e-7  # of the largest density: the last bit of float32, in which files are packed
+ROUNDING: Final = 1e-7  # share of the largest density: the last bit of the float32 in files
 NEGATIVE: Final = ("refuse", "clip")
 MAX_VALUES: Final = 2**27  # numbers in one dataset: 1 GiB
 
 
-def science() -> Any:
+def load_xarray() -> Any:
     """
-    The xarray module, loaded when first needed: its import takes seconds.
+    Return the xarray module, imported on first use because that takes seconds.
 
     Raises:
         ReaderError: it is not installed; the message names the extra that brings it.
@@ -43,21 +44,21 @@ def science() -> Any:
     try:
         import xarray
     except ImportError as error:
-        raise missing(error) from error
+        raise not_installed(error) from error
     return xarray
 
 
-def missing(error: ImportError) -> ReaderError:
-    """What to say when an optional package is not there."""
+def not_installed(error: ImportError) -> ReaderError:
+    """Return the error for an optional package that is not installed."""
     hint = how_to_install("science")
     return ReaderError(
         f"xarray, h5netcdf and h5py must be installed to read spectra: {hint} ({error})"
     )
 
 
-def announce(made: "Dataset") -> "Dataset":
+def warn_of_notes(made: "Dataset") -> "Dataset":
     """
-    Pass a dataset on, warning of what its reader was not sure of: attributes that end in `_note`.
+    Return a dataset after warning of its reader's doubts, the attributes that end in `_note`.
     """
     for key, text in made.attrs.items():
         if key.endswith("_note"):
@@ -70,8 +71,8 @@ def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
     Check a frequency axis.
 
     Returns:
-        The frequencies [Hz], ascending, and the order that sorted them: a descending axis is turned
-        round.
+        The frequencies [Hz], ascending, and the indices that sort them: a descending axis is
+        reversed.
 
     Raises:
         ReaderError: fewer than two, not finite, zero or negative, twice the same, or neither
@@ -97,15 +98,13 @@ def frequencies(where: str, values: RealLike) -> tuple[Real, Integer]:
 
 def above_zero(values: RealLike) -> tuple[npt.NDArray[np.bool_], dict[str, Any]]:
     """
-    Choose the frequencies that waves can have: analyses by FFT also give one of exactly 0 Hz, the
-    mean level.
+    Return which frequencies are not 0: an analysis by FFT has the mean level at exactly 0 Hz.
 
     Args:
         values: a frequency axis [Hz].
 
     Returns:
-        Where the axis is not 0, shape of `values`; and a note of how many were left out, empty
-        where none.
+        Mask of the shape of `values`, and a note of how many were left out (empty if none).
     """
     kept = np.asarray(values, dtype=np.float64).ravel() != 0.0
     left_out = int(np.count_nonzero(~kept))
@@ -114,10 +113,10 @@ def above_zero(values: RealLike) -> tuple[npt.NDArray[np.bool_], dict[str, Any]]
 
 def in_order(seconds: RealLike) -> tuple[Integer, int]:
     """
-    Sort records by time; of those of one time the first stays.
+    Sort records by time, keeping the first of each time.
 
     Returns:
-        The indices of the records that stay, in order of time, and how many were left out.
+        The indices of the kept records, ascending in time, and the number left out.
     """
     times, first = np.unique(np.asarray(seconds), return_index=True)
     return first, int(np.size(seconds) - times.size)
@@ -128,13 +127,13 @@ def compare_heights(where: str, m0: Real, stated: Real, rounding: float) -> dict
     Compare significant wave heights with those that the file states.
 
     Args:
-        where: what to call the file.
-        m0: (time,) variances of what was read [m2].
-        stated: (time,) significant wave heights of the file's own [m]; NaN where there are none.
+        where: name of the file in messages.
+        m0: (time,) variances of the spectra read [m2].
+        stated: (time,) significant wave heights that the file states [m]; NaN if none.
         rounding: half a unit of the last decimal of `stated` [m].
 
     Returns:
-        Notes: the largest difference, and a warning where it is more than 5 % and the rounding.
+        Notes: the largest difference, and a warning if it exceeds 5 % plus the rounding.
     """
     read = 4.0 * np.sqrt(m0)
     apart = np.where(np.isfinite(read) & np.isfinite(stated), np.abs(read - stated), 0.0)
@@ -144,9 +143,8 @@ def compare_heights(where: str, m0: Real, stated: Real, rounding: float) -> dict
         i = int(wrong[0])
         notes["height_note"] = (
             f"{where}: the densities of record {i} have a significant wave height of "
-            f"{read[i]:.4g} m, "
-            f"but the file states {stated[i]:.4g} m ({wrong.size} of {read.size} records differ "
-            "by more than 5 %)"
+            f"{read[i]:.4g} m, but the file states {stated[i]:.4g} m "
+            f"({wrong.size} of {read.size} records differ by more than 5 %)"
         )
     return notes
 
@@ -156,12 +154,12 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     Check a direction axis, in degrees of any convention.
 
     Returns:
-        The directions in [0, 360), ascending, and the order that sorted them.
+        The directions in [0, 360), ascending, and the indices that sort them.
 
     Raises:
-        ReaderError: fewer than four, not finite, more than one turn, the same direction twice (0
-            and 360 are the same), or all of them within 2 pi degrees: no instrument or model has
-            such a sector, and radians do.
+        ReaderError: fewer than four, not finite, more than one full circle, the same direction
+            twice (0 and 360 are the same), or all within 2 pi degrees: no instrument or model has
+            such a sector, so the axis is in radians.
     """
     d = np.asarray(values, dtype=np.float64).ravel()
     if d.size < 4:
@@ -192,24 +190,24 @@ def densities(
     where: str, values: RealLike, unit: str, *, negative: str = "refuse"
 ) -> tuple[Real, dict[str, Any]]:
     """
-    Check spectral densities: mask what is missing, forgive rounding, refuse the rest.
+    Check spectral densities: mask missing values, set rounding below 0 to 0, refuse the rest.
 
     Args:
-        where: what to call them in an error.
+        where: name of the values in errors.
         values: any shape, in `unit`; NaN is missing.
         unit: m2/Hz or m2/Hz/degree.
-        negative: "refuse" negative values beyond rounding, or "clip" them to 0. Of a spectrum with
-            directions (the last axis) the others of the same frequency are then made smaller, so
-            that its energy stays what it was.
+        negative: "refuse" negative values beyond rounding, or "clip" them to 0. In a spectrum
+            with directions (the last axis) the others of the same frequency are scaled, so that its
+            energy is unchanged.
 
     Returns:
-        float64 values >= 0, NaN where masked, same shape; and how many were masked, how many small
-        negatives made 0, and what was clipped.
+        float64 values >= 0, NaN where masked, same shape; and the numbers of masked values, of
+        small negatives set to 0, and of clipped ones.
 
     Raises:
         ReaderError: infinite, negative by more than rounding (1e-7 of the largest), or larger than
-            any sea's.
-        ParameterError: `negative` is neither.
+            `LARGEST`.
+        ParameterError: another `negative`.
     """
     if negative not in NEGATIVE:
         raise ParameterError(f"negative must be one of {', '.join(NEGATIVE)}, got {negative!r:.40}")
@@ -220,7 +218,7 @@ def densities(
         wrong = (e < -max(ROUNDING * largest, 1e-12)) | (e > LARGEST)
     notes: dict[str, Any] = {}
     if negative == "clip":
-        e, notes = _clipped(e, wrong & (e < 0.0), turning=unit == "m2/Hz/degree")
+        e, notes = _clipped(e, wrong & (e < 0.0), directional=unit == "m2/Hz/degree")
         wrong &= e > LARGEST
     if np.any(wrong):
         place = tuple(int(i) for i in np.argwhere(wrong)[0])
@@ -239,21 +237,21 @@ def densities(
 
 
 def _clipped(
-    e: Real, wrong: npt.NDArray[np.bool_], *, turning: bool
+    e: Real, wrong: npt.NDArray[np.bool_], *, directional: bool
 ) -> tuple[Real, dict[str, Any]]:
-    """Make negative densities 0; over directions, keep the sum of each frequency."""
+    """Set negative densities to 0; with directions, keep the sum of each frequency."""
     count = int(np.count_nonzero(wrong))
     if not count:
         return e, {}
-    clipped = np.maximum(e, 0.0)  # NaN stays
-    if turning:
+    clipped = np.maximum(e, 0.0)  # keeps NaN
+    if directional:
         before = np.nansum(e, axis=-1, keepdims=True)
         after = np.nansum(clipped, axis=-1, keepdims=True)
         clipped = clipped * np.where(
             after > 0.0, np.maximum(before, 0.0) / np.where(after > 0.0, after, 1.0), 1.0
         )
     share = float(-np.sum(e[wrong]) / np.nansum(np.abs(e)))
-    kept = ", the energy of each frequency kept" if turning else ""
+    kept = ", the energy of each frequency kept" if directional else ""
     return clipped, {
         "clipped_negatives": count,
         "negative_note": (
@@ -276,22 +274,22 @@ def dataset(
     notes: Mapping[str, Any] | None = None,
 ) -> "Dataset":
     """
-    Put checked numbers into the layout.
+    Return checked numbers as a dataset in this layout.
 
     Args:
         source: the file's name.
-        source_format: the format it was in, in words.
+        source_format: the format of the file, in words.
         frequency: (f,) ascending [Hz].
         density: (time, f, d) [m2/Hz/degree], or (time, f) [m2/Hz] without directions; NaN is
             missing.
         direction: (d,) ascending, FROM, clockwise from north [degrees].
-        time: (time,) datetime64, where known.
-        depth: (time,) [m], where known.
-        position: `lon`, `lat` [degrees] or `x`, `y` [m], where known.
-        bands: (f, 2) lower and upper edge of each frequency's band [Hz], where the file has them.
-        notes: what else is to be known, as attributes.
+        time: (time,) datetime64, if known.
+        depth: (time,) [m], if known.
+        position: `lon`, `lat` [degrees] or `x`, `y` [m], if known.
+        bands: (f, 2) lower and upper edge of each frequency's band [Hz], if the file has them.
+        notes: further attributes.
     """
-    xr = science()
+    xr = load_xarray()
     variables: dict[str, Any] = {}
     coords: dict[str, Any] = {
         "freq": ("freq", frequency, {"standard_name": "sea_surface_wave_frequency", "units": "Hz"}),

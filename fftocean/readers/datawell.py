@@ -1,8 +1,8 @@
 """
-Datawell's .spt files: one spectrum of a Waverider, twelve lines about the buoy and then the
-frequencies.
+Datawell .spt files.
 
-The twelve lines: transmission, Hs [cm], Tz [s], largest density [m2/Hz], two temperatures, battery,
+A file holds one spectrum of a Waverider: twelve lines about the buoy, then one per frequency. The
+twelve lines: transmission, Hs [cm], Tz [s], largest density [m2/Hz], two temperatures, battery,
 three offsets, orientation, inclination. Each line after them: frequency [Hz], density over the
 largest, direction FROM and spread [degrees], skewness and kurtosis of the directions. The time is
 in the file's name (`place}2024-09-09T01h15Z.spt`).
@@ -50,7 +50,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
         bins: directions round the compass into which the moments are unfolded.
 
     Raises:
-        ReaderError: a line without its numbers, or a number that no sea has.
+        ReaderError: a line without its numbers, or a number out of range.
     """
     rows = bounded_reads.lines(path)
     header: list[float] = []
@@ -110,7 +110,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
 
 
 def _time(name: str) -> np.ndarray | None:
-    """Return the time that the file's name holds, or None."""
+    """Return the time in the file's name, or None."""
     if match := _NAME.fullmatch(name):
         year, month, day, hour, minute = (int(part) for part in match.groups())
         try:

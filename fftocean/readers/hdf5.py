@@ -1,9 +1,8 @@
 """
 Checks of an HDF5 file before the HDF5 library reads data from it.
 
-The library does whatever a file says: it opens other files that the data are said to lie in,
-allocates any size, loads filters, unpacks a chunk of any size. Here all objects are looked at
-first, by their headers alone.
+The library trusts the file: it opens other files that the data refer to, allocates any size, loads
+filters, and unpacks chunks of any size. These checks read only the headers of all objects.
 """
 
 import importlib
@@ -55,14 +54,14 @@ _HEAP: Final = b"GCOL\x01\0\0\0"
 
 def require_sound(name: str, stream: IO[bytes]) -> list[str]:
     """
-    Refuse a file that refers to other files, or on which the library would hang or fill the memory.
+    Raise if a file refers to other files, or would make the library hang or exhaust memory.
 
     Args:
         name: what to call the file in errors.
         stream: a seekable stream of it, which is left at its start.
 
     Returns:
-        The names of variables of the root group that are not numbers: nobody needs to read them.
+        The names of variables of the root group that are not numbers, which need not be read.
 
     Raises:
         ReaderError: data, links or filters that lie outside the file; a heap that does not add up;
@@ -87,11 +86,11 @@ def require_sound(name: str, stream: IO[bytes]) -> list[str]:
 
 def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
     """
-    Walk the global heaps, where references between dimensions and variables are kept, as the
-    library will.
+    Walk the global heaps, which hold the references between dimensions and variables, as the
+    library does.
 
-    It takes the objects' sizes on trust: with one wrong bit in one of them it walks for ever (HDF5
-    2.0), and cannot be stopped.
+    The library trusts the sizes of objects: one wrong bit in a size makes it loop for ever (HDF5
+    2.0), and it cannot be interrupted.
 
     Returns:
         The size of the largest object in a heap [bytes].
@@ -103,9 +102,7 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
     Heap".
     """
     if (data[9:11] if data[8] >= 2 else data[13:15]) != b"\x08\x08":
-        return len(
-            data
-        )  # lengths that are not of 8 bytes: nobody has written such a file since the 32-bit days
+        return len(data)  # lengths of other than 8 bytes, as on 32-bit systems
     longest = 0
     at = data.find(_HEAP)
     while at >= 0:
@@ -116,7 +113,7 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
             index, size = struct.unpack("<H6xQ", data[here : here + 16])
             step = (
                 size if index == 0 else 16 + (size + 7) // 8 * 8
-            )  # object 0 is what is free, header and all
+            )  # object 0 is the free space, its header included
             sound = 16 <= step <= end - here
             longest = max(longest, size if index else 0)
             here += step
@@ -129,7 +126,7 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
 
 
 def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int) -> list[str]:
-    """Judge every object of the file; and return which variables of the root are not numbers."""
+    """Check every object of the file; return the variables of the root that are not numbers."""
     h5py: Any = importlib.import_module("h5py")
     unread, axes = [], 0
     with h5py.File(stream, "r") as file:
@@ -153,9 +150,9 @@ def _require_sound_objects(name: str, stream: IO[bytes], size: int, longest: int
 
 def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
     """
-    Walk all objects of a file by its links, none of which may lead out of it, or nowhere.
+    Yield all objects of a file by its links; raise if a link leads out of the file or nowhere.
 
-    Nothing is opened by a path: the library would follow links that lie on the way.
+    No object is opened by a path, because the library would follow links along it.
     """
     pending, seen, count = [("", root)], {h5py.h5o.get_info(root).addr}, 0
     while pending:
@@ -189,7 +186,7 @@ def _objects(h5py: Any, name: str, root: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _names(group: Any) -> list[bytes]:
-    """Return the names of a group's links, at most as many as may be."""
+    """Return the names of a group's links; raise if there are too many."""
     found: list[bytes] = []
 
     def note(key: bytes) -> bool | None:
@@ -202,7 +199,7 @@ def _names(group: Any) -> list[bytes]:
 
 def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
     """
-    Judge where the data of a variable lie and how large they are; and return the bytes of an axis.
+    Check location and size of the data of a variable; return the bytes of an axis.
     """
     plan = item.get_create_plist()
     if plan.get_external_count():
@@ -212,7 +209,7 @@ def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
     layout = plan.get_layout()
     if (
         layout == h5py.h5d.VIRTUAL
-    ):  # asked before its shape, for which the library may open the other files
+    ):  # checked before the shape, for which the library may open the other files
         raise ReaderError(
             f"{where} must lie in the file itself, got data in other files (HDF5 virtual dataset)"
         )
@@ -247,7 +244,7 @@ def _require_sane_variable(h5py: Any, where: str, item: Any, size: int) -> int:
 
 
 def _is_numeric(h5py: Any, item: Any) -> bool:
-    """Return whether a variable holds plain whole or floating-point numbers."""
+    """Return True if a variable holds plain integers or floating-point numbers."""
     return item.get_type().get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT)
 
 
@@ -255,9 +252,9 @@ def _require_sane_attributes(
     h5py: Any, where: str, item: Any, file_size: int, longest: int
 ) -> None:
     """
-    Judge the number and sizes of an object's attributes.
+    Check the number and sizes of an object's attributes.
 
-    Pieces of variable length lie in heaps, where one may be named any number of times.
+    Values of variable length lie in heaps, and one of them may be referred to many times.
     """
     count = h5py.h5a.get_num_attrs(item)
     if count > MOST_ATTRIBUTES:

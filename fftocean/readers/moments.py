@@ -1,4 +1,4 @@
-"""Directional spectra out of the directional moments that buoys report, by maximum entropy."""
+"""Directional spectra from the directional moments that buoys report."""
 
 from typing import Any, Final
 
@@ -8,7 +8,7 @@ from fftocean.arrays import Complex, Real
 from fftocean.readers.maximum_entropy import maximum_entropy
 
 METHOD: Final = "maximum entropy (Kobune & Hashimoto 1986)"
-_CHUNK: Final = 64  # records unfolded at a time: what they take stays in the cache
+_CHUNK: Final = 64  # records unfolded at a time, so that their arrays fit in the cache
 
 
 def compass(bins: int) -> Real:
@@ -18,7 +18,7 @@ def compass(bins: int) -> Real:
 
 def unfold(s: Real, c1: Complex, c2: Complex, bins: int) -> tuple[Real, dict[str, Any]]:
     """
-    Spread densities over directions, keeping two moments of each.
+    Return densities spread over directions by maximum entropy, with two moments of each.
 
     Args:
         s: (time, f) density [m2/Hz]; NaN is missing.
@@ -27,7 +27,8 @@ def unfold(s: Real, c1: Complex, c2: Complex, bins: int) -> tuple[Real, dict[str
         bins: directions round the compass.
 
     Returns:
-        (time, f, bins) density [m2/Hz/degree] on `compass(bins)`, and notes of what was done.
+        (time, f, bins) density [m2/Hz/degree] on `compass(bins)`, and notes on missing and
+        limited moments.
     """
     density = np.empty((*s.shape, bins))
     limited = 0

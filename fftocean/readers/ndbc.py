@@ -1,12 +1,12 @@
 """
-The text files of the US National Data Buoy Center: the last 45 days ("realtime") and the yearly
-archive ("historical").
+Text files of the US National Data Buoy Center (NDBC).
 
-Realtime: a set of five, `.data_spec` with S(f) and `.swdir .swdir2 .swr1 .swr2` with the mean
-directions a1, a2 and the coherences r1, r2 of D = (1/pi)(1/2 + r1 cos(theta - a1) + r2 cos 2(theta
-- a2)), directions FROM, clockwise from north. That series, cut after two terms, goes negative; here
-  its two moments are unfolded by maximum entropy instead (`maximum_entropy.py`).
-Historical: S(f) alone.
+Realtime (the last 45 days): a set of five files, `.data_spec` with S(f) and
+`.swdir .swdir2 .swr1 .swr2` with the mean directions a1, a2 and the coherences r1, r2 of
+    D = (1/pi) (1/2 + r1 cos(theta - a1) + r2 cos 2(theta - a2)),
+directions FROM, clockwise from north. That truncated series becomes negative, so the two
+moments are unfolded by maximum entropy instead (`maximum_entropy.py`).
+Historical (the yearly archive): S(f) alone.
 
 Source: NDBC, Measurement Descriptions and Units; Earle, NDBC Technical Document 96-01 (1996).
 """
@@ -34,8 +34,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, slots=True)
 class _Column:
     """
-    What one file of a set holds: how its header calls it, what may stand in it, and which numbers
-    mean "missing".
+    Column of one file of a set: its name in the header, range, and the numbers for "missing".
     """
 
     word: str
@@ -44,15 +43,14 @@ class _Column:
     fills: tuple[float, ...]
 
 
-# 99 is a direction like any other, but no coherence, and as a density to the last decimal it is a
-# fill value, not a storm.
+# 99 is a valid direction, but no coherence; a density of exactly 99 is a fill value, not a storm.
 _KINDS: Final = {
     ".data_spec": _Column("spec_1", "m2/Hz", 360.0 * dataset_layout.LARGEST, (99.0, 999.0, 9999.0)),
     ".swdir": _Column("alpha1_1", "degrees", 360.0, (999.0, 9999.0)),
     ".swdir2": _Column("alpha2_1", "degrees", 360.0, (999.0, 9999.0)),
     ".swr1": _Column(
         "r1_1", "", 1.1, (99.0, 999.0, 9999.0)
-    ),  # beyond 1 by noise; `maximum_entropy` draws it in
+    ),  # noise exceeds 1; `maximum_entropy` reduces it
     ".swr2": _Column("r2_1", "", 1.1, (99.0, 999.0, 9999.0)),
 }
 _DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re.DOTALL)
@@ -60,26 +58,26 @@ _DATE: Final = re.compile(r"#?\s*(YY|YYYY|yr)\s+MM\s+DD\s+hh(\s+mm)?\s+(.*)", re
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """The records of one file, by time."""
+    """Records of one file by time."""
 
     name: str
     frequency: Real  # (f,) as in the file [Hz]
     time: Integer  # (t,) ascending, seconds since 1970
     values: Real  # (t, f), NaN where missing
-    repeated: int  # records of a time that had been seen, left out
+    repeated: int  # number of records left out because of a repeated time
 
 
 def recognises(first_line: str) -> bool:
-    """Whether a text file that begins with this line is NDBC's."""
+    """Return True if a text file with this first line is NDBC's."""
     return _DATE.match(first_line) is not None
 
 
 def read(path: Path, *, bins: int) -> "Dataset":
     """
-    Read a realtime set, given by any one of its files, or a historical S(f) file.
+    Read a realtime set, named by any one of its files, or a historical S(f) file.
 
     Args:
-        path: the file; a set's other four are looked for beside it, plain or as .gz.
+        path: the file; the other four of a set lie beside it, plain or as .gz.
         bins: directions round the compass into which the moments are unfolded.
 
     Raises:
@@ -110,8 +108,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
 
 def set_of(name: str) -> str | None:
     """
-    Return the name of the `.data_spec` of a set, given the name of any of its files; None for other
-    names.
+    Return the name of the `.data_spec` of a set from the name of any of its files, else None.
     """
     stem, dot, suffix = name.removesuffix(".gz").rpartition(".")
     return f"{stem}.data_spec" if stem and dot + suffix in _KINDS else None
@@ -119,8 +116,7 @@ def set_of(name: str) -> str | None:
 
 def _set_of(path: Path) -> Path:
     """
-    Return the `.data_spec` of the set to which a file of directions or coherences belongs; else the
-    file.
+    Return the `.data_spec` beside a file of directions or coherences, else the file itself.
     """
     name = path.name.removesuffix(".gz")
     stem, _, suffix = name.rpartition(".")
@@ -136,7 +132,7 @@ def _set_of(path: Path) -> Path:
 
 
 def files_of(path: Path) -> list[Path]:
-    """Return a file and those of its set that are beside it."""
+    """Return a file and the others of its set that exist beside it."""
     if set_of(path.name) is None:
         return [path]
     first = _set_of(path)
@@ -224,7 +220,7 @@ def _directed(
 
 
 def _moment(r: Real, a: Real, n: int) -> Complex:
-    """c_n = r_n e^{i n a_n}, of a_n in degrees."""
+    """Return c_n = r_n e^{i n a_n} for a_n in degrees."""
     return np.asarray(r * np.exp(1j * n * np.radians(a)), dtype=np.complex128)
 
 
@@ -280,7 +276,7 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
 
 
 def _pairs(where: str, tokens: list[str]) -> tuple[list[str], list[float]]:
-    """Values and frequencies of a realtime record: `0.060 (0.063) 0.218 (0.068) ...`."""
+    """Return values and frequencies of a realtime record: `0.060 (0.063) 0.218 (0.068) ...`."""
     bracketed = tokens[1::2]
     if len(tokens) % 2 or not all(t.startswith("(") and t.endswith(")") for t in bracketed):
         raise ReaderError(
@@ -305,8 +301,9 @@ def _values(where: str, tokens: list[str], column: _Column) -> Iterator[float]:
 
 def _seconds(where: str, tokens: list[str], fields: int) -> int:
     """
-    Seconds since 1970 of a date in whole numbers; two-figure years are those of the last century,
-    as in files up to 1998.
+    Return the seconds since 1970 of a date in integers.
+
+    Two-digit years belong to the 20th century, as in files up to 1998.
     """
     if len(tokens) < fields or not all(re.fullmatch(r"[0-9]{1,4}", t) for t in tokens):
         raise ReaderError(
@@ -337,7 +334,7 @@ READER: Final = Reader(
     extensions=(".data_spec", ".txt"),
     description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), "
     "or a year of S(f).",
-    sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
+    sniff=lambda head: recognises(head.first_line) and near_misses.hint(head) is None,
     read=_read,
     files=files_of,
 )

@@ -1,9 +1,9 @@
 """
-NDBC's yearly archive with directions: five files of one buoy and year that belong together.
+Yearly archive of NDBC with directions: five files of one buoy and year.
 
 `41010w2019.txt` holds S(f), `...d...` alpha1, `...i...` alpha2 [degrees], `...j...` r1 and
 `...k...` r2 in hundredths; all have the date and one column for each frequency. Any one of them
-stands for the set.
+names the set.
 
 Source: NDBC, Measurement Descriptions and Units, "Raw Spectral Wave Data" ("R1 and R2 are scaled by
 100").
@@ -37,7 +37,7 @@ _COLUMNS: Final = {
 
 
 def recognises(head: Head) -> bool:
-    """Return whether a file is one of a set, by its header and its name."""
+    """Return True if header and name of a file are those of a set."""
     header = ndbc._DATE.match(head.first_line)
     numbers = header is not None and re.match(r"[0-9.]", header[3]) is not None
     return numbers and _NAME.fullmatch(head.path.name) is not None
@@ -45,14 +45,14 @@ def recognises(head: Head) -> bool:
 
 def read(path: Path, *, bins: int) -> "Dataset":
     """
-    Read a set, given by any one of its files.
+    Read a set, named by any one of its files.
 
     Args:
-        path: the file; the others are looked for beside it, plain or as .gz.
+        path: the file; the others lie beside it, plain or as .gz.
         bins: directions round the compass into which the moments are unfolded.
 
     Returns:
-        Spectra with directions; S(f) alone where only the `w` file is there.
+        Spectra with directions; S(f) alone if only the `w` file exists.
 
     Raises:
         ReaderError: files of the set that are missing, by name, or broken lines.
@@ -71,14 +71,14 @@ def read(path: Path, *, bins: int) -> "Dataset":
     )
     for table in moments[2:]:
         largest = float(np.max(table.values, initial=0.0, where=~np.isnan(table.values)))
-        if 0.0 < largest <= 1.0:  # no sea is as broad as that at all frequencies
+        if 0.0 < largest <= 1.0:  # no sea is that broad at all frequencies
             raise ReaderError(f"{table.name} must hold r in hundredths, got none above {largest:g}")
         table.values[:] *= 0.01
     return ndbc._directed(spectrum, moments, bins, "NDBC historical text with directions")
 
 
 def _set(path: Path) -> tuple[dict[str, str], dict[str, Path | None]]:
-    """Return the names of the five files of a set, and where they are, by kind."""
+    """Return names and paths of the five files of a set by kind."""
     match = _NAME.fullmatch(path.name)
     if not match:
         raise ReaderError(f"{path.name} must be named like 41010w2019.txt")
@@ -88,12 +88,12 @@ def _set(path: Path) -> tuple[dict[str, str], dict[str, Path | None]]:
 
 
 def files_of(path: Path) -> list[Path]:
-    """Return a file and those of its set that are beside it."""
+    """Return a file and the others of its set that exist beside it."""
     return [other for other in _set(path)[1].values() if other is not None]
 
 
 def set_of(name: str) -> str | None:
-    """Return the name of the `w` file of a set, given that of any; None for other names."""
+    """Return the name of the `w` file of a set from the name of any of its files, else None."""
     match = _NAME.fullmatch(name)
     return match and f"{match[1]}w{match[3].removesuffix('.gz')}".lower()
 
@@ -103,7 +103,7 @@ def _like(letter: str, kind: str) -> str:
 
 
 def _beside(path: Path, name: str) -> Path | None:
-    """Return the file of that name beside `path`, plain or packed, whichever `path` is."""
+    """Return the file of that name beside `path`, plain or packed."""
     plain = name.removesuffix(".gz")
     return next(
         (p for p in (path.with_name(plain), path.with_name(plain + ".gz")) if p.is_file()), None

@@ -1,4 +1,4 @@
-"""Files that are taken for wave spectra and are not, with the file to open in place of each."""
+"""Files often mistaken for wave spectra."""
 
 import re
 from collections.abc import Callable
@@ -7,8 +7,8 @@ from typing import Final
 from fftocean.readers.reader import Head
 
 
-def name(head: Head) -> str | None:
-    """Return what a file is and what to open in its place, or None where that is not known."""
+def hint(head: Head) -> str | None:
+    """Return the nature of a file and the one to open instead, or None if it is unknown."""
     return next((text for matches, text in _KNOWN if matches(head)), None)
 
 

@@ -1,11 +1,13 @@
 """
-Wave spectra in netCDF: WAVEWATCH III point output, ERA5 2-D wave spectra, the wavespectra package's
-layout, our own.
+Wave spectra in netCDF.
 
-What a variable is, its unit and the way its directions point are taken from its attributes. Names
-alone decide only where a format's own documents fix them: ERA5's `d2fd` and the `efth(freq, dir)`
-of wavespectra. Where two attributes disagree, or the one that matters is missing or unknown, the
-file is refused: a sea turned round by 180 degrees looks perfectly well.
+The formats are WAVEWATCH III point output, ERA5 2-D wave spectra, the layouts of the wavespectra
+package and of this one, NDBC and CDIP.
+
+A variable's attributes give its meaning, its unit and the sense of its directions. Names alone
+decide only if a format's documents fix them: ERA5's `d2fd` and the `efth(freq, dir)` of
+wavespectra. If two attributes disagree, or the necessary one is missing or unknown, the file is
+refused: a sea turned by 180 degrees looks plausible.
 
 Source: CF standard names; WAVEWATCH III manual (netCDF point output); ECMWF, ERA5 data
 documentation, "Wave spectra".
@@ -64,12 +66,12 @@ _WIDTHS: Final = ("df", "waveBandwidth", "bandwidth", "frequency_bandwidth")
 
 @dataclass(frozen=True, slots=True)
 class _Family:
-    """A netCDF format, and what its documents promise where its attributes are silent."""
+    """A netCDF format and its documented defaults for missing attributes."""
 
     name: str
-    documented: bool  # Hz, degrees (or numbers of bins), and the density's unit need not be said
-    goes_to: bool | None = None  # the documented way of the directions; None: must be said
-    per: str = "degree"  # the documented unit of the density
+    documented: bool  # Hz, degrees (or bin numbers) and density unit may be omitted
+    goes_to: bool | None = None  # documented sense of the directions; None: must be stated
+    per: str = "degree"  # documented unit of the density
     log10: bool = False
 
 
@@ -81,7 +83,7 @@ _DECLARED: Final = _Family("CF netCDF (WAVEWATCH III)", documented=False)
 
 
 def recognises(magic: bytes) -> bool:
-    """Whether a file that begins with these bytes is netCDF, of a kind that can be read or not."""
+    """Return True if a file with these first bytes is netCDF, of a readable version or not."""
     return magic.startswith((hdf5.MAGIC, b"CDF"))
 
 
@@ -91,10 +93,10 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
 
     Raises:
         ReaderError: a broken file, one without spectra, or one whose attributes are missing,
-            unknown or at odds.
+            unknown or contradictory.
         ParameterError: `site` is not in the file.
     """
-    xr = dataset_layout.science()
+    xr = dataset_layout.load_xarray()
     magic = bounded_reads.head(path, 8)
     if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
         raise ReaderError(
@@ -103,11 +105,10 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
         )
     modern = magic.startswith(hdf5.MAGIC)
     with _broken(path.name), warnings.catch_warnings():
-        warnings.simplefilter(
-            "ignore"
-        )  # of two fill values, odd calendars: what matters is checked below
-        # A stream of our own: what was checked is what is read, and the libraries cannot map the
-        # file or leave it open where they fail.
+        # Warnings of two fill values or odd calendars: the checks below cover what matters.
+        warnings.simplefilter("ignore")
+        # One stream for check and reading: the file cannot change in between, and the libraries can
+        # neither map it nor leave it open when they fail.
         with (
             bounded_reads.contents(path)
             if bounded_reads.is_packed(path)
@@ -129,14 +130,13 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             with xr.open_dataset(
                 stream, engine=engine, decode_timedelta=False, drop_variables=unread
             ) as raw:
-                return tidy(raw, site=site, source=path.name, bins=bins, file_bytes=size)
+                return to_layout(raw, site=site, source=path.name, bins=bins, file_bytes=size)
 
 
 @contextmanager
 def _broken(name: str) -> Iterator[None]:
     """
-    The libraries below raise whatever broken bytes lead them to; here it becomes one error that
-    names the file.
+    Turn any exception of the netCDF libraries on damaged bytes into one that names the file.
     """
     try:
         yield
@@ -144,7 +144,7 @@ def _broken(name: str) -> Iterator[None]:
         raise
     except ImportError as error:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
-            raise dataset_layout.missing(error) from error
+            raise dataset_layout.not_installed(error) from error
         raise ReaderError(
             f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
         ) from error
@@ -155,7 +155,7 @@ def _broken(name: str) -> Iterator[None]:
         ) from error
 
 
-def tidy(
+def to_layout(
     raw: "Dataset | DataArray",
     *,
     site: int = 0,
@@ -166,22 +166,23 @@ def tidy(
     file_bytes: int | None = None,
 ) -> "Dataset":
     """
-    Put an opened dataset of any known kind into our layout; one that is in it already comes out as
-    it went in.
+    Return an opened dataset of any known kind in the layout of `dataset_layout`.
+
+    A dataset already in that layout is returned unchanged.
 
     Args:
         raw: as xarray decodes it; dimensions in any order.
-        site: which place, where there are several: the position along all dimensions but time,
-            frequency and direction, in the variable's own order (a grid is counted row by row).
-        time: one time only; all of them where None.
-        source: what to call it in errors.
+        site: index of the place: the position along all dimensions but time, frequency and
+            direction, in the variable's own order (a grid is counted row by row).
+        time: index of one time; None for all.
+        source: name of the dataset in errors.
         bins: directions round the compass into which the moments of a buoy are unfolded.
-        negative: what to do with negative densities: "refuse" or "clip", see
+        negative: treatment of negative densities, "refuse" or "clip", see
             `dataset_layout.densities`.
-        file_bytes: size of the file from which values are yet to be read, where there is one.
+        file_bytes: size of the file from which values are still to be read, if any.
 
     Raises:
-        ReaderError: see the head of this file.
+        ReaderError: no spectrum, or attributes that are missing, unknown or contradictory.
         ParameterError: `site` or `time` is not in the dataset.
     """
     raw = package.as_dataset(raw, source)
@@ -197,9 +198,8 @@ def tidy(
     family = _family(spectrum, axes)
     _require_sane_packing(where, spectrum)
     if "dir" in axes and family is _WAVESPECTRA and spectrum.sizes[axes["dir"]] == 1:
-        spectrum = spectrum.isel(
-            {axes.pop("dir"): 0}
-        )  # how wavespectra holds a buoy without directions
+        # wavespectra holds a buoy without directions in this form.
+        spectrum = spectrum.isel({axes.pop("dir"): 0})
         directional = False
     if directional is None:
         directional = "dir" in axes
@@ -243,7 +243,7 @@ def tidy(
     if directional:
         there, bearing, goes_to = _direction(raw, axes, family, source)
         if goes_to and family is _WAVESPECTRA and scale == 1.0:
-            goes_to = not _left_over(raw[axes["dir"]].attrs, spectrum.attrs)
+            goes_to = not _is_stale(raw[axes["dir"]].attrs, spectrum.attrs)
             taken = (
                 "go to there, and so it is taken"
                 if goes_to
@@ -295,7 +295,7 @@ def tidy(
 
 
 def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Real:
-    """The numbers of one place, (time, f), NaN where they are fill values."""
+    """Return the values of one place, (time, f), NaN for fill values."""
     values = _numbers(f"{source}: variable {variable.name}", variable.transpose(*order))
     with np.errstate(invalid="ignore"):
         values[np.abs(values) > dataset_layout.FILL] = np.nan
@@ -303,7 +303,7 @@ def _table(source: str, variable: "DataArray", order: Sequence[Hashable]) -> Rea
 
 
 def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
-    """The variable with the spectra, and whether it says itself that it has directions."""
+    """Return the variable with the spectra, and whether its attributes state directions."""
     for name in _NAMES:
         if name in raw.data_vars:
             return raw[name], _SPECTRA.get(str(raw[name].attrs.get("standard_name")))
@@ -319,7 +319,7 @@ def _spectrum(raw: "Dataset", source: str) -> tuple["DataArray", bool | None]:
 
 def _axes(raw: "Dataset", spectrum: "DataArray") -> dict[str, Hashable]:
     """
-    Which dimension is frequency, direction, time: by name, else by its coordinate's standard name.
+    Return the dimensions of frequency, direction, time, by name or coordinate's standard name.
     """
     axes: dict[str, Hashable] = {}
     for role, names in _AXES.items():
@@ -350,7 +350,7 @@ def _family(spectrum: "DataArray", axes: Mapping[str, Hashable]) -> _Family:
 def _pick(
     where: str, spectrum: "DataArray", axes: Mapping[str, Hashable], *, site: int, time: int | None
 ) -> tuple[dict[Hashable, int], dict[str, Any]]:
-    """The index along each dimension that is not to stay."""
+    """Return the index along each dimension that is dropped."""
     others = [d for d in spectrum.dims if d not in axes.values()]
     shape = tuple(spectrum.sizes[d] for d in others)
     sites = int(np.prod(shape, dtype=np.int64))
@@ -376,20 +376,18 @@ def _require_sane_read(
     where: str, spectrum: "DataArray", picked: Mapping[Hashable, int], file_bytes: int
 ) -> None:
     """
-    Refuse values that take more unpacking than a file of this size can ask for, or than anybody
-    will wait for.
+    Raise if values unpack to more than a file of this size can hold, or take too long to unpack.
     """
     chunks = spectrum.encoding.get("chunksizes") or (1,) * spectrum.ndim
     read = np.dtype(spectrum.encoding.get("dtype", spectrum.dtype)).itemsize
     for dim, chunk in zip(spectrum.dims, chunks, strict=True):
-        read *= chunk * (
-            1 if dim in picked else -(-spectrum.sizes[dim] // chunk)
-        )  # whole chunks are unpacked
+        # Chunks are unpacked whole.
+        read *= chunk * (1 if dim in picked else -(-spectrum.sizes[dim] // chunk))
     if read > _MOST_READ or read > 2**20 + hdf5.MOST_RATIO * file_bytes:
         raise ReaderError(
             f"{where} must be readable for one place by unpacking at most {_MOST_READ >> 20} "
-            "MiB, and no more than its file "
-            f"of {file_bytes} bytes can hold, got {read >> 20} MiB (cut out the place with xarray)"
+            f"MiB, and no more than its file of {file_bytes} bytes can hold, "
+            f"got {read >> 20} MiB (cut out the place with xarray)"
         )
 
 
@@ -414,7 +412,7 @@ def _coordinate(
 def _frequency(
     raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str
 ) -> tuple[str, Real]:
-    """Where the frequencies stand, and they, in Hz."""
+    """Return the error prefix and the frequencies [Hz]."""
     where, f = _coordinate(raw, axes, "freq", source)
     values = _numbers(where, f)
     if family is _ERA5 and (numbers := _bin_numbers(where, values, 30)) is not None:
@@ -477,8 +475,7 @@ def _direction(
     raw: "Dataset", axes: Mapping[str, Hashable], family: _Family, source: str
 ) -> tuple[str, Real, bool]:
     """
-    Where the directions stand, they, clockwise from north in degrees, and whether waves go there
-    (or come from there).
+    Return the error prefix, the directions [degrees, clockwise from N], and whether they are TO.
     """
     where, d = _coordinate(raw, axes, "dir", source)
     values = _numbers(where, d)
@@ -503,8 +500,9 @@ def _direction(
 
 def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
     """
-    ERA5's axes where they hold the numbers of bins, 1 to `most`, in place of Hz and degrees: no sea
-    has waves of 1, 2, 3 Hz only.
+    Return the values of an ERA5 axis of bin numbers, 1 to `most`, or None if it has Hz or degrees.
+
+    Integers are bin numbers: no sea has only waves of 1, 2, 3 Hz.
     """
     whole = bool(np.all(values == np.rint(values))) and bool(np.all(np.abs(np.diff(values)) == 1.0))
     if not whole or values.size < 2:
@@ -518,7 +516,7 @@ def _bin_numbers(where: str, values: Real, most: int) -> Real | None:
 
 
 def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
-    """Whether directions are where waves go TO (true) or come FROM (false)."""
+    """Return True if waves go TO the directions, False if they come FROM them."""
     said: dict[bool, str] = {}
     for key in _WAYS:
         text = str(attrs.get(key, ""))
@@ -546,12 +544,12 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
     return family.goes_to
 
 
-def _left_over(direction: Mapping[str, Any], density: Mapping[str, Any]) -> bool:
+def _is_stale(direction: Mapping[str, Any], density: Mapping[str, Any]) -> bool:
     """
-    Tell attributes that no longer hold: those of WAVEWATCH III on a dimension named `dir`.
+    Return True if the attributes of `dir` are stale ones of WAVEWATCH III.
 
-    The wavespectra package turns that model's directions round and makes densities per degree, but
-    leaves its attributes on `dir`, of which `globwave_name` and an axis "Z" are no other's.
+    The wavespectra package reverses that model's directions and converts densities to per degree,
+    but leaves the model's attributes on `dir`; only they include `globwave_name` or an axis "Z".
     """
     return (
         "globwave_name" in direction
@@ -562,7 +560,7 @@ def _left_over(direction: Mapping[str, Any], density: Mapping[str, Any]) -> bool
 
 
 def _require_sane_packing(where: str, variable: "DataArray") -> None:
-    """Refuse a scale or an offset that would make all values nothing, or no numbers."""
+    """Raise if a scale or an offset would make all values 0, or not finite."""
     for key, low, high in (("scale_factor", 1e-30, 1e30), ("add_offset", 0.0, 1e30)):
         number = np.asarray(variable.encoding.get(key, 1.0))
         right = (
@@ -586,7 +584,7 @@ def _assumed(
     raw: "Dataset", spectrum: "DataArray", axes: Mapping[str, Hashable], family: _Family
 ) -> dict[str, str]:
     """
-    Say what attributes are silent about, and what was therefore taken from the format's documents.
+    Return a note of the facts that attributes omit and the format's documents supply.
     """
     silent = []
     if "units" not in spectrum.attrs and "GRIB_units" not in spectrum.attrs:
@@ -615,8 +613,9 @@ def _assumed(
 
 def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, directional: bool) -> float:
     """
-    What turns the variable's numbers into m2/Hz/degree (m2/Hz without directions); 1 for
-    logarithms, which are scaled later.
+    Return the factor from the variable's unit to m2/Hz/degree (m2/Hz without directions).
+
+    The factor is 1 for logarithms, which are scaled later.
     """
     text = attrs.get("units", attrs.get("GRIB_units"))
     if text is None and family.documented:
@@ -632,7 +631,7 @@ def _per_degree(where: str, attrs: Mapping[str, Any], family: _Family, direction
 
 def _unit(where: str, text: Any, directional: bool) -> float:
     """
-    Return what turns numbers in a unit, in any of UDUNITS' spellings, into m2/Hz/degree (m2/Hz).
+    Return the factor from a unit, in any spelling of UDUNITS, to m2/Hz/degree (m2/Hz).
     """
     unit = units.parse(text)
     right = {"m": 2, "s": 1, "rad": -1} if directional else {"m": 2, "s": 1}
@@ -646,8 +645,7 @@ def _unit(where: str, text: Any, directional: bool) -> float:
 
 def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
     """
-    Return the base of the logarithms that a variable says it holds, and what was added before; None
-    where it says none.
+    Return the logarithm (base and added offset) that a variable declares, or None.
     """
     unit = units.parse(attrs.get("units"))
     if unit is not None and unit.base is not None:
@@ -668,8 +666,10 @@ def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
 
 def _from_log10(where: str, values: Real) -> tuple[Real, int]:
     """
-    ERA5 keeps log10 of m2/Hz/radian, and nothing at all where there is almost nothing: there it is
-    0, but where a whole spectrum is missing (land, ice) it stays missing.
+    Return densities from ERA5's log10 of m2/Hz/radian, and the number set to 0.
+
+    ERA5 omits values of almost no energy: they become 0. A spectrum that is missing altogether
+    (land, ice) stays missing.
     """
     with np.errstate(invalid="ignore"):
         wrong = values > np.log10(dataset_layout.LARGEST * 180.0 / np.pi)
@@ -688,7 +688,7 @@ def _from_log10(where: str, values: Real) -> tuple[Real, int]:
 def _times(
     raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], source: str
 ) -> Any:
-    """The times as datetime64, or None where there are none."""
+    """Return the times as datetime64, or None."""
     name = axes.get("time", "time")
     if name not in raw.variables:
         return None
@@ -712,7 +712,7 @@ def _at(variable: "DataArray", picked: Mapping[Hashable, int]) -> "DataArray":
 def _depth(
     raw: "Dataset", axes: Mapping[str, Hashable], picked: Mapping[Hashable, int], count: int
 ) -> Real | None:
-    """The water depth at each time [m], NaN where it is not known or not above 0."""
+    """Return the water depth at each time [m], NaN if unknown or not positive."""
     for name, variable in raw.variables.items():
         if name == "dpt" or str(variable.attrs.get("standard_name", "")).startswith(
             "sea_floor_depth_below"
@@ -728,7 +728,7 @@ def _depth(
 
 
 def _position(raw: "Dataset", picked: Mapping[Hashable, int]) -> dict[str, float]:
-    """Longitude and latitude, or x and y, of the place; of the first time where it moves."""
+    """Return longitude and latitude, or x and y, at the first time."""
     position = {}
     for key, names in (
         ("lon", ("lon", "longitude")),

@@ -1,13 +1,13 @@
 """
-Octopus files: forecasts at one place, each a table of energies by direction and frequency.
+Octopus files: forecasts at one place as tables of energy by direction and frequency.
 
 Seven lines of header, then for each time: names and values of bulk parameters, a line of
 frequencies, one line for each direction FROM with the energy [m2] of each bin, and two lines of
 sums, `fSpec` [m2] and `den` [m2/Hz]. The bands are those of `den`: from half way to half way
 between neighbours, and not beyond the outermost frequencies.
 
-Source: the sample file of the wavespectra package (MIT); the sums in the file, which a reading must
-reproduce.
+Source: the sample file of the wavespectra package (MIT); the spectra must reproduce the sums in the
+file.
 """
 
 import re
@@ -32,13 +32,13 @@ _LAST: Final = ("fspec", "den")
 
 
 def recognises(head: Head) -> bool:
-    """Return whether the second and third line are those of an Octopus file."""
+    """Return True if the second and third line are those of an Octopus file."""
     lines = head.lines
     return len(lines) > 3 and lines[1].startswith("nfreqs,") and lines[2].startswith("ndir,")
 
 
 class _Rows:
-    """The lines of the file as cells, empty lines left out."""
+    """Iterator over the lines of the file as cells, without empty lines."""
 
     def __init__(self, path: Path) -> None:
         self.name = path.name
@@ -58,7 +58,7 @@ class _Rows:
         return cells
 
     def keyed(self, key: str, wanted: str) -> list[str]:
-        """Return what follows a line's first cell, which must be `key`."""
+        """Return the cells after a line's first one, which must be `key`."""
         cells = self.next(wanted)
         if cells[0].lower() != key.lower():
             raise ReaderError(f"{self.where} must begin with {key}, got {cells[0]!r:.40}")
@@ -75,7 +75,7 @@ class _Rows:
         return bounded_reads.count(self.where, cells[0] or "nothing", _MOST)
 
     def numbers(self, cells: list[str], count: int) -> list[float]:
-        """Return the first `count` cells as numbers; sums may follow them."""
+        """Return the first `count` cells as numbers, ignoring sums after them."""
         if len(cells) < count:
             raise ReaderError(f"{self.where} must hold {count} numbers, got {len(cells)}")
         return [bounded_reads.number(self.where, cell) for cell in cells[:count]]
@@ -86,7 +86,7 @@ def read(path: Path) -> "Dataset":
     Read all times.
 
     Raises:
-        ReaderError: a header, counts or axes that are not as they should be, a table that is cut.
+        ReaderError: a header, counts or axes that break the format, a table that is cut.
     """
     rows = _Rows(path)
     title = ",".join(rows.next("a title"))
@@ -189,7 +189,7 @@ def _table(rows: _Rows, nf: int, nd: int) -> tuple[Real, Real]:
 
 
 def _step(name: str, bearing: Real) -> float:
-    """Return the width of the directions, which must be equal and go all round."""
+    """Return the width of the directions; raise unless they are equal and complete."""
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.ptp(steps) > 1e-3 * 360.0 / bearing.size:
         raise ReaderError(

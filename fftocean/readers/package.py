@@ -1,4 +1,4 @@
-"""What the wavespectra package hands out, as a dataset in the layout that its readers document."""
+"""Datasets and arrays of the wavespectra package."""
 
 import re
 from typing import TYPE_CHECKING, Any, Final
@@ -19,17 +19,17 @@ _UNDIRECTED: Final = "sea_surface_wave_variance_spectral_density"
 
 def as_dataset(given: Any, source: str) -> "Dataset":
     """
-    Return a dataset of spectra, given that or a bare array of densities.
+    Return a dataset of spectra from a dataset or a bare array of densities.
 
-    The package's transforms (`rotate`, `smooth`, `split`), partitions and `oned` hand out arrays,
-    with and without a name, and keep attributes that no longer hold: those of the directions on a
-    spectrum that has none, radians on directions in degrees, prose as units of frequency. Where the
-    layout is the package's own, `efth` or `ef` on `freq` and perhaps `dir`, such left-overs give
-    way to what that layout documents.
+    The package's transforms (`rotate`, `smooth`, `split`), partitions and `oned` return arrays,
+    with and without a name, and keep stale attributes: those of directions on a spectrum that has
+    none, radians on directions in degrees, prose as units of frequency. In the package's own
+    layout, `efth` or `ef` on `freq` and perhaps `dir`, the documented attributes replace stale
+    ones.
 
     Args:
         given: an xarray.Dataset or DataArray.
-        source: what to call it in errors.
+        source: name of the dataset in errors.
 
     Raises:
         ReaderError: neither of these, or an array that is no density.
@@ -46,7 +46,7 @@ def as_dataset(given: Any, source: str) -> "Dataset":
 
 
 def _named(array: "DataArray", source: str) -> "Dataset":
-    """Return a dataset of an array; one without a name, as `split` leaves it, is `efth`."""
+    """Return a dataset of an array, which is `efth` if it has no name (as from `split`)."""
     said = array.attrs.get("units")
     unit = units.parse(said)
     wrong = unit is not None and unit.is_(m=2)
@@ -99,14 +99,14 @@ def _per_angle(text: object) -> bool:
 
 def once_round(values: Real, bearing: Real) -> tuple[Real, Real, dict[str, Any]]:
     """
-    Leave out a last direction that repeats the first, as TRIAXYS tables have it.
+    Return densities and directions without a last one that repeats the first, as in TRIAXYS.
 
     Args:
         values: (time, f, d) densities.
         bearing: (d,) directions [degrees].
 
     Returns:
-        Both without it where it holds the same densities, and a note; both as they were where not.
+        Both without the last direction if its densities repeat, and a note; else both unchanged.
     """
     if bearing.size < 5 or abs(abs(float(bearing[-1]) - float(bearing[0])) - 360.0) > 1e-6:
         return values, bearing, {}

@@ -1,4 +1,4 @@
-"""The type of a reader of one file format, and the head of a file by which it is recognised."""
+"""Type of a reader of one file format."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,12 +11,12 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 HEAD_BYTES = 16384
-"""As much of a file as a reader sees to recognise it: the first line of a Spotter has 5 kB."""
+"""Bytes of a file by which a reader recognises it: the first line of a Spotter has 5 kB."""
 
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """The beginning of a file, unpacked, from which its format is recognised."""
+    """Beginning of a file, unpacked, by which its format is recognised."""
 
     path: Path
     data: bytes
@@ -28,12 +28,12 @@ class Head:
 
     @property
     def lines(self) -> list[str]:
-        """The first lines, stripped; the last one may be cut."""
+        """First lines, stripped; the last one may be cut."""
         return [line.strip() for line in self.data.decode("utf-8", "replace").split("\n")]
 
     @property
     def first_line(self) -> str:
-        """The first line, stripped; empty where there is none."""
+        """First line, stripped; empty if there is none."""
         return self.lines[0]
 
 
@@ -46,11 +46,11 @@ class Reader:
     """
 
     name: str  # of the format, as in lists and errors
-    extensions: tuple[str, ...]  # usual endings of the names of such files; never used to decide
+    extensions: tuple[str, ...]  # usual endings of names; never used to recognise a file
     description: str  # one sentence for the list of formats
-    sniff: Callable[[Head], bool]  # return whether a file with this head is in the format
-    read: Callable[[Path, int, int], "Dataset"]  # (path, site, bins) -> dataset in our layout
-    files: Callable[[Path], list[Path]] = lambda path: [path]  # all that are read with a file
+    sniff: Callable[[Head], bool]  # return True if a file with this head is in the format
+    read: Callable[[Path, int, int], "Dataset"]  # (path, site, bins) -> dataset in `dataset_layout`
+    files: Callable[[Path], list[Path]] = lambda path: [path]  # all files that are read with a file
 
     def __post_init__(self) -> None:
         if not self.name.strip() or not self.description.strip().endswith("."):

@@ -1,6 +1,5 @@
 """
-Seas made from measured spectra: straight lines with the moments of the source's own bands, and our
-directions.
+Seas from measured spectra.
 """
 
 import math
@@ -18,11 +17,11 @@ from fftocean.limits import SIGNIFICANT_WAVE_HEIGHT
 from fftocean.physics.moments import mean_direction_and_spread
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import TabulatedSpectrum
-from fftocean.physics.spreading import Spreading
-from fftocean.physics.tabulated import TabulatedSpreading, bin_widths
+from fftocean.physics.spreading import Spreading, TabulatedSpreading
+from fftocean.physics.spreading.tabulated import bin_widths
 from fftocean.readers import bands
-from fftocean.readers.dataset_layout import announce
-from fftocean.readers.netcdf import tidy
+from fftocean.readers.dataset_layout import warn_of_notes
+from fftocean.readers.netcdf import to_layout
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -30,19 +29,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Realised:
-    """A sea made from a measured spectrum, and what was done to make it."""
+    """A sea from a measured spectrum, with a report of the conversion."""
 
     sea: Sea
-    hs_source: (
-        float  # significant wave height of the source's own sum over bands [m]; what `sea` has
-    )
-    factor: float  # m0 of the source's bands over that of straight lines through its densities [-]
+    hs_source: float  # significant wave height of the source's own sum over bands, as of `sea` [m]
+    factor: float  # m0 of the source's bands / m0 of straight lines through its densities [-]
     tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
     tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
-    depth_source: float | None = (
-        None  # the measurement's own water depth [m]; None where it has none
-    )
-    notes: tuple[str, ...] = ()  # what was masked, repaired or assumed, in words
+    depth_source: float | None = None  # water depth of the measurement [m]; None if unknown
+    notes: tuple[str, ...] = ()  # masked, repaired or assumed values, in words
 
     @classmethod
     def from_spectrum(
@@ -60,33 +55,32 @@ class Realised:
         Realise one spectrum of a dataset.
 
         The source's moments are sums over its bands of S(f) f^n df. Bands are the dataset's own
-        where it has them (`freq_bnds`, and what netCDF files call them); else each reaches half way
-        to its neighbours and the outermost as far out as in: so buoys are summed, and so does the
-        wavespectra package (`hs(tail=False)`). Between frequencies and directions the sea is drawn
-        in straight lines, which have the same m0, m1 and m2, hence Hs, Tm01 and Tm02
-        (`bands.straight_lines`); outside the bands it is 0. A frequency that is missing altogether
-        is bridged; single missing bins are empty, as in ERA5.
+        if it has them (`freq_bnds`, or their names in netCDF files); else each reaches half way to
+        its neighbours and the outermost are symmetric, as buoys and the wavespectra package
+        (`hs(tail=False)`) sum them. The sea is piecewise linear in frequency and direction, with
+        the same m0, m1 and m2, hence Hs, Tm01 and Tm02 (`bands.straight_lines`); outside the bands
+        it is 0. A frequency that is missing altogether is interpolated; single missing bins are
+        empty, as in ERA5.
 
         Args:
             dataset: from `readers.open`, the wavespectra package, or opened by xarray: dimensions
                 freq, dir, perhaps time, site.
-            time: which time, from 0; -1 is the last. (By name: `dataset.sel(time=...)` before.)
-            site: which place, from 0.
-            depth: still-water depth [m]; None takes `dpt` of the dataset, and deep water where it
-                has none.
+            time: index of the time, from 0; -1 is the last. (By date: `dataset.sel(time=...)`.)
+            site: index of the place, from 0.
+            depth: still-water depth [m]; None takes `dpt` of the dataset, or deep water without it.
             direction: toward which the waves go, counter-clockwise from +x [degrees]: for a
                 spectrum without directions.
-            spreading: how they spread: for a spectrum without directions, which needs both.
+            spreading: directional spreading: for a spectrum without directions, which needs both.
             negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each
-                frequency: for directions that were drawn as a cut Fourier series
-                    (`wavespectra.read_ndbc`).
+                frequency: for directional spectra from a truncated Fourier series
+                (`wavespectra.read_ndbc`).
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
-            ParameterError: a time, site or depth that cannot be; directions missing, or given
+            ParameterError: a time, site or depth out of range; directions missing, or given
                 twice.
         """
-        spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
+        spectrum = warn_of_notes(to_layout(dataset, site=site, time=time, negative=negative))
         notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
         own_depth = _own_depth(spectrum)
         depth = _depth(own_depth, depth, notes)
@@ -119,7 +113,7 @@ class Realised:
             total = np.asarray(spectrum["ef"].values[0])
             measured = ~np.isnan(total)
             total = total[measured]
-        edges = bands.without(frequency, own, measured)
+        edges = bands.remaining(frequency, own, measured)
         frequency = frequency[measured]
         if frequency.size < 2:
             raise ReaderError(
@@ -155,9 +149,8 @@ class Realised:
                 "own sums, and not Tm02"
             )
         if compass is not None:
-            toward = (
-                270.0 - compass
-            )  # clockwise from north, FROM -> counter-clockwise from east, TOWARD
+            # From FROM, clockwise from north, to TOWARD, counter-clockwise from east.
+            toward = 270.0 - compass
             energy = density * (edges[:, 1] - edges[:, 0])[:, np.newaxis] * bin_widths(compass)
             direction, _ = mean_direction_and_spread(
                 energy, np.radians(np.broadcast_to(toward, energy.shape))
@@ -189,20 +182,20 @@ _COUNTED: Final = {
     "below_threshold_values": (
         "values that the file leaves out for being almost nothing were taken as 0"
     ),
-    "limited_moments": "pairs of directional moments that no sea can have were drawn in",
+    "limited_moments": "pairs of directional moments that no sea can have were limited",
     "undirected_densities": "densities without a direction were spread all round",
 }
 """
-The counts among a dataset's attributes that are worth saying; those of a reader are of all times.
+Counts among a dataset's attributes that are reported; those of a reader are of all times.
 """
 
 
 def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
     """
-    Return in words what attributes say of doubts, assumptions, and what was masked or repaired.
+    Return notes on doubts, assumptions, and masked or repaired values, from attributes.
 
     Args:
-        spectrum: one time of the dataset, in our layout.
+        spectrum: one time of the dataset, in `dataset_layout`.
         given: the attributes of the dataset as its reader left them.
     """
     attrs = {**given, **spectrum.attrs}
@@ -229,14 +222,14 @@ def _notes_of(spectrum: "Dataset", given: Mapping[str, Any]) -> list[str]:
 
 
 def _own_depth(spectrum: "Dataset") -> float | None:
-    """Return the depth of the one time of a dataset in our layout, where it is known [m]."""
+    """Return the depth of a dataset of one time [m], or None if unknown."""
     own = float(spectrum["dpt"][0]) if "dpt" in spectrum else math.nan
     return None if math.isnan(own) else own
 
 
 def _depth(own: float | None, depth: float | None, notes: list[str]) -> float:
     """
-    Return the depth that is asked for, else the dataset's own, else deep water; and note which.
+    Return the specified depth, else the dataset's own, else deep water; add a note of it.
     """
     if depth is not None:
         return depth
@@ -258,8 +251,9 @@ def sea_from_spectrum(
     negative: str = "refuse",
 ) -> Sea:
     """
-    The sea of one measured spectrum: `Realised.from_spectrum(...)`, which has the arguments,
-    without its report.
+    Return the sea of one measured spectrum.
+
+    `Realised.from_spectrum` documents the arguments, and returns a report too.
     """
     return Realised.from_spectrum(
         dataset,
@@ -274,13 +268,14 @@ def sea_from_spectrum(
 
 def _whole_circle(compass: Real, density: Real, notes: list[str]) -> tuple[Real, Real]:
     """
-    Close a sector: where directions leave out more than twice their usual step, nothing was
-    computed and nothing comes from there.
+    Return directions and densities with zeros at the ends of gaps in the circle of directions.
+
+    A gap is more than twice the usual step: the model computed nothing there.
 
     Args:
         compass: (d,) ascending in [0, 360) [degrees].
         density: (f, d).
-        notes: to which a note is added where this was done.
+        notes: list that receives a note of the gaps.
     """
     gaps = np.diff(compass, append=compass[0] + 360.0)
     step = float(np.median(gaps))

@@ -1,10 +1,9 @@
 """
-The CSV files of Sofar's Spotter buoys: one record a line, one column for each number of the
-spectrum.
+CSV files of Sofar's Spotter buoys: one record a line, one column for each number of the spectrum.
 
-Read are `Epoch Time` [s since 1970], `Latitude`, `Longitude`, and by frequency `f_i` and `df_i`
-[Hz], `varianceDensity_i` [m2/Hz], and the moments `a1_i b1_i a2_i b2_i` of where waves go TO,
-counter-clockwise from east; without those `direction_i` (FROM, clockwise from north) and
+The reader uses `Epoch Time` [s since 1970], `Latitude`, `Longitude`, and by frequency `f_i` and
+`df_i` [Hz], `varianceDensity_i` [m2/Hz], and the moments `a1_i b1_i a2_i b2_i` of the directions
+TO, counter-clockwise from east; without those `direction_i` (FROM, clockwise from north) and
 `directionalSpread_i` [degrees]. A line has its own `Significant Wave Height`, the sum of densities
 times df.
 
@@ -45,11 +44,11 @@ _ONCE: Final = {
     "hs": "Significant Wave Height",
 }
 _LATEST: Final = 7.2581184e9  # the year 2200 [s since 1970]
-_APART: Final = 1.0  # largest difference of `direction` from the moments' own [degrees]
+_APART: Final = 1.0  # largest difference of `direction` from that of the moments [degrees]
 
 
 def recognises(head: Head) -> bool:
-    """Return whether the first line names a Spotter's columns."""
+    """Return True if the first line names a Spotter's columns."""
     first = head.first_line
     return (
         "Epoch Time" in first
@@ -127,7 +126,7 @@ def read(path: Path, *, bins: int) -> "Dataset":
 def _moments(
     name: str, columns: dict[str, list[int]], records: dict[str, Real]
 ) -> tuple[Complex, Complex] | tuple[None, None]:
-    """Return both moments of directions FROM, clockwise from north, by what the file has."""
+    """Return both moments of the directions FROM, clockwise from north, from either form."""
     has = {word for word in _BY_FREQUENCY if word in columns}
     if {"a1", "b1"} <= has:
         toward = records["a1"] + 1j * records["b1"]
@@ -155,7 +154,7 @@ def _moments(
 
 
 def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Real]]:
-    """Return which columns hold what, and the numbers of each by record."""
+    """Return the column numbers by name, and the values of each by record."""
     rows = bounded_reads.lines(path)
     where, header = next(rows)
     names = [re.sub(r"\(.*", "", name).strip().lstrip("\ufeff") for name in header.split(",")]

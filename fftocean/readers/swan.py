@@ -1,5 +1,5 @@
 """
-SWAN's spectrum files: ASCII, one block of whole numbers and a factor for each time and place.
+Spectrum files of SWAN: ASCII, one block of integers and a factor for each time and place.
 
 Source: SWAN User Manual, appendix "Spectrum files, input and output" (format version 1).
 """
@@ -23,19 +23,18 @@ if TYPE_CHECKING:
 
 _ENERGY: Final = (
     1025.0 * 9.81
-)  # rho g [kg/m^2/s^2] by which SWAN turns variance into energy, unless it was told otherwise
+)  # default rho g of SWAN, which converts variance to energy [kg/m^2/s^2]
 _MOST: Final = 10**6  # places, frequencies, directions
 
 
 def recognises(first_line: str) -> bool:
-    """Whether a text file that begins with this line is SWAN's."""
+    """Return True if a text file with this first line is SWAN's."""
     return re.match(r"SWAN\s+1\b", first_line) is not None
 
 
 class _Lines:
     """
-    The file's lines, one after another, comments left out; running out of them is an error unless
-    it is asked for.
+    Iterator over the file's lines without comments; `next` raises at the end of the file.
     """
 
     def __init__(self, path: Path) -> None:
@@ -61,8 +60,9 @@ class _Lines:
 
     def table(self, wanted: str, columns: int) -> Real:
         """
-        A count, then as many lines; of each the first `columns` numbers (a name may follow a
-        place).
+        Return the first `columns` numbers of each line of a table, whose first line is a count.
+
+        Other words may follow: a place can have a name.
         """
         rows = bounded_reads.count(self.where, self.next(f"the number of {wanted}"), _MOST)
         return np.array([self._row(wanted, columns) for _ in range(rows)])
@@ -83,7 +83,7 @@ def read(path: Path, *, site: int) -> "Dataset":
 
     Args:
         path: the file.
-        site: which place, from 0.
+        site: index of the place, from 0.
 
     Raises:
         ReaderError: a 1-D file, another version, units or time code, counts that do not agree, a
@@ -121,7 +121,7 @@ def read(path: Path, *, site: int) -> "Dataset":
         raise ReaderError(f"{lines.where} must be NDIR or CDIR, got {keyword!r:.40}{one}")
     bearings = lines.table("directions", 1)[:, 0]
     if keyword == "CDIR":
-        bearings = 270.0 - bearings  # toward, counter-clockwise from x, which is taken as east
+        bearings = 270.0 - bearings  # toward, counter-clockwise from x, assumed to point east
         bearings = np.where(np.abs(bearings) > 360.0, np.mod(bearings, 360.0), bearings)
     direction, d_order = dataset_layout.directions(f"{lines.name}: {keyword}", bearings)
     if frequency.size * direction.size > _MOST:
@@ -167,7 +167,7 @@ def read(path: Path, *, site: int) -> "Dataset":
 
 
 def _quantity(lines: _Lines) -> tuple[float, float]:
-    """What turns the file's numbers into m2/Hz/degree, and the number that means "missing"."""
+    """Return the factor from the file's unit to m2/Hz/degree, and the number for "missing"."""
     keyword = lines.next("QUANT").split()[0]
     if keyword != "QUANT":
         raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")
@@ -190,7 +190,7 @@ def _block(
     lines: _Lines, keyword: str, shape: tuple[int, int], fill: float, *, wanted: bool
 ) -> Real:
     """
-    One spectrum, (f, d), in the file's unit; only counted through where it is of another place.
+    Return one spectrum, (f, d), in the file's unit; skip that of another place.
     """
     word = keyword.split()[0]
     if word in ("ZERO", "NODATA"):
@@ -203,7 +203,7 @@ def _block(
     block = np.empty(shape)
     for row in block:
         tokens = lines.next("a row of densities").split()
-        while len(tokens) < row.size:  # a long row may go on in the next line
+        while len(tokens) < row.size:  # a long row may continue in the next line
             tokens += lines.next("the rest of a row").split()
         if len(tokens) > row.size:
             raise ReaderError(

@@ -1,5 +1,5 @@
 """
-SWAN's 1-D spectrum files: density, mean direction and spread of each frequency.
+1-D spectrum files of SWAN: density, mean direction and spread of each frequency.
 
 The header is that of a 2-D file without directions; QUANT announces VaDens (m2/Hz) or EnDens
 (J/m2/Hz), and perhaps NDIR (nautical, FROM) or CDIR (Cartesian, TO) and DSPRDEGR, each with its
@@ -32,7 +32,7 @@ _KINDS: Final = ("VaDens", "EnDens", "NDIR", "CDIR", "DSPRDEGR")
 
 
 def recognises(head: Head) -> bool:
-    """Return whether a SWAN file has quantities before it has directions."""
+    """Return True if a SWAN file names its quantities without directions before them."""
     if not swan.recognises(head.first_line):
         return False
     axes = 0
@@ -50,7 +50,7 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
 
     Args:
         path: the file.
-        site: which place, from 0.
+        site: index of the place, from 0.
         bins: directions round the compass into which mean direction and spread are unfolded.
 
     Raises:
@@ -116,7 +116,7 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
 
 
 def _header(lines: swan._Lines) -> tuple[bool, tuple[str, str], Real]:
-    """Return whether there are times, the names of the coordinates, and the places."""
+    """Return True if the file has times, the names of the coordinates, and the places."""
     keyword = lines.next("TIME or LONLAT").split()[0]
     dated = keyword == "TIME"
     if dated:
@@ -132,7 +132,7 @@ def _header(lines: swan._Lines) -> tuple[bool, tuple[str, str], Real]:
 
 
 def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
-    """Return the name, scale to our unit, and exception value of each column."""
+    """Return name, factor to SI and exception value of each column."""
     keyword = lines.next("QUANT").split()[0]
     if keyword != "QUANT":
         raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")

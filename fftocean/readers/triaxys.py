@@ -1,10 +1,10 @@
 """
-The spectra of TRIAXYS buoys: DIRSPEC files, a table by frequency and direction, and NONDIRSPEC
-files, two columns.
+Spectra of TRIAXYS buoys: DIRSPEC and NONDIRSPEC files.
 
-A header of `KEY = VALUE` lines gives counts, first frequency and spacings. Directions are where
-waves come FROM, clockwise from north; whether from true or magnetic north depends on how the buoy
-was set up, and is not in the file. The table's last column, 360 degrees, repeats its first.
+The first hold a table by frequency and direction, the second two columns. A header of `KEY = VALUE`
+lines gives counts, first frequency and spacings. Directions are where waves come FROM, clockwise
+from north; the file does not tell true from magnetic north, which depends on the set-up of the
+buoy. The table's last column, 360 degrees, repeats its first.
 
 Source: AXYS Technologies, TRIAXYS Directional Wave Buoy User's Manual, "Output file formats".
 """
@@ -27,13 +27,11 @@ if TYPE_CHECKING:
 
 _MOST: Final = 100_000  # frequencies or directions
 _POSITION: Final = re.compile(r"(\d{2})(\d{2}\.\d+)([NS])\s*(\d{2,3})(\d{2}\.\d+)([EW])")
-_REPEATED: Final = (
-    1e-5  # of the largest density: how far the columns of 0 and 360 degrees may differ
-)
+_REPEATED: Final = 1e-5  # largest difference of the columns of 0 and 360 degrees / largest density
 
 
 def recognises(head: Head) -> bool:
-    """Return whether the first line is that of a TRIAXYS report."""
+    """Return True if the first line is that of a TRIAXYS report."""
     return re.match(r"TRIAXYS BUOY (DATA )?REPORT", head.first_line) is not None
 
 

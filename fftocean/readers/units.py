@@ -1,5 +1,5 @@
 """
-Units of measurement as UDUNITS and the CF conventions spell them, for the few that wave files hold.
+Units of measurement of wave files in the spellings of UDUNITS and the CF conventions.
 
 A unit is a product of powers of metre, second, kilogram and radian times a number. Juxtaposition,
 `.`, `*` and `·` multiply; `/` and `per` divide; both bind alike and from left to right, as in
@@ -27,19 +27,19 @@ LARGEST_POWER: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A number times powers of base units, or the logarithm of such a quantity."""
+    """A number times powers of base units, or a logarithm of such a quantity."""
 
     scale: float = 1.0  # of one unit in SI
     powers: Mapping[str, int] = field(default_factory=dict)  # of m, s, kg, rad; none of them 0
-    base: float | None = None  # values are logarithms to this base, where there is one
+    base: float | None = None  # base of the logarithm; None for plain values
     offset: float = 0.0  # added, in the unit, before the logarithm was taken
 
     def is_(self, **powers: int) -> bool:
-        """Return whether the unit has exactly these powers of base units."""
+        """Return True if the unit has exactly these powers of base units."""
         return dict(self.powers) == powers
 
     def linear(self, values: Real) -> Real:
-        """Return values in SI; those of a logarithm are raised, and what was added is taken off."""
+        """Return values in SI, after inverting the logarithm and subtracting its offset."""
         if self.base is not None:
             with np.errstate(under="ignore", over="ignore"):
                 values = np.maximum(self.base**values - self.offset, 0.0)
@@ -119,7 +119,7 @@ _BASES: Final = {"log10": 10.0, "lg": 10.0, "log": 10.0, "ln": math.e, "lb": 2.0
 
 def parse(text: object) -> Unit | None:
     """
-    Return the unit that a text spells, or None where it spells none that is known.
+    Return the unit that a text spells, or None if it is unknown.
 
     Pinned by tests/readers/test_units.py.
     """

@@ -1,12 +1,13 @@
 """
-The transfer files of WAVEWATCH III's point output (ww3_outp, type 1, transfer file): spectra as
-formatted text.
+Transfer files of WAVEWATCH III's point output (ww3_outp, type 1): spectra as formatted text.
 
-    'WAVEWATCH III SPECTRA'     25    24     1 'title'          counts of frequencies, directions,
-    points frequencies [Hz]; directions [radians] TO, clockwise from north 19680606 000000 'name
-    '  lat lon depth U10 direction, current direction densities [m2/Hz/rad], the frequency fastest
+    'WAVEWATCH III SPECTRA'     25    24     1 'title'    counts: frequencies, directions, points
+    frequencies [Hz]; directions [radians] TO, clockwise from north
+    19680606 000000
+    'name      '  lat lon depth U10 direction, current direction
+    densities [m2/Hz/rad], the frequency fastest
 
-Numbers stand in fixed columns and may touch (`33.62-118.32`); exponents beyond 99 have no letter
+Numbers have fixed columns and may touch (`33.62-118.32`); exponents beyond 99 have no letter
 (`0.123-100`).
 
 Source: WAVEWATCH III manual, "Point output post-processor"; program ww3_outp, formats 901 to 946.
@@ -40,12 +41,12 @@ _NUMBER: Final = re.compile(r"[+-]?\d?\.\d+[+-]\d{3}(?![\d.])|" + _PLAIN.pattern
 
 
 def recognises(head: Head) -> bool:
-    """Return whether the first line is that of a transfer file."""
+    """Return True if the first line is that of a transfer file."""
     return head.first_line.upper().startswith("'WAVEWATCH III SPECTRA'")
 
 
 class _Lines:
-    """The lines of the file, one at a time, with the place of the last one."""
+    """Iterator over the lines of the file, with the place of the last one."""
 
     def __init__(self, path: Path) -> None:
         self.name = path.name
@@ -95,7 +96,7 @@ def read(path: Path, *, site: int) -> "Dataset":
 
     Args:
         path: the file.
-        site: which of its points, from 0.
+        site: index of the point, from 0.
 
     Raises:
         ReaderError: counts that do not agree, a point that is not the same at all times, a file
@@ -110,8 +111,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     if not (2 <= nf <= _MOST and 4 <= nd <= _MOST and 1 <= points <= _MOST):
         raise ReaderError(
             f"{lines.where} must count 2 to {_MOST} frequencies, 4 to {_MOST} directions and 1 to "
-            f"{_MOST} points, "
-            f"got {nf}, {nd} and {points}"
+            f"{_MOST} points, got {nf}, {nd} and {points}"
         )
     site = Count("", 0, points - 1).check_whole("site", site)
     frequency, f_order = dataset_layout.frequencies(
@@ -177,7 +177,7 @@ def read(path: Path, *, site: int) -> "Dataset":
 
 
 def _even(bearing: Real) -> Real:
-    """Return equal steps where three figures of each direction can have hidden them."""
+    """Return equally spaced directions if they agree with these, given to three digits."""
     step = 360.0 / bearing.size
     start = bearing[0]
     turn = 1.0 if np.mod(bearing[1] - start, 360.0) < 180.0 else -1.0
@@ -200,7 +200,7 @@ def _time(where: str, line: str) -> np.datetime64:
 
 
 def _point(lines: _Lines, line: str) -> tuple[str, list[float]]:
-    """Return a point's name, latitude, longitude, depth, and what follows."""
+    """Return a point's name, and its numbers: latitude, longitude, depth, and others."""
     match = _POINT.fullmatch(line)
     if not match:
         raise ReaderError(

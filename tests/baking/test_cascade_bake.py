@@ -1,6 +1,5 @@
 """
-A cascade as one bake: its tiles are the cascade's own, and every promise of a bake holds for the
-folder around them.
+Bakes of cascades: tiles that are the cascade's own, in a folder with every guarantee of a bake.
 """
 
 import hashlib
@@ -13,6 +12,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -31,7 +31,7 @@ from fftocean.files import as_json
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 TILES = [(32, 200.0), (32, 29.0), (16, 4.1)]
 SMALL = [(16, 100.0), (16, 15.0)]
-JOB = fo.Job.default().replaced(
+JOB = builders.job(
     {
         "bake.frames": 3,
         "bake.maps": ["height", "stretch"],
@@ -65,7 +65,7 @@ def remembered():
     all, too.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for name in ("outside_band", "ordered"):
+        for name in ("outside_band", "specified"):
             integrate, known = getattr(statistics, name), {}
 
             def look_up(*arguments, integrate=integrate, known=known):
@@ -179,7 +179,8 @@ def test_bounds_add_up_and_hold(tmp_path):
 def test_what_does_not_add_up_is_refused_before_anything_is_written(tmp_path, name):
     with pytest.raises(
         fo.JobError,
-        match=f"'{name}' cannot be baked for tiles: it is not linear.*bake (derivative and )?stretch",
+        match=f"'{name}' cannot be baked for tiles: it is not linear.*bake (derivative and "
+        f")?stretch",
     ):
         bake(tmp_path / "sea", JOB.replaced({"bake.maps": ["height", name]}))
     assert not (tmp_path / "sea").exists()
@@ -206,7 +207,7 @@ def test_other_refusals(tmp_path):
 
 
 def test_maps_that_are_not_named_are_the_ingredients(tmp_path):
-    job = fo.Job.default().replaced({"bake.frames": 1, "bake.pictures": []})
+    job = builders.job({"bake.frames": 1, "bake.pictures": []})
     with pytest.warns(fo.SeaWarning, match="displacement, derivative, stretch in place of"):
         listed = bake(tmp_path / "sea", job)
     assert [tile["maps"] for tile in listed["tiles"]] == 2 * [
@@ -247,7 +248,8 @@ folder, at, *maps = sys.argv[1:]
 def listen(event):
     if f"{event['event']}:{event.get('tile')}:{event.get('frame', '')}" == at:
         os.kill(os.getpid(), signal.SIGKILL)
-job = Job.default().replaced({"bake.frames": 3, "bake.maps": maps, "bake.format": "exr-float", "bake.pictures": []})
+changes = {"bake.frames": 3, "bake.maps": maps, "bake.format": "exr-float", "bake.pictures": []}
+job = Job.default().replaced(changes)
 tiles.bake_tiles(job, [(16, 100.0), (16, 15.0)], folder, executor="serial", listen=listen)
 """
 
@@ -405,7 +407,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("name", DAMAGES)
-def test_every_damage_is_found_and_mended_to_the_same_bytes(made, copy, name):
+def test_every_damage_is_found_and_repaired_to_the_same_bytes(made, copy, name):
     damage, expected = DAMAGES[name]
     damage(copy)
     assert told(copy) == expected
@@ -460,7 +462,9 @@ def test_a_tile_of_another_sea_is_found(copy, tmp_path):
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
     (copy / "cascade.json").unlink()
     flip(copy / "cascade-job.json")
-    with pytest.raises(fo.IntegrityError, match="neither cascade.json nor cascade-job.json is readable"):
+    with pytest.raises(
+        fo.IntegrityError, match=r"neither cascade\.json nor cascade-job\.json is readable"
+    ):
         fo.repair(copy, executor="serial")
 
 
@@ -540,6 +544,7 @@ def test_info_of_tiles(capsys):
         "m specified",
         "realised by all tiles",
         "energy outside",
+        "choppiness up to",
         "files",
     ):
         assert line in out

@@ -1,7 +1,4 @@
-"""
-The same bytes, whoever does the work: one process, several, a cluster, and whatever becomes of them
-meanwhile.
-"""
+"""Executors: the same bytes from one process, several, or a cluster, even when workers die."""
 
 import contextlib
 import os
@@ -14,6 +11,7 @@ import threading
 import time
 from pathlib import Path
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -41,9 +39,7 @@ def job(**changes):
         "bake.maps": ["height", "foam"],
         "bake.pictures": ["tiling"],
     }
-    return fo.Job.default().replaced(
-        {**small, **{k.replace("__", "."): v for k, v in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 def tree(folder):
@@ -80,8 +76,14 @@ def test_processes_write_the_same_bytes(expected, tmp_path):
 
 def test_a_program_without_a_guard_may_bake_with_processes(expected, tmp_path):
     """No `if __name__ == "__main__"`: a worker imports nothing of the program that started it."""
-    program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 20, 'bake.maps': ['height', 'foam'], "
-    program += "'bake.pictures': ['tiling'], 'bake.format': 'png16'})\nfo.bake(job, 'out', executor='processes', workers=2)\n"
+    program = (
+        "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, "
+        "'bake.frames': 20, 'bake.maps': ['height', 'foam'], "
+    )
+    program += (
+        "'bake.pictures': ['tiling'], 'bake.format': 'png16'})\nfo.bake(job, 'out', "
+        "executor='processes', workers=2)\n"
+    )
     (tmp_path / "program.py").write_text(program)
     done = subprocess.run(
         [sys.executable, "program.py"],
@@ -127,7 +129,10 @@ def test_a_worker_that_is_killed_is_replaced(expected, tmp_path, monkeypatch):
     assert len(started) == 4
 
 
-DOOMED = "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer); os._exit(3)"
+DOOMED = (
+    "import os, pickle, sys; pickle.load(sys.stdin.buffer); pickle.load(sys.stdin.buffer); "
+    "os._exit(3)"
+)
 
 
 def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
@@ -135,7 +140,8 @@ def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
     monkeypatch.setattr(local.worker_process, "BOOT", DOOMED)
     with pytest.raises(
         OutputError,
-        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died while baking it, the last with exit code 3",
+        match=rf"frame 0 to 15 could not be baked: {ATTEMPTS} workers died while baking it, "
+        rf"the last with exit code 3",
     ):
         fo.bake(job(bake__maps=["foam"]), tmp_path / "out", executor="processes", workers=1)
     assert not (tmp_path / "out/manifest.json").exists()
@@ -195,8 +201,14 @@ def test_workers_end_with_the_bake(tmp_path, number):
     """
     However it ends, and at once: else they would go on writing into a folder that is nobody's.
     """
-    program = "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, signal.default_int_handler); "
-    program += "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '50000', '--maps', 'height', '--executor', 'processes', "
+    program = (
+        "import signal, sys; from fftocean.cli import main; signal.signal(signal.SIGINT, "
+        "signal.default_int_handler); "
+    )
+    program += (
+        "sys.exit(main(['bake', '-o', 'out', '--n', '64', '--frames', '50000', '--maps', "
+        "'height', '--executor', 'processes', "
+    )
     program += "'--workers', '2']))"
     process = subprocess.Popen(
         [sys.executable, "-c", program],
@@ -291,7 +303,10 @@ def test_a_cluster_takes_no_port_that_another_may_have(tmp_path, monkeypatch):
 def test_a_script_without_a_guard_is_told_so_by_dask(tmp_path):
     """One line says what to do; a worker that imports the script does not bake, too."""
     pytest.importorskip("distributed")
-    program = "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, 'bake.frames': 4, 'bake.pictures': []})\n"
+    program = (
+        "import fftocean as fo\njob = fo.Job.default().replaced({'ocean.n': 16, "
+        "'bake.frames': 4, 'bake.pictures': []})\n"
+    )
     program += "fo.bake(job, 'out', executor='dask', workers=1)\n"
     (tmp_path / "program.py").write_text(program)
     done = subprocess.run(
@@ -381,11 +396,11 @@ def plan_of(folder, token, **changes):
     """Return a plan as a bake makes it."""
     from fftocean.baking.folder.identity import header_of
 
-    order = job(bake__maps=["height"], **changes)
+    sea_job = job(bake__maps=["height"], **changes)
     header = header_of(
-        order, frames=range(order.frames), downsample=1, backend=order.ocean().backend
+        sea_job, frames=range(sea_job.frames), downsample=1, backend=sea_job.ocean().backend
     )
-    return Plan(order, 1, header, tuple(range(order.frames)), str(folder), token)
+    return Plan(sea_job, 1, header, tuple(range(sea_job.frames)), str(folder), token)
 
 
 def test_a_task_may_be_done_again_by_anybody(tmp_path):
@@ -443,7 +458,8 @@ def test_a_worker_with_other_libraries_refuses(tmp_path, monkeypatch):
         monkeypatch.setattr("fftocean.baking.folder.identity.library", lambda _: "FFTW 9.9")
         with pytest.raises(
             OutputError,
-            match=r"a worker would not write the same bytes \(made_with\.fft: .* there, FFTW 9\.9 here\)",
+            match=r"a worker would not write the same bytes \(made_with\.fft: .* there, FFTW "
+            r"9\.9 here\)",
         ):
             list(scenes.work(plan, Task("frame", (0,))))
     scenes.clear_scene()

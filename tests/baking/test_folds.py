@@ -1,8 +1,9 @@
-"""Folds and the water's properties in what a bake says of itself: manifest, check, info."""
+"""Folds and water properties in the manifest and on the command line."""
 
 import math
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -13,7 +14,7 @@ from fftocean.cli import main
 def job(**changes):
     """A small job of the default sea on short waves."""
     small = {"ocean.n": 16, "ocean.size": 25.0, "bake.frames": 3, "bake.maps": ["height", "normal"]}
-    return fo.Job.default().replaced({**small, "bake.pictures": [], **changes})
+    return builders.job({**small, "bake.pictures": [], **changes})
 
 
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
@@ -22,9 +23,9 @@ def test_folds_are_in_the_manifest_and_in_what_the_command_line_says(lookup, tmp
     Over all frames, by the eigenvalues of the ocean's own stretches; the check notes them and finds
     nothing wrong.
     """
-    order = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
-    extremes = fo.bake(order, tmp_path / "out")["extremes"]
-    ocean = order.ocean()
+    sea_job = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
+    extremes = fo.bake(sea_job, tmp_path / "out")["extremes"]
+    ocean = sea_job.ocean()
     frames = [ocean.loop_frame(j, 3) for j in range(3)]
     gradients = np.stack(
         [[f.stretch_xx, f.stretch_xy, f.stretch_xy, f.stretch_yy] for f in frames], axis=-1
@@ -39,8 +40,8 @@ def test_folds_are_in_the_manifest_and_in_what_the_command_line_says(lookup, tmp
     _, err = capsys.readouterr()
     share, limit = 100.0 * extremes["folded"], extremes["largest_choppiness"]
     assert (
-        f"note: {share:.2g} % of the water is folded, smallest Jacobian {extremes['min_jacobian']:.3g}"
-        in err
+        f"note: {share:.2g} % of the water is folded, smallest Jacobian "
+        f"{extremes['min_jacobian']:.3g}" in err
     )
     assert f"choppiness up to {math.floor(limit * 100) / 100:g} does not fold it" in err
     flat = fo.bake(job(**{"ocean.choppiness": 0.0, "bake.lookup": lookup}), tmp_path / "flat")[
@@ -65,7 +66,8 @@ def test_a_bake_says_at_once_that_water_is_folded(tmp_path, capsys):
 def test_the_manifest_names_the_part_that_states_the_water(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("job.toml").write_text(
-        "[sea]\ndepth = 12.0\nsurface_tension = 0.074\n[[sea.systems]]\nspectrum = { kind = 'elfouhaily', speed = 6.0 }\n"
+        "[sea]\ndepth = 12.0\nsurface_tension = 0.074\n[[sea.systems]]\nspectrum = { kind "
+        "= 'elfouhaily', speed = 6.0 }\n"
     )
     shallow = fo.Job.read("job.toml").replaced(
         {"ocean.n": 8, "ocean.loop": 60.0, "bake.frames": 1, "bake.pictures": []}

@@ -1,10 +1,9 @@
-"""
-What goes into the maps: each channel against the ocean's own fields, by either lookup, and its
-smaller levels.
-"""
+"""Maps: each channel against the ocean's own fields, by either lookup, and their mip levels."""
 
+import dataclasses
 from typing import get_args
 
+import builders
 import numpy as np
 import pytest
 
@@ -14,6 +13,7 @@ from fftocean.baking.scene.maps import MAPS
 from fftocean.eulerian import Eulerian
 from fftocean.export.profiles import Kind
 from fftocean.fields import FIELDS
+from fftocean.job import parameters
 
 EVERY = maps.needed(MAPS, mips=True)
 
@@ -130,8 +130,11 @@ def test_the_velocity_map_is_how_the_displacement_map_moves(ocean):
         ocean.sea, n=(24, 14), size=(60.0, 35.0), seed=3, choppiness=1.3, dtype="float64"
     )
     fields = ("displace_x", "displace_y", "height")
-    before, after = (np.stack([f[name] * c for name, c in zip(fields, (1.3, 1.3, 1.0), strict=True)], -1)
-                     for f in (twin.frame(1.0 - 1e-3, fields), twin.frame(1.0 + 1e-3, fields)))  # fmt: skip
+    scaled = list(zip(fields, (1.3, 1.3, 1.0), strict=True))
+    before, after = (
+        np.stack([frame[name] * factor for name, factor in scaled], -1)
+        for frame in (twin.frame(1.0 - 1e-3, fields), twin.frame(1.0 + 1e-3, fields))
+    )
     velocity = MAPS["velocity"].channels(ocean.frame(1.0, EVERY))
     assert np.allclose(velocity, (after - before) / 2e-3, atol=1e-5)
 
@@ -197,10 +200,13 @@ def test_by_place_the_maps_are_those_of_a_height_field(ocean, foam):
 
 
 def test_a_map_that_no_height_field_shows_is_refused(tmp_path):
-    reason = "the map 'stretch' cannot be baked with the lookup 'eulerian', as it shows stretch_xx: a height field"
+    reason = (
+        "the map 'stretch' cannot be baked with the lookup 'eulerian', as it shows "
+        "stretch_xx: a height field"
+    )
     with pytest.raises(fo.ParameterError, match=reason):
         maps.needed(["height", "stretch"], eulerian=True)
-    job = fo.Job.default().replaced(
+    job = builders.job(
         {"bake.lookup": "eulerian", "bake.maps": ["height", "stretch"], "ocean.n": 8}
     )
     with pytest.raises(fo.JobError, match=reason):
@@ -212,3 +218,20 @@ def test_unresolved_is_that_of_the_ocean_s_sea(ocean):
     xx, xy, yy = maps.unresolved(ocean)
     assert 0.0 < yy < xx < 0.1  # the wind goes east
     assert abs(xy) < 1e-3 * xx
+
+
+def test_a_map_without_one_of_its_parts_is_refused():
+    """At import: each name of a job has a row, each row a name, and each row all of its parts."""
+    row = MAPS["displacement"]
+    maps.require_registered(MAPS, parameters.MAPS)
+    for table, names, says in (
+        (MAPS, [*parameters.MAPS, "salt"], "differ in salt"),
+        ({**MAPS, "salt": row}, parameters.MAPS, "differ in salt"),
+        ({"a": dataclasses.replace(row, names=row.names[:2])}, "a", "must have 3 channels, got 2"),
+        ({"a": dataclasses.replace(row, names=(), kind="scalar")}, "a", "some channels, got 0"),
+        ({"a": dataclasses.replace(row, kind="salt")}, "a", "no known kind, got 'salt'"),
+        ({"a": dataclasses.replace(row, caption="")}, "a", "must have a caption"),
+        ({"a": dataclasses.replace(row, needs_levels=("slope_x",))}, "a", "no function of them"),
+    ):
+        with pytest.raises(ImportError, match=says):
+            maps.require_registered(table, names)

@@ -103,7 +103,7 @@ def test_a_bad_value_by_flag(run, parameter, value):
     "key", ["spectrum.hs", "spectrum.tp", "spectrum.gamma", "spreading.s", "direction"]
 )
 def test_a_bad_value_in_a_wave_system(run, key, value):
-    """One spectrum stands for all here; tests/job/test_job.py goes through them."""
+    """One spectrum represents all here; tests/job/test_job.py tests each."""
     values = {
         "spectrum.hs": "0.5",
         "spectrum.tp": "4.0",

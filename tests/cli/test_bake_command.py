@@ -331,14 +331,14 @@ def test_the_last_json_event_of_a_stopped_bake_is_an_error(run, stop, code, word
     ],
 )
 def test_a_bake_says_how_its_files_are_loaded_into_the_engine(run, engine, form, words):
-    """In the summary, in that of tiles, and in a dry run."""
+    """The summaries of a tile, of a cascade and of a dry run have the same line."""
     flags = ["--engine", engine, "--format", form, "--maps", "displacement", "--frames", "2"]
     for number, more in enumerate(
         (
             ["--n", "8", "--dry-run"],
             ["--n", "8"],
-            ["--tiles", "8:60,8:7", "--dry-run"],
-            ["--tiles", "8:60,8:7"],
+            ["--tiles", "8:60,8:15", "--dry-run"],
+            ["--tiles", "8:60,8:15"],
         )
     ):
         code, out, _ = run("bake", "-o", f"out{number}", *flags, "--executor", "serial", *more)

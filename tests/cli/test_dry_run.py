@@ -71,8 +71,8 @@ def test_a_rate_and_a_part_of_the_loop_go_together(run):
 
 def test_estimates_name_container_and_video_memory(run):
     """
-    Of 6 frames of 64 x 64: 4 halves of a displacement, whose container is held twice; one of
-    height.
+    6 frames of 64 x 64 take 4 half floats a sample for displacement and one for height; building a
+    container holds it twice.
     """
     flags = ("--n", "64", "--frames", "6", "--maps", "displacement,height", "--dry-run", "--json")
     told = json.loads(run("bake", "-o", "out", *flags, "--format", "bin")[1])

@@ -86,10 +86,9 @@ def test_a_bake_runs_without_stdout(monkeypatch, capsys):
 @pytest.mark.parametrize(("at", "there"), [(1, 0), (2, 1), (5, 3)])
 def test_a_signal_leaves_no_manifest(run, number, code, at, there, monkeypatch):
     """
-    In the middle of a write, the at-th: the file's temporary name goes, its final name is not
-    taken.
+    A signal in the middle of the at-th write removes the temporary file and leaves no final one.
 
-    They are the journal, the job, and for each frame the picture and its line in the journal.
+    The writes are the journal, the job, and for each frame its map and its line in the journal.
     """
     before = signal.getsignal(signal.SIGINT)
     signal.signal(

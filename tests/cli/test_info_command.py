@@ -8,8 +8,7 @@ from command_line import SWELL
 
 def test_notes_name_the_unresolved_energy(run):
     """
-    Too short a loop, waves too long for the tile and too short for its samples: on stderr, one line
-    each.
+    A short loop, a small tile and large samples each have one line on stderr.
     """
     code, _, err = run(
         "info", "--n", "8", "--size", "40", "--loop", "2", "--set", "sea.wind.speed=20"

@@ -1,7 +1,4 @@
-"""
-The page for users says what the table of engines does: its own tables and rules are read as a
-machine would.
-"""
+"""Tables and rules of docs/engines.md, compared with the table of engines."""
 
 import re
 from pathlib import Path
@@ -17,7 +14,7 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "engines.md").read_text(e
 
 def table(heading):
     """
-    The rows of the table that begins with a heading, the heading first, without the line below it.
+    Return the rows of the table that begins with a heading, without the line below the heading.
     """
     lines = PAGE[PAGE.index(f"| {heading} |") :].split("\n\n")[0].splitlines()
     return [
@@ -37,15 +34,15 @@ def test_the_table_of_engines_is_the_profiles():
     told = {}
     for engines, *facts in table("engine")[1:]:
         shown, _, files = re.sub(r"\(.*?\)", "", engines).strip().partition(", ")
-        if files in ("raw", "pictures"):
-            told[shown, files == "pictures"] = facts
+        if files in ("raw", "images"):
+            told[shown, files == "images"] = facts
         else:
             told |= dict.fromkeys(
                 [(name.strip(), True) for name in f"{shown}, {files}".strip(", ").split(",")], facts
             )
     assert {name for name, _ in told} == CELLS.keys() - {"three-exr"}
-    for (name, pictures), facts in told.items():
-        for profile in usable(name, pictures):
+    for (name, loaded), facts in told.items():
+        for profile in usable(name, loaded):
             axes = ", ".join(
                 {"+x": "x", "+y": "y", "-y": "-y", "+z": "up"}[axis] for axis in profile.axes
             )

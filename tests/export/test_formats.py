@@ -1,7 +1,4 @@
-"""
-Every format with every profile: what went in comes back as exactly as promised; what cannot be held
-is refused; bent data is seen.
-"""
+"""Every format with every profile: round trips, refusals and damaged data."""
 
 import dataclasses
 import hashlib
@@ -25,7 +22,8 @@ from fftocean.export.formats import (
     payloads,
     require,
 )
-from fftocean.export.profiles import PROFILES, arrange, restore
+from fftocean.export.profiles import PROFILES, Profile, arrange, restore
+from fftocean.export.registry import by_name
 
 ROWS, COLUMNS, FRAMES = 13, 10, 6
 EVERY = pytest.mark.parametrize("name", FORMATS)
@@ -36,7 +34,7 @@ SEQUENCES = [name for name, format_ in FORMATS.items() if format_.scope == "sequ
 
 
 def water(channels, frames=FRAMES, rows=ROWS, columns=COLUMNS, seed=0):
-    """A sequence of maps, float32: metres of both signs, some of them tiny."""
+    """Return a sequence of maps, float32: metres of both signs, some of them tiny."""
     rng = np.random.default_rng(seed)
     return (
         rng.standard_normal((frames, rows, columns, channels))
@@ -45,7 +43,7 @@ def water(channels, frames=FRAMES, rows=ROWS, columns=COLUMNS, seed=0):
 
 
 def span(sequence):
-    """The range that a scaled format needs."""
+    """Return the range that a scaled format needs."""
     return {"lo": float(sequence.min()), "hi": float(sequence.max())}
 
 
@@ -54,7 +52,7 @@ def options(name, sequence):
 
 
 def through(name, sequence):
-    """A sequence stored and read back as a bake would: by its files, or by its container."""
+    """Return a sequence stored and read back like in a bake: by its files, or by its container."""
     scale = options(name, sequence)
     parts = [encode(name, frame, **scale) for frame in sequence]
     if FORMATS[name].scope == "sequence":
@@ -249,7 +247,7 @@ def test_a_range_for_each_channel():
 
 def file_of(name, sequence):
     """
-    The one file that a reader would be handed: a frame's own, or the container; and a function that
+    Return the one file that a reader opens, a frame's own or the container, and a function that
     reads it.
     """
     scale = options(name, sequence)
@@ -569,6 +567,22 @@ def test_a_format_without_all_of_its_parts_cannot_be_made():
     ):
         with pytest.raises(ImportError, match=re.escape(why)):
             dataclasses.replace(FORMATS["bin"], **changes)
+
+
+def test_two_formats_or_profiles_of_one_name_are_an_error_at_import():
+    for known in (FORMATS, PROFILES):
+        assert by_name(known.values()) == known
+        with pytest.raises(ImportError, match=r"names must differ, got '.+' twice"):
+            by_name([*known.values(), next(iter(known.values()))])
+
+
+def test_a_profile_without_a_part_cannot_be_made():
+    parts = {f.name: getattr(PROFILES["godot"], f.name) for f in dataclasses.fields(Profile)}
+    assert Profile(**parts) == PROFILES["godot"]
+    for field in dataclasses.fields(Profile):
+        if field.default is dataclasses.MISSING:
+            with pytest.raises(TypeError, match=field.name):
+                Profile(**{key: part for key, part in parts.items() if key != field.name})
 
 
 def test_a_new_format_is_its_own_object_and_one_entry(monkeypatch):

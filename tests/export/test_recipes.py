@@ -1,7 +1,4 @@
-"""
-Text beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas and
-the map it is about.
-"""
+"""Text beside an atlas for one engine, compared with the atlas and its map."""
 
 import configparser
 import json
@@ -14,12 +11,13 @@ from fftocean.baking.scene.maps import MAPS
 from fftocean.export.engines import CELLS, profile_for
 from fftocean.export.formats import assemble, encode
 from fftocean.export.profiles import arrange, meaning, unit_in
+from fftocean.export.recipes import PAGES, Page, pages_of
 
 FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 cells across and 3 down
 
 
 def files(engine, name="foam", **more):
-    """An atlas of one map of still water."""
+    """Return an atlas of one map of still water."""
     m, profile = MAPS[name], profile_for(engine, "exr-atlas")
     parts = [
         encode(
@@ -36,7 +34,7 @@ def files(engine, name="foam", **more):
 
 
 def page(engine, name, **more):
-    """The page of steps, and the sidecar."""
+    """Return the page of steps, and the sidecar."""
     made = files(engine, name, **more)
     return bytes(made[f"{name}.exr.{engine}.txt"]).decode(), json.loads(bytes(made[f"{name}.json"]))
 
@@ -54,7 +52,7 @@ def test_each_engine_gets_its_own_and_no_other(engine):
 
 
 def test_godot_imports_an_array_of_halves_without_mipmaps():
-    """As Godot's own ConfigFile reads it: sections and key=value."""
+    """Godot's ConfigFile reads sections and key=value."""
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(bytes(files("godot")["foam.exr.import"]).decode())
     assert dict(parser["remap"]) == {
@@ -120,3 +118,24 @@ def test_a_part_of_the_loop_is_said_to_be_one():
         in page("unreal", "foam", closes=False)[0]
     )
     assert "Lookup      eulerian" in page("unreal", "foam", lookup="eulerian")[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "suffix", "message"),
+    [
+        ("godott", ".txt", "pages must be for profiles, got .*godott"),
+        ("bevy", "", "each page must have a suffix of its own"),
+        ("bevy", ".unity.txt", "each page must have a suffix of its own"),
+    ],
+)
+def test_a_page_of_no_profile_or_without_its_own_suffix_is_an_error_at_import(
+    name, suffix, message
+):
+    assert pages_of(PAGES) == PAGES
+    with pytest.raises(ImportError, match=message):
+        pages_of({**PAGES, name: Page(suffix, PAGES["godot"].text)})
+
+
+def test_a_page_without_a_part_cannot_be_made():
+    with pytest.raises(TypeError, match="text"):
+        Page(".txt")

@@ -1,6 +1,4 @@
-"""
-Zarr chunks: read by the zarr library, and an absent or bent one is no water for either reader.
-"""
+"""Zarr chunks, read by the zarr library; a missing or damaged one is an error or NaN."""
 
 import numpy as np
 import pytest
@@ -14,7 +12,7 @@ SHAPE = (3, 6, 5, 3)
 
 @pytest.fixture
 def stored(tmp_path):
-    """A map of three frames in its folder."""
+    """Return a map of three frames in its folder."""
     maps = np.random.default_rng(5).standard_normal(SHAPE).astype(np.float32)
     for name, data in assemble(
         "zarr", (), stem="normal", shape=SHAPE, names=("x", "y", "z"), size=(40.0, 30.0), loop=6.0
@@ -62,7 +60,7 @@ def test_a_bent_chunk_is_refused_by_both(stored):
     data = bytearray(chunk.read_bytes())
     data[77] ^= 1
     chunk.write_bytes(data)
-    with pytest.raises(IntegrityError, match="must have the checksum that it ends with"):
+    with pytest.raises(IntegrityError, match="must match the checksum at its end"):
         decode("zarr", bytes(data), shape=SHAPE[1:])
     with pytest.raises(ValueError, match="checksum"):
         zarr.open_array(folder, mode="r")[1]

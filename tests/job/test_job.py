@@ -1,7 +1,4 @@
-"""
-Jobs: every key with its default and its rule, what a file may hold, and what is refused before
-anything is made.
-"""
+"""Jobs: default and rule of every key, contents of job files, and refusals before computation."""
 
 import contextlib
 import itertools
@@ -27,8 +24,8 @@ from fftocean.foam import Foam
 from fftocean.job import job as job_room
 from fftocean.job.job import Job, parse_setting, parse_value
 from fftocean.job.parameters import BY_KEY, PARAMETERS
-from fftocean.job.wave_systems import SPREADINGS as SPREADING_KINDS
-from fftocean.job.wave_systems import spectra_in
+from fftocean.physics.spectra import SPECTRA as SPECTRUM_KINDS
+from fftocean.physics.spreading import SPREADINGS as SPREADING_KINDS
 
 pytestmark = [pytest.mark.nojit, pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")]
 
@@ -48,6 +45,11 @@ GOOD = {
         "spread": "20.0",
     },
     **{"xi": "0.5", "weight": "0.5", "frequency": "[0.1, 0.2, 0.4]", "density": "[0.0, 1.0, 0.2]"},
+    **{"t1": "6.0", "tz": "6.0", "tail": "5.0", "front": "4.0", "exact": "false", "member": "3"},
+    **{"form": "'full'", "amplitude": "1e-3", "cutoff": "0.1", "s_max": "10.0"},
+    **{"friction_velocity": "0.3", "both_ways": "true", "direction": "[0, 120, 240]"},
+    **{"spectrum": "{ kind = 'bretschneider', hs = 0.5, tp = 8.0 }"},
+    **dict.fromkeys(("base", "first", "second"), "{ kind = 'cosine-squared' }"),
     **{
         "hs_low": "0.5",
         "tp_low": "9.0",
@@ -57,8 +59,12 @@ GOOD = {
         "lambda_high": "1.0",
     },
 }
-WAYS = [
-    (kind, tuple(rules)) for kind, ways in spectra_in(math.inf, 0.0).items() for rules, _ in ways
+WAYS = [(name, tuple(way.keys)) for name, kind in SPECTRUM_KINDS.items() for way in kind.ways]
+SPREADING_WAYS = [
+    (name, tuple(way.keys))
+    for name, kind in SPREADING_KINDS.items()
+    for way in kind.ways
+    if way.keys
 ]
 
 
@@ -141,15 +147,23 @@ def test_a_bad_value_of_any_key_is_refused_or_gives_finite_water(key):
         assert refused_or_finite(toml_of(key, value), key, value) == (verdict == "r"), value
 
 
-def passes_at(kind, key):
+def passes_at(kind, key, keys=()):
     """
     What a kind makes of `BAD`, by the meaning of its keys: no waves are waves, and a wind of 0
     raises none; calm is number 0.
     """
-    if key == "number":
+    if key in ("number", "member"):
         return ("0",)
-    nothing = key in ("hs", "hs_low", "hs_high", "speed", "s", "n", "xi", "weight")
-    return ("0", "1e-308") if nothing and (kind, key) != ("phillips", "speed") else ()
+    if key in ("exact", "both_ways"):
+        return ("true",)
+    nothing = key in ("hs", "hs_low", "hs_high", "speed", "s", "n", "xi", "weight") or key in (
+        "amplitude",
+        "cutoff",
+        "s_max",
+        "friction_velocity",
+    )
+    unreachable = (kind, key) == ("phillips", "speed") and "hs" in keys
+    return ("0", "1e-308") if nothing and not unreachable else ()
 
 
 @pytest.mark.parametrize(("kind", "keys"), WAYS, ids=str)
@@ -157,17 +171,22 @@ def test_a_bad_value_in_a_spectrum_is_refused_or_gives_finite_water(kind, keys):
     for key, value in itertools.product(keys, BAD):
         table = ", ".join(f"{name} = {value if name == key else GOOD[name]}" for name in keys)
         text = f"[ocean]\nn = 8\n[[sea.systems]]\nspectrum = {{ kind = '{kind}', {table} }}\n"
-        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key, keys)), (
             key,
             value,
         )
 
 
-@pytest.mark.parametrize("kind", [kind for kind, (rules, _) in SPREADING_KINDS.items() if rules])
-def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind):
-    for key, value in itertools.product(SPREADING_KINDS[kind][0], BAD):
-        text = f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\nspreading = {{ kind = '{kind}', {key} = {value} }}\n"
-        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key)), (
+@pytest.mark.parametrize(("kind", "keys"), SPREADING_WAYS, ids=str)
+def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind, keys):
+    good = {**GOOD, "density": "[[1.0, 0.5, 0.5], [1.0, 0.2, 0.2], [1.0, 0.1, 0.1]]"}
+    for key, value in itertools.product(keys, BAD):
+        table = ", ".join(f"{name} = {value if name == key else good[name]}" for name in keys)
+        text = (
+            f"[ocean]\nn = 8\n[[sea.systems]]\n{SWELL}\n"
+            f"spreading = {{ kind = '{kind}', {table} }}\n"
+        )
+        assert refused_or_finite(text, key, value) == (value not in passes_at(kind, key, keys)), (
             key,
             value,
         )
@@ -177,7 +196,10 @@ def test_a_bad_value_in_a_spreading_is_refused_or_gives_finite_water(kind):
 @pytest.mark.parametrize("key", ["time", "site"])
 def test_a_bad_place_in_a_measured_file_is_refused(key, value):
     """Counted from 0, or back from the end, as Python does."""
-    text = f"[ocean]\nn = 8\n[[sea.systems]]\nmeasured = {{ file = '{SPECTRA_FILES / '41010.data_spec'}', {key} = {value} }}\n"
+    text = (
+        f"[ocean]\nn = 8\n[[sea.systems]]\nmeasured = {{ file = "
+        f"'{SPECTRA_FILES / '41010.data_spec'}', {key} = {value} }}\n"
+    )
     if value == "0" or (key, value) == ("time", "-1"):
         assert not refused_or_finite(text, key, value)
     else:
@@ -335,27 +357,78 @@ def test_a_file_reads_as_its_text(tmp_path, ending):
         ("sea.systems = [5]\n", ["sea.systems", "[[sea.systems]]", "[5]"]),
         (f"[sea.systems]\n{SWELL}\n", ["sea.systems", "must be tables, written [[sea.systems]]"]),
         ("[[sea.systems]]\n", ["sea.systems[0].spectrum", "must be given"]),
-        (f"[[sea.systems]]\n{SWELL}\n[[sea.systems]]\n{SWELL}\nspeading = 3\n", ["sea.systems[1].speading", "sea.systems[1].spreading?"]),
-        ("[[sea.systems]]\nspectrum = 5\n", ["sea.systems[0].spectrum", "one of jonswap, tma", "5"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n", ["sea.systems[0].spectrum", "one of jonswap, tma", "'jonswp'"]),
-        ("[[sea.systems]]\nspectrum = { kind = ['jonswap'] }\n", ["sea.systems[0].spectrum", "['jonswap']"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n", ["{hs, tp, gamma} or {speed, fetch, gamma}", "got {hs}"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n", ["got {hs, tp, speed}"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'pierson-moskowitz', hs = 1.0, tp = 9.0, gamma = 2.0 }\n", ["got {hs, tp, gamma}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-power' }}\n", ["spreading", "{s}", "got {}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-squared', s = 3 }}\n", ["spreading", "got {s}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n", ["spreading", "one of cosine-squared", "'blend'"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 50.0, tp = 2.0 }\n", ["sea.systems[0].spectrum", "50 m with 2 s"]),
-        ("sea.depth = 0.01\n[[sea.systems]]\nspectrum = { kind = 'tma', hs = 9.0, tp = 4.0 }\n", ["9 m with 4 s", "in 0.01 m of water"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [0.1, 0.2], density = [1.0] }\n", ["sea.systems[0].spectrum"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [0.2, 0.1], density = [1.0, 1.0] }\n", ["frequency"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [], density = [] }\n", ["sea.systems[0].spectrum"]),
-        (f"[sea.wind]\nfetch = 1e4\n[[sea.systems]]\n{SWELL}\n", ["sea.wind.speed must be given", "sea.wind.fetch"]),
+        (
+            f"[[sea.systems]]\n{SWELL}\n[[sea.systems]]\n{SWELL}\nspeading = 3\n",
+            ["sea.systems[1].speading", "sea.systems[1].spreading?"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = 5\n",
+            ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "5"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n",
+            ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "'jonswp'"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = ['jonswap'] }\n",
+            ["sea.systems[0].spectrum", "['jonswap']"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n",
+            ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n",
+            ["got {hs, tp, speed}"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'pierson-moskowitz', hs = 1.0, tp = 9.0, gamma = 2.0 }\n",
+            ["got {hs, tp, gamma}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-power' }}\n",
+            ["spreading", "{s}", "got {}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-squared', s = 3 }}\n",
+            ["spreading", "got {s}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n",
+            ["spreading", "one of blend, cosine-n", "'blend'"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 50.0, tp = 2.0 }\n",
+            ["sea.systems[0].spectrum", "50 m with 2 s"],
+        ),
+        (
+            "sea.depth = 0.01\n[[sea.systems]]\nspectrum = { kind = 'tma', hs = 9.0, tp = 4.0 }\n",
+            ["9 m with 4 s", "in 0.01 m of water"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'tabulated', frequency = [0.1, 0.2], density = [1.0] }\n",
+            ["sea.systems[0].spectrum"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'tabulated', frequency = [0.2, 0.1], density = [1.0, 1.0] }\n",
+            ["frequency"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [], density = [] }\n",
+            ["sea.systems[0].spectrum"],
+        ),
+        (
+            f"[sea.wind]\nfetch = 1e4\n[[sea.systems]]\n{SWELL}\n",
+            ["sea.wind.speed must be given", "sea.wind.fetch"],
+        ),
         ("\0", ["TOML"]),
         ("[ocean]\rn = 8\n", ["TOML"]),
         ('a = """\n', ["TOML"]),
     ],
-)  # fmt: skip
+)
 def test_what_a_job_may_not_say_is_refused(text, parts):
     refused(text, *parts)
 
@@ -502,7 +575,9 @@ def test_any_tree_is_a_job_or_refused(flat):
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(
     st.dictionaries(
-        st.sampled_from(["kind", "hs", "tp", "gamma", "speed", "fetch", "frequency", "density", "x"]),
+        st.sampled_from(
+            ["kind", "hs", "tp", "gamma", "speed", "fetch", "frequency", "density", "x"]
+        ),
         kinds | st.floats() | trees | st.lists(st.floats(1e-3, 1.0), max_size=4),
         min_size=1,
         max_size=4,
@@ -539,7 +614,8 @@ def same_sea(one, other):
 
 def test_the_wind_sea_is_that_of_the_library():
     job = Job.from_toml(
-        "sea.depth = 30.0\n[sea.wind]\nspeed = 12.0\nfetch = 2e5\ndirection = 40.0\ngamma = 2.0\nblend = 0.3\n"
+        "sea.depth = 30.0\n[sea.wind]\nspeed = 12.0\nfetch = 2e5\ndirection = 40.0\ngamma "
+        "= 2.0\nblend = 0.3\n"
     )
     spreading = fo.Blend(fo.DonelanBanner(), fo.CosineSquared(), weight=0.3)
     same_sea(
@@ -585,7 +661,8 @@ SPREADINGS = {
 def wave_system(spectrum, spreading):
     """The sea of a job of one wave system."""
     job = Job.from_toml(
-        f"sea.depth = {DEPTH}\n[[sea.systems]]\nspectrum = {{ {spectrum} }}\n{spreading}\ndirection = 110\n"
+        f"sea.depth = {DEPTH}\n[[sea.systems]]\nspectrum = {{ {spectrum} "
+        f"}}\n{spreading}\ndirection = 110\n"
     )
     assert not job.wind
     return job.sea()
@@ -763,7 +840,8 @@ def test_the_wind_sea_stands_in_the_same_water():
 def test_measured_files_of_different_depths_need_one_named():
     with pytest.raises(
         JobError,
-        match=r"sea\.depth must be given where measured files differ in it, got .* of sea\.systems\[0\] and",
+        match=r"sea\.depth must be given where measured files differ in it, got .* of "
+        r"sea\.systems\[0\] and",
     ):
         measured_job({"file": WW3, "site": 0}, {"file": WW3, "site": 1})
     assert (
@@ -804,7 +882,8 @@ def test_a_file_without_depth_leaves_deep_water_and_says_so():
         (
             {"file": str(SPECTRA_FILES / "44004w2000.txt")},
             JobError,
-            r"sea\.systems\[1\]\.measured, file '.*44004w2000\.txt': a spectrum without directions needs direction",
+            r"sea\.systems\[1\]\.measured, file '.*44004w2000\.txt': a spectrum without "
+            r"directions needs direction",
         ),
         (
             {"file": str(SPECTRA_FILES / "README.md")},

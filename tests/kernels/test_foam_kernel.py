@@ -19,8 +19,8 @@ def test_advance(dtype):
     )
     state = start.copy()
     foam.advance(*window, cubic, weights, 0.6, 0.9, state)
-    squeeze = np.einsum("um,mji->uji", cubic, window.astype(float))
-    twin = 0.9 * start + np.einsum("u,uji->ji", weights, np.maximum(0.6 - squeeze, 0.0))
+    eigenvalue = np.einsum("um,mji->uji", cubic, window.astype(float))
+    twin = 0.9 * start + np.einsum("u,uji->ji", weights, np.maximum(0.6 - eigenvalue, 0.0))
     assert np.max(np.abs(state - twin)) < 1e-14  # a dozen roundings of values near 1
 
 

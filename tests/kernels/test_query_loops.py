@@ -13,7 +13,7 @@ from fftocean.kernels import interpolate, query
 
 pytestmark = pytest.mark.nojit
 RNG = np.random.default_rng(3)
-NOTHING = np.zeros((0, 3), np.int64), np.zeros(0)
+NO_TEXELS = np.zeros((0, 3), np.int64), np.zeros(0)
 
 
 def invert(
@@ -23,20 +23,14 @@ def invert(
     sizes = np.array(sizes, dtype=float)
     first = np.array([0, waves.shape[1]]) if first is None else first
     offsets, (heights, residuals, jacobians) = np.empty((n, 2)), np.empty((3, n))
-    room = np.empty(sizes.shape), offsets, heights, residuals, jacobians
     query.invert(
         query.WAVES,
-        sizes,
-        *NOTHING,
-        first,
-        waves,
+        tuple(query.Tiles(sizes, *NO_TEXELS, first, waves)),
         np.asarray(x, float),
         np.asarray(y, float),
-        choppiness,
-        aim,
-        limit,
-        reach,
-        *room,
+        tuple(query.Search(choppiness, aim, limit, reach)),
+        np.empty(sizes.shape),
+        tuple(query.Found(offsets, heights, residuals, jacobians)),
     )
     return offsets, heights, residuals, jacobians
 
@@ -97,9 +91,10 @@ def test_folded_waves_still_have_water_everywhere(steepness):
     offsets, _, residuals, _ = invert(waves, x, y, 1.0, aim=1e-11)
     x0, y0 = x + offsets[:, 0], y + offsets[:, 1]
     f = waves[0][:, None] * x0 + waves[1][:, None] * y0 - waves[4][:, None]
-    push = waves[3][:, None] * np.sin(f)
+    potential = waves[3][:, None] * np.sin(f)
     apart = np.hypot(
-        x0 - np.sum(waves[0][:, None] * push, 0) - x, y0 - np.sum(waves[1][:, None] * push, 0) - y
+        x0 - np.sum(waves[0][:, None] * potential, 0) - x,
+        y0 - np.sum(waves[1][:, None] * potential, 0) - y,
     )
     assert np.max(np.abs(apart - residuals)) < 1e-13
     assert np.max(residuals) < 1e-9
@@ -144,22 +139,15 @@ def test_texels_and_waves_of_several_tiles_add_up():
     x, y = RNG.uniform(-50, 50, (2, 30))
     expected = invert(waves, x, y, 1.0, sizes=sizes, first=np.array([0, 1, 2]))
     offsets, (heights, residuals, jacobians) = np.empty((30, 2)), np.empty((3, 30))
-    room = np.empty((2, 2)), offsets, heights, residuals, jacobians
     first = np.zeros(3, np.int64)
     query.invert(
         query.SPLINE,
-        sizes,
-        layout,
-        np.concatenate(flat),
-        first,
-        np.zeros((5, 0)),
+        tuple(query.Tiles(sizes, layout, np.concatenate(flat), first, np.zeros((5, 0)))),
         x,
         y,
-        1.0,
-        1e-13,
-        1e-9,
-        1.0,
-        *room,
+        tuple(query.Search(choppiness=1.0, aim=1e-13, limit=1e-9, reach=1.0)),
+        np.empty((2, 2)),
+        tuple(query.Found(offsets, heights, residuals, jacobians)),
     )
     assert (
         np.max(np.abs(offsets - expected[0])) < 1e-5
@@ -172,36 +160,37 @@ def test_sums_against_numpy():
     m = 6
     kx, ky, a, start, omega = RNG.uniform(0.2, 1.0, (5, m))
     k = np.hypot(kx, ky)
-    push, depth = 0.7 * a / k, 3.0
-    waves = np.array([kx, ky, a, push, start])
+    potential, depth = 0.7 * a / k, 3.0
+    waves = np.array([kx, ky, a, potential, start])
     x, y, z = RNG.uniform(-5, 5, (3, 7))
     z = -np.mod(z, depth)
     offsets = RNG.uniform(-1, 1, (7, 2))
-    sizes, first, origin = np.full((1, 2), np.inf), np.array([0, m]), np.empty((1, 2))
+    tiles = tuple(query.Tiles(np.full((1, 2), np.inf), *NO_TEXELS, np.array([0, m]), waves))
+    origin = np.empty((1, 2))
     out = np.empty((7, 14))
-    query.sum_waves(sizes, first, waves, omega, x, y, offsets, origin, out)
+    query.sum_waves(tiles, omega, x, y, offsets, origin, out)
     f = np.outer(x + offsets[:, 0], kx) + np.outer(y + offsets[:, 1], ky) - start
     c, s = np.cos(f), np.sin(f)
     columns = [
         -kx * a * s,
         -ky * a * s,
-        -kx * kx * push * c,
-        -kx * ky * push * c,
-        -ky * ky * push * c,
+        -kx * kx * potential * c,
+        -kx * ky * potential * c,
+        -ky * ky * potential * c,
     ]
-    columns += [-kx * push * s, -ky * push * s, a * c]
-    columns += [omega * kx * push * c, omega * ky * push * c, omega * a * s]
-    columns += [omega**2 * kx * push * s, omega**2 * ky * push * s, -(omega**2) * a * c]
+    columns += [-kx * potential * s, -ky * potential * s, a * c]
+    columns += [omega * kx * potential * c, omega * ky * potential * c, omega * a * s]
+    columns += [omega**2 * kx * potential * s, omega**2 * ky * potential * s, -(omega**2) * a * c]
     assert (
         np.max(np.abs(out - np.stack([np.sum(column, axis=1) for column in columns], axis=-1)))
         < 1e-13
     )
     heights = np.empty(7)
-    query.sum_heights(sizes, first, waves, x, y, origin, heights)
+    query.sum_heights(tiles, x, y, origin, heights)
     f = np.outer(x, kx) + np.outer(y, ky) - start
     assert np.max(np.abs(heights - np.sum(a * np.cos(f), axis=1))) < 1e-13
     below = np.empty((7, 7))
-    query.sum_below(sizes, first, waves, omega, depth, x, y, z, origin, below)
+    query.sum_below(tiles, omega, depth, x, y, z, origin, below)
     along = a * omega * np.cosh(np.outer(z + depth, k)) / np.sinh(k * depth)
     up = a * omega * np.sinh(np.outer(z + depth, k)) / np.sinh(k * depth)
     c, s = np.cos(f), np.sin(f)
@@ -253,7 +242,9 @@ def test_newton_s_step_solves_the_linear_problem():
     )
     rows[2:4, 2] = -s[2] / c  # this one is there
     at[2] = -s[2] / c
-    kept = query._step(c, 1e-9, 0, n, moved, workspace, points, offsets, heights, residuals, jacobians)
+    buffers = query.Workspace(np.empty((1, 2, block)), moved, workspace, points)
+    found = query.Found(offsets, heights, residuals, jacobians)
+    kept = query._newton_step(c, 1e-9, 0, n, buffers, found)
     assert kept == 4
     assert list(points[:4]) == [0, 1, 3, 4]
     assert np.array_equal(offsets[2], s[2])

@@ -18,10 +18,10 @@ from fftocean.physics.spreading import (
     CosineSquared,
     DonelanBanner,
     Spreading,
-    cosine_2s,
-    donelan_banner_beta,
     wrapped,
 )
+from fftocean.physics.spreading.cosine_power import cosine_2s
+from fftocean.physics.spreading.donelan_banner import donelan_banner_beta
 
 PEAK = 0.7
 MODELS = [

@@ -17,25 +17,22 @@ from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import PiersonMoskowitz
 from fftocean.physics.spreading import (
     Blend,
+    CosineN,
     CosinePower,
     CosineSquared,
-    DonelanBanner,
-    LongCrested,
-    Spreading,
-)
-from fftocean.physics.spreading_laws import (
-    SHARPEST,
-    CosineN,
     CustomSpreading,
+    DonelanBanner,
     GodaSuzuki,
     Hasselmann,
+    LongCrested,
     Mitsuyasu,
+    Spreading,
     SwellElongation,
+    TabulatedSpreading,
     WrappedNormal,
-    _integrals,
-    _tabulated,
 )
-from fftocean.physics.tabulated import TabulatedSpreading
+from fftocean.physics.spreading.mitsuyasu import SHARPEST
+from fftocean.physics.spreading.normalisation import integrals, interpolated_integrals
 
 PEAK = 0.7
 AGED = [0.84, 1.17, 3.0, 5.0]  # U/c_p, from fully developed to young
@@ -311,8 +308,8 @@ def test_the_table_of_norms_is_the_norm(base, xi):
             omega, PEAK * np.concatenate([steps * (1 - 1e-9), steps, steps * (1 + 1e-9)])
         ),
     )
-    assert _tabulated(law._product, omega, PEAK, ())[check] == pytest.approx(
-        _integrals(law._product, omega[check], PEAK, ()), rel=1e-12
+    assert interpolated_integrals(law._product, omega, PEAK, ())[check] == pytest.approx(
+        integrals(law._product, omega[check], PEAK, ()), rel=1e-12
     )
 
 

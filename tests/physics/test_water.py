@@ -13,7 +13,7 @@ import pytest
 import fftocean as fo
 from fftocean.constants import GRAVITY, SURFACE_TENSION, WATER_DENSITY
 from fftocean.errors import ParameterError, SeaWarning
-from fftocean.physics.wind_wavenumber import ElfouhailySpreading
+from fftocean.physics.spreading import ElfouhailySpreading
 
 JONSWAP = fo.JONSWAP.from_wind(speed=12.0, fetch=100e3)
 TMA = fo.WaveSystem(spectrum=fo.TMA(JONSWAP, depth=40.0))

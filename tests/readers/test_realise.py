@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from spectrum_files import DATA, FREQUENCY, TIMES, TO, era5, sea, write_ndbc, ww3
 
 from fftocean import readers
@@ -15,9 +15,11 @@ from fftocean.physics.spectra import JONSWAP
 from fftocean.physics.spreading import CosinePower
 from fftocean.readers import Realised, sea_from_spectrum
 
+xr = lazy("xarray")
+
 
 def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
-    """The layout of the wavespectra package, without any attributes."""
+    """Return the layout of the wavespectra package, without any attributes."""
     return xr.Dataset(
         {"efth": (("freq", "dir"), density)},
         {"freq": frequency, "dir": (toward + 180.0) % 360.0, **coords},
@@ -152,7 +154,7 @@ def test_a_spectrum_without_directions_asks_for_them():
 
 
 def test_one_direction_only_is_none_as_the_wavespectra_package_has_it():
-    """It reads a buoy without directions as efth with dir = [0], in m2/Hz."""
+    """The package reads a buoy without directions as efth with dir = [0], in m2/Hz."""
     total = sea().density[0].sum(axis=1) * 15.0
     data = xr.Dataset(
         {"efth": (("freq", "dir"), total[:, None])}, {"freq": FREQUENCY, "dir": [0.0]}
@@ -245,9 +247,7 @@ def test_what_a_reader_masked_or_repaired_is_still_said_of_the_sea(tmp_path):
     made = Realised.from_spectrum(readers.open(path))
     limited = readers.open(path).attrs["limited_moments"]
     assert limited > 0
-    assert (
-        f"{limited} pairs of directional moments that no sea can have were drawn in" in made.notes
-    )
+    assert f"{limited} pairs of directional moments that no sea can have were limited" in made.notes
     assert "no depth is known: the water is taken as deep" in made.notes
     assert "the depth is the measurement's own, 30 m" in Realised.from_spectrum(ww3(sea())).notes
     assert not any("depth" in note for note in Realised.from_spectrum(ww3(sea()), depth=20.0).notes)

@@ -5,12 +5,14 @@ import time
 
 import numpy as np
 import pytest
-import xarray as xr
+from builders import lazy
 from hypothesis import given
 from hypothesis import strategies as st
 
 import fftocean as fo
 from fftocean.readers import units
+
+xr = lazy("xarray")
 
 DENSITY = {"m": 2, "s": 1}
 TURNED = {"m": 2, "s": 1, "rad": -1}

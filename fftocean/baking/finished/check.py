@@ -49,7 +49,7 @@ normal: normals whose length is not 1. seam, loop: a step across the tile's edge
 frame to the first. crest: troughs that are sharper than crests.
 """
 
-ROUGHER = 2.0
+LARGEST_STEP = 2.0
 """
 Largest ratio of the step across an edge to the roughest step inside. The sea is as rough there as
 anywhere: of any two steps of a sea, all frames together, the roughest was at most 1.6 times the
@@ -58,7 +58,7 @@ second (60 seas of 10 to 32 samples a side).
 
 UNFINISHED = "it does not exist: the bake was stopped, and the same command resumes it"
 
-FEWEST = 8  # steps inside that the step across an edge is compared with
+MIN_STEPS = 8  # steps inside that the step across an edge is compared with
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,8 @@ class Finding:
     frame: int | None = None  # of the loop
 
     def __str__(self) -> str:
-        return f"{self.kind}: {self.path}{f', frame {self.frame}' if self.frame is not None else ''}: {self.detail}"
+        frame = "" if self.frame is None else f", frame {self.frame}"
+        return f"{self.kind}: {self.path}{frame}: {self.detail}"
 
 
 def check(
@@ -175,13 +176,13 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
                 fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})
             ):
                 found.append(Finding(fault[0], listed[key]["path"], fault[1]))
-    drawn = (
+    previews = (
         {listed[key]["path"] for key in layout.PREVIEWS if key in listed}
         if listed
         else set(layout.PREVIEW_FILES)
     )
     for path in layout.bake_files(folder):
-        if (relative := path.relative_to(folder).as_posix()) not in drawn:
+        if (relative := path.relative_to(folder).as_posix()) not in previews:
             found.append(
                 Finding(
                     "extra",
@@ -393,7 +394,8 @@ def _frame(
         if not (abs(least - low) <= half_step * 1.001 and abs(most - high) <= half_step * 1.001):
             yield (
                 "range",
-                f"channel {c} goes from {least:g} to {most:g}, and is listed with {low:g} to {high:g}",
+                f"channel {c} goes from {least:g} to {most:g}, and is listed with {low:g} "
+                f"to {high:g}",
             )
     values = contents.restored(name, pixels)
     if MAPS[name].kind == "normal":
@@ -427,19 +429,20 @@ def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple
             fault := _foam_forgotten(last, first, step / count, contents)
         ):
             yield "loop", fault
-    elif len(sequence.steps) >= FEWEST:
+    elif len(sequence.steps) >= MIN_STEPS:
         home, roughest = _rms(first - last), max(sequence.steps)
-        if home > ROUGHER * roughest + _half_step(contents, name):
+        if home > LARGEST_STEP * roughest + _half_step(contents, name):
             yield (
                 "loop",
-                f"the step from the last frame to the first is {home / max(roughest, 1e-300):.1f} times the largest before",
+                f"the step from the last frame to the first is "
+                f"{home / max(roughest, 1e-300):.1f} times the largest before",
             )
     for axis, edge in ((0, "north"), (1, "east")):
         inside, across = np.atleast_1d(sequence.inside[axis]), sequence.across[axis]
         if (
-            inside.size >= FEWEST
+            inside.size >= MIN_STEPS
             and across
-            > ROUGHER**2 * (roughest := float(inside.max())) + _half_step(contents, name) ** 2
+            > LARGEST_STEP**2 * (roughest := float(inside.max())) + _half_step(contents, name) ** 2
         ):
             excess = np.sqrt(across / max(roughest, 1e-300))
             yield (

@@ -120,8 +120,8 @@ def load(
         verify: compare the checksum of every file that is read with the manifest's.
 
     Returns:
-        A `Bake`, or a `BakedCascade` for a cascade: maps in the conventions of the package, whatever
-        the engine, as precisely as the format stores them.
+        A `Bake`, or a `BakedCascade` for a cascade: maps in the conventions of the package,
+        whatever the engine, as precisely as the format stores them.
 
     Raises:
         IntegrityError: the bake is not finished, or a file is missing or was changed; `check` names

@@ -18,7 +18,8 @@ from fftocean.baking.previews.render import Water
 from fftocean.baking.previews.whitecaps import Whitecaps
 from fftocean.cascade import Cascade
 from fftocean.errors import OutputError
-from fftocean.foam import DISPLACEMENT_GRADIENT, Foam
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import Foam
 from fftocean.grid import Grid
 from fftocean.ocean import Frame, Ocean
 
@@ -82,7 +83,7 @@ def animation(
 
     At most `FILM_FRAMES` of the frames are drawn, every second or third of them, so that neither
     time nor size grow with the bake. Frames are shown for 20 ms to 2 s, so that a very long loop
-    runs faster than in reality, and a very short one slower. Arguments are those of `contact_sheet`.
+    runs faster than in reality, and a very short one slower. See `contact_sheet` for arguments.
 
     Raises:
         OutputError: this Pillow cannot write WebP.
@@ -115,7 +116,7 @@ def animation(
 
 def tiling(ocean: Sea, frames: int) -> bytes:
     """
-    Draw a PNG of frame 0 from above, two tiles wide and two high; marks in the margin show the seams.
+    Draw a PNG of frame 0 from above, 2 x 2 tiles; marks in the margin show the seams.
 
     Of a cascade the first tile is shown without the others, which do not repeat with it.
     """
@@ -174,7 +175,7 @@ class _Frames:
 
     def _initial_foam(self, t: float) -> Whitecaps:
         """Return the foam at a time [s], accumulated over the few decay times before it."""
-        moments = [self._squeeze(t - i * self.step) for i in reversed(range(self.steps))]
+        moments = [self._minimum_eigenvalue(t - i * self.step) for i in reversed(range(self.steps))]
         return Whitecaps.before(moments, self.step, self.foam, self.cover)
 
     def _advance(
@@ -184,11 +185,11 @@ class _Frames:
         parts = min(max(1, math.ceil((stop - start) / self.step)), self.steps)
         step = (stop - start) / parts
         for i in range(1, parts):
-            caps.add(self._squeeze(start + i * step), step)
-        caps.add(whitecaps.squeeze(fields), step)
+            caps.add(self._minimum_eigenvalue(start + i * step), step)
+        caps.add(whitecaps.minimum_eigenvalue(fields), step)
 
-    def _squeeze(self, t: float) -> Real:
-        return whitecaps.squeeze(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
+    def _minimum_eigenvalue(self, t: float) -> Real:
+        return whitecaps.minimum_eigenvalue(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
 
 
 def _oceans(ocean: Sea) -> tuple[Ocean, ...]:

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.foam import DISPLACEMENT_GRADIENT, Foam
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam import Foam
 from fftocean.kernels import interpolate, surface
 from fftocean.ocean import Frame
 
@@ -34,9 +35,9 @@ def whitecap_cover(wind: float) -> float:
     return 0.0 if wind < 3.7 else 2.95e-6 * min(wind, 20.0) ** 3.52
 
 
-def squeeze(frames: Frame | Sequence[Frame]) -> Real:
+def minimum_eigenvalue(frames: Frame | Sequence[Frame]) -> Real:
     """
-    Return the smaller eigenvalue of the deformation of summed tiles, on a pattern over the first.
+    Return the smallest eigenvalue of the deformation gradient of summed tiles, over the first one.
     """
     tiles = (frames,) if isinstance(frames, Frame) else tuple(frames)
     grid, several = tiles[0].grid, len(tiles) > 1
@@ -68,14 +69,14 @@ class Whitecaps:
         cls, moments: Sequence[Real], step: float, foam: Foam, cover: float | None = None
     ) -> "Whitecaps":
         """
-        Return the foam that has gathered over some moments.
+        Return the foam that has accumulated over some moments.
 
         Args:
-            moments: the `squeeze` at equal steps of time.
+            moments: the `minimum_eigenvalue` at equal steps of time.
             step: from one to the next [s].
-            foam: how water foams.
-            cover: the share of the water that is to be covered; the threshold is found for it. None
-                keeps the threshold of `foam`.
+            foam: parameters of foam.
+            cover: share of the surface to cover; the threshold is found for it. None keeps the
+                threshold of `foam`.
         """
         if cover is not None:
             foam = calibrated(moments, step, foam, cover)
@@ -85,7 +86,7 @@ class Whitecaps:
         return self
 
     def add(self, values: Real, step: float) -> None:
-        """Decay over a step [s], and add what the squeeze at its end makes."""
+        """Decay over a step [s], and add the foam that the eigenvalue at its end makes."""
         if self._state is None:
             self._state = np.zeros(values.shape)
         self._state *= math.exp(-step / self.foam.tau)
@@ -101,7 +102,7 @@ class Whitecaps:
 
 
 def calibrated(moments: Sequence[Real], step: float, foam: Foam, cover: float) -> Foam:
-    """Return foam whose threshold lets it cover a share of the water, after some moments."""
+    """Return foam with the threshold at which it covers a share after some moments."""
     stride = max(1, math.ceil(moments[0].size / _CALIBRATED))
     values = np.stack([m.ravel()[::stride] for m in moments])
     ages = step * np.arange(len(moments))[::-1, None]

@@ -102,7 +102,8 @@ MAPS: dict[str, Map] = {
         lambda m: (m.frame.height,),
     ),
     "displacement": Map(
-        ("displace_x", "displace_y", "height"), "vector", ("x, choppiness applied", "y, choppiness applied", "height"), "m",
+        ("displace_x", "displace_y", "height"), "vector",
+        ("x, choppiness applied", "y, choppiness applied", "height"), "m",
         "from where the water is at rest to where it is",
         lambda m: (*_moved(m.frame), m.frame.height),
         by_place=("height",),
@@ -116,7 +117,8 @@ MAPS: dict[str, Map] = {
     ),
     "derivative": Map(
         ("slope_x", "slope_y", "stretch_xx", "stretch_yy"), "derivative",
-        ("d height/dx", "d height/dy", "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
+        ("d height/dx", "d height/dy",
+         "d displacement x/dx, choppiness applied", "d displacement y/dy, choppiness applied"), "1",
         "slopes and stretches, which add up over tiles; without the shear the normal is about "
         "(-slope_x/(1 + stretch_xx), -slope_y/(1 + stretch_yy), 1)",
         lambda m: (m.frame.slope_x, m.frame.slope_y, *_stretched(m.frame)),
@@ -124,12 +126,15 @@ MAPS: dict[str, Map] = {
     ),
     "stretch": Map(
         ("stretch_xx", "stretch_xy", "stretch_yy"), "stretch",
-        ("d displacement x/dx", "d displacement x/dy = d displacement y/dx", "d displacement y/dy"), "1",
-        "gradient of the horizontal displacement, choppiness applied: sums over tiles give Jacobian, normal and foam",
+        ("d displacement x/dx", "d displacement x/dy = d displacement y/dx",
+         "d displacement y/dy"), "1",
+        "gradient of the horizontal displacement, choppiness applied: sums over tiles "
+        "give Jacobian, normal and foam",
         lambda m: _gradient(m.frame),
     ),
     "jacobian": Map(
-        ("jacobian",), "scalar", ("jacobian",), "1", "area of displaced over still water: below 1 it is squeezed, below 0 folded",
+        ("jacobian",), "scalar", ("jacobian",), "1",
+        "area of displaced over still water: below 1 it is squeezed, below 0 folded",
         lambda m: (m.frame.jacobian,), adds=False,
     ),
     "foam": Map(
@@ -137,15 +142,18 @@ MAPS: dict[str, Map] = {
         lambda m: (_foam(m),), adds=False,
     ),
     "velocity": Map(
-        ("velocity_x", "velocity_y", "velocity_z"), "vector", ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
+        ("velocity_x", "velocity_y", "velocity_z"), "vector",
+        ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
         "velocity of the water at the surface",
-        lambda m: (m.frame.velocity_x * m.frame.choppiness, m.frame.velocity_y * m.frame.choppiness, m.frame.velocity_z),
+        lambda m: (*_horizontal_velocity(m.frame), m.frame.velocity_z),
     ),
     "slope_covariance": Map(
         (), "covariance", ("slope_x slope_x", "slope_x slope_y", "slope_y slope_y"), "1",
-        "covariance, within a texel, of the derivative map's two slopes; level 0 holds the waves too short for the tile",
+        "covariance, within a texel, of the derivative map's two slopes; level 0 holds "
+        "the waves too short for the tile",
         _unresolved,
-        ("slope_x", "slope_y"), lambda m: mips.slope_covariances(m.frame.slope_x, m.frame.slope_y, m.unresolved),
+        ("slope_x", "slope_y"),
+        lambda m: mips.slope_covariances(m.frame.slope_x, m.frame.slope_y, m.unresolved),
     ),
 }  # fmt: skip
 """
@@ -206,7 +214,8 @@ def needed(names: Iterable[str], *, mips: bool = False, eulerian: bool = False) 
         for need in MAPS[name].needed(mips=mips, eulerian=eulerian):
             if eulerian and need not in BY_PLACE:
                 raise ParameterError(
-                    f"the map {name!r} cannot be baked with the lookup 'eulerian', as it shows {need}: {NOT_BY_PLACE}"
+                    f"the map {name!r} cannot be baked with the lookup 'eulerian', as it "
+                    f"shows {need}: {NOT_BY_PLACE}"
                 )
             fields[need] = None
     return tuple(fields)
@@ -225,6 +234,11 @@ def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
         nothing = np.zeros_like(frame.height)
         return nothing, nothing
     return frame.displace_x * frame.choppiness, frame.displace_y * frame.choppiness
+
+
+def _horizontal_velocity(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """Return the horizontal velocity, choppiness applied."""
+    return frame.velocity_x * frame.choppiness, frame.velocity_y * frame.choppiness
 
 
 def _stretched(frame: Frame | EulerianFrame) -> tuple[Real, Real]:

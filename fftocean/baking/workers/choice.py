@@ -18,7 +18,8 @@ def check_executor(name: str, workers: int | None) -> str:
     name = spelled(name, EXECUTORS) or name
     if name not in EXECUTORS and "://" not in name:
         raise JobError(
-            f"executor must be one of {', '.join(EXECUTORS)}, or an address such as tcp://host:8786, got {name!r:.80}"
+            f"executor must be one of {', '.join(EXECUTORS)}, or an address such as "
+            f"tcp://host:8786, got {name!r:.80}"
         )
     if workers is not None and (
         isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024

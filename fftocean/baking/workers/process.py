@@ -17,7 +17,10 @@ import traceback
 import warnings
 from typing import IO, Any
 
-BOOT = "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); from fftocean.baking.workers.process import serve; serve()"
+BOOT = (
+    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); from "
+    "fftocean.baking.workers.process import serve; serve()"
+)
 """Program of the process; the first message is its module search path."""
 
 
