@@ -17,7 +17,7 @@ import script
 
 from fftocean.bench.contenders import Fast
 from fftocean.bench.fits import power_law
-from fftocean.bench.pictures import Line, curves, sheet
+from fftocean.bench.charts import Line, curves, sheet
 from fftocean.bench.quick import ocean
 from fftocean.bench.results import Entry, Reading, Result, race
 from fftocean.plots.theme import BLUE, VERMILION
