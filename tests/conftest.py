@@ -17,7 +17,7 @@ QUICK = (
     "test_ocean.py",
     "test_products.py",
 )
-"""Places of tests that are done in half a minute, but for `SLOW` and those marked `process` or `slow`."""
+"""Places of tests that are done in half a minute, but for `SLOW` and marks `process` and `slow`."""
 
 SLOW = ("export/test_bakes.py", "export/test_displace.py", "export/test_matrix.py")
 """Places among these whose tests bake, or try every format in every engine."""
