@@ -8,7 +8,6 @@ without 1/n, on one thread.
 import ctypes
 import importlib
 import importlib.metadata
-import os
 import sys
 import threading
 import weakref
@@ -53,8 +52,7 @@ def _renew_locks() -> None:
     _planner, _importing = threading.RLock(), threading.Lock()
 
 
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_renew_locks)
+forks.in_child(_renew_locks)
 
 
 class InverseRows(Protocol):
