@@ -28,7 +28,7 @@ import script
 
 import fftocean as fo
 from fftocean import host, kernels
-from fftocean.bench.pictures import bars, sheet
+from fftocean.bench.charts import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
 from fftocean.plots.theme import BLUE
@@ -46,15 +46,27 @@ ROOMS = (
             "ocean.py:frame",
             "ocean.py:loop_frame",
             "ocean.py:_",
+            "lookahead.py",
+            "frame.py",
             "synthesis.py",
             "transforms.py",
             "kernels/passes",
             "kernels/surface",
         ),
     ),
-    ("encoder", ("export/", "kernels/half", "bake/frames.py:_halves")),
-    ("maps", ("bake/maps.py", "foam.py", "eulerian.py", "mips.py", "products.py", "kernels/")),
-    ("preview", ("bake/preview.py", "bake/pictures.py", "bake/blend.py")),
+    ("encoder", ("export/", "kernels/half", "baking/scene/scene.py:_halves")),
+    ("preview", ("baking/previews/", "blend_loss.py")),
+    (
+        "maps",
+        (
+            "baking/scene/maps.py",
+            "foam.py",
+            "eulerian.py",
+            "mips.py",
+            "products.py",
+            "kernels/",
+        ),
+    ),
     (
         "setting up",
         (

@@ -187,7 +187,7 @@ class LiveFoam:
         t = TIME.check("t", t)
         if t < self._last:
             raise ParameterError(
-                f"foam depends on earlier times: t must be at least {self._last!r}, got {t!r}; "
+                f"foam cannot go back: t must be at least {self._last!r}, got {t!r}; "
                 "start another `live`"
             )
         self._last = t

@@ -253,10 +253,6 @@ def specified(sea: Sea) -> SeaState:
     )
 
 
-ordered = specified
-"""The earlier name of `specified`."""
-
-
 def peak_wavelength(ocean: Ocean) -> float:
     """Return the wavelength at the specified peak period [m]; 0 for a flat sea or given waves."""
     tp = 0.0 if ocean.sea is None else ocean.sea.tp

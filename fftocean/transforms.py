@@ -287,3 +287,14 @@ def _pyfftw() -> ModuleType | None:
         finally:
             if hide:
                 sys.modules.pop("dask.array", None)
+
+
+def loaded(backend: str) -> Any:
+    """
+    Return the library behind a backend, or None where it is not installed.
+
+    It is a `ctypes.CDLL` for "mkl", and a module for "pyfftw" and "scipy".
+    """
+    if backend == "mkl":
+        return _mkl()
+    return _pyfftw() if backend == "pyfftw" else importlib.import_module("scipy.fft")

@@ -16,7 +16,7 @@ from fftocean.amplitudes import cell_variance, seed_amplitudes
 from fftocean.cells import Cells
 from fftocean.grid import Grid
 from fftocean.physics.spreading import TabulatedSpreading
-from fftocean.statistics import ordered, outside_band
+from fftocean.statistics import outside_band, specified
 
 JONSWAP = fo.JONSWAP.from_sea_state(hs=2.0, tp=8.0)
 GRAVITY = 9.80665
@@ -118,7 +118,7 @@ def test_narrow_cells_against_adaptive_quadrature(sigma, direction):
     def bell(theta):
         return math.exp(-0.5 * ((theta - centre) / width) ** 2) / (width * math.sqrt(2.0 * math.pi))
 
-    total = ordered(sea).m0
+    total = specified(sea).m0
     for mx, my in ((5, 0), (4, 1), (9, 1), (1, 1), (2, 0), (0, 1), (3, -1)):
         corners = [
             math.atan2((my + j) * dky, (mx + i) * dkx) for i in (-0.5, 0.5) for j in (-0.5, 0.5)
@@ -253,7 +253,7 @@ def test_a_spectrum_without_end_is_no_error():
 
 def test_measure_says_the_realised_spread():
     along = fo.measure(fo.Ocean(sea_of(fo.LongCrested(), 90.0), n=(16, 64), size=400.0))
-    assert along.ordered.spread == 0.0
+    assert along.specified.spread == 0.0
     assert along.spread < 1e-4  # float32 fields
     assert along.mean_direction == pytest.approx(90.0, abs=1e-4)
     oblique = fo.measure(fo.Ocean(sea_of(fo.LongCrested(), 30.0), n=64, size=500.0))
@@ -275,14 +275,15 @@ def test_measure_says_the_realised_spread():
 )
 def test_the_specified_spread_of_narrow_seas(spreading, spread):
     """Closed form (Kuik et al. 1988); a grid of half a degree sees none of them."""
-    state = ordered(sea_of(spreading))
+    state = specified(sea_of(spreading))
     assert state.spread == pytest.approx(spread, rel=1e-5)
     assert state.m0 == pytest.approx(0.25, rel=1e-9)
 
 
 def test_long_crested_in_a_job_and_as_a_value():
     job = fo.Job.from_toml(
-        "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\nspreading = { kind = 'long-crested' }"
+        "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\n"
+        "spreading = { kind = 'long-crested' }"
     )
     assert job.sea().systems[0].spreading == fo.LongCrested()
     total = integrate.quad(

@@ -31,9 +31,9 @@ def test_the_ten_lines_run(capsys):
     exec(compile(source, "README.md", "exec"), {})
     shape, *_, hs = capsys.readouterr().out.strip().splitlines()
     assert shape.startswith("(256, 256) ")
-    delivered, ordered = map(float, hs.split())
-    assert delivered == pytest.approx(
-        ordered, rel=0.3
+    realised, specified = map(float, hs.split())
+    assert realised == pytest.approx(
+        specified, rel=0.3
     )  # one draw of a tile of 500 m scatters by 7 %
 
 

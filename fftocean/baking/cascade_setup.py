@@ -161,7 +161,7 @@ class TileSet:
     def rows(self) -> Iterator[tuple[str, str]]:
         """Yield the rows of the table that `info` prints: a name and a text each."""
         s = self.statistics
-        assert s.ordered is not None  # a job has a sea
+        assert s.specified is not None  # a job has a sea
         for tile, ocean in zip(self.tile_jobs, self.cascade.oceans, strict=True):
             yield (
                 tile.path,
@@ -171,10 +171,11 @@ class TileSet:
             )
         yield (
             "significant wave height Hs",
-            f"{s.ordered.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
+            f"{s.specified.hs:.3f} m specified, {s.hs:.3f} m realised by all tiles",
         )
-        yield "peak period Tp", f"{s.ordered.tp:.2f} s specified, {s.tp:.2f} s realised"
+        yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
+        yield "folds", str(s.folding)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

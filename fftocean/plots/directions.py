@@ -13,7 +13,7 @@ from fftocean.plots.ranges import drawn_frequencies, energetic_band, is_flat
 from fftocean.plots.text import compass_point, degrees, three_digits
 from fftocean.plots.theme import FAINT, INK, LABEL_BOX, SYSTEMS, energy_colormap
 from fftocean.polar_spectrum import polar_spectrum
-from fftocean.statistics import ordered
+from fftocean.statistics import specified
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
@@ -44,7 +44,7 @@ def draw_directions(figure: "FigureBase", sea: Sea) -> None:
         return
     from matplotlib.colors import PowerNorm
 
-    state = ordered(sea)
+    state = specified(sea)
     toward = f"toward {compass_point(state.mean_direction)} ({degrees(state.mean_direction, 0)})"
     if state.spread > _ALL_ROUND:
         toward = "all round"

@@ -56,11 +56,11 @@ def draw_realised(figure: "FigureBase", ocean: Ocean) -> None:
     omega = np.union1d(np.linspace(0.0, high, 600), edges[edges < high])
     envelope = np.zeros_like(omega)
     labels = []
-    if sea is not None and statistics.ordered is not None:
+    if sea is not None and statistics.specified is not None:
         omega = np.union1d(omega, drawn_frequencies(sea, 0.0, high))
         envelope = sea(omega)
         ax.plot(omega, envelope, color=INK, linewidth=1.5, gid="specified")
-        words = f"specified: Hs {three_digits(statistics.ordered.hs)} m"
+        words = f"specified: Hs {three_digits(statistics.specified.hs)} m"
         labels.append(Label(words, INK, right_flank(omega, envelope, 0.9)))
     if np.any(edges[:-1] < high):
         by = "realised by this seed" if sea is not None else "the given waves"
@@ -131,10 +131,10 @@ def _shade_outside(ax: "Axes", ocean: Ocean, high: float) -> None:
 def _headline(statistics: Statistics) -> str:
     """Return one line on how the realised height differs from the specified one, and why."""
     hs = three_digits(statistics.hs)
-    if statistics.ordered is None:
+    if statistics.specified is None:
         return f"Realised: the given waves, Hs {hs} m"
-    both = f"Realised: Hs {hs} m of {three_digits(statistics.ordered.hs)} m specified"
-    if statistics.resolved < 0.9 * statistics.ordered.m0:
+    both = f"Realised: Hs {hs} m of {three_digits(statistics.specified.hs)} m specified"
+    if statistics.resolved < 0.9 * statistics.specified.m0:
         lost = "the rest" if statistics.m0 > NEGLIGIBLE else "any of it"
         return f"{both}; this tile cannot hold {lost}"
     scatter = _scatter_of_hs(statistics)
@@ -157,7 +157,7 @@ def _scatter_of_hs(statistics: Statistics) -> float:
 def _write_table(ax: "Axes", statistics: Statistics) -> None:
     """Write each statistic as specified and as realised, with notes on the tile and the loop."""
     ax.set_axis_off()
-    sea, scatter = statistics.ordered, _scatter_of_hs(statistics)
+    sea, scatter = statistics.specified, _scatter_of_hs(statistics)
     spread = f"± {scatter:.2g} m" if scatter else "none" if sea else ""
     rows = [
         ("", "specified" if sea else "", "realised", "expected scatter" if sea else ""),
@@ -193,7 +193,7 @@ def _write_table(ax: "Axes", statistics: Statistics) -> None:
 def _notes(statistics: Statistics) -> list[str]:
     """Return sentences on the energy outside the tile and on the loop's frequencies."""
     notes = []
-    sea, loop = statistics.ordered, statistics.loop
+    sea, loop = statistics.specified, statistics.loop
     if sea is not None and sea.m0 > 0.0:
         longer = percent(statistics.energy_below / sea.m0)
         shorter = percent(statistics.energy_above / sea.m0)

@@ -34,7 +34,7 @@ NEGATIVE: Final = ("refuse", "clip")
 MAX_VALUES: Final = 2**27  # numbers in one dataset: 1 GiB
 
 
-def science() -> Any:
+def load_xarray() -> Any:
     """
     Return the xarray module, imported on first use because that takes seconds.
 
@@ -44,11 +44,11 @@ def science() -> Any:
     try:
         import xarray
     except ImportError as error:
-        raise missing(error) from error
+        raise not_installed(error) from error
     return xarray
 
 
-def missing(error: ImportError) -> ReaderError:
+def not_installed(error: ImportError) -> ReaderError:
     """Return the error for an optional package that is not installed."""
     hint = how_to_install("science")
     return ReaderError(
@@ -56,7 +56,7 @@ def missing(error: ImportError) -> ReaderError:
     )
 
 
-def announce(made: "Dataset") -> "Dataset":
+def warn_of_notes(made: "Dataset") -> "Dataset":
     """
     Return a dataset after warning of its reader's doubts, the attributes that end in `_note`.
     """
@@ -168,7 +168,9 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     if np.any(bad):
         raise ReaderError(f"{where} must be between -360 and 720 degrees, got {d[bad][0]}")
     if np.ptp(d) > 360.0:
-        raise ReaderError(f"{where} must span at most one turn, got {d.min()} to {d.max()} degrees")
+        raise ReaderError(
+            f"{where} must span at most 360 degrees, got {d.min()} to {d.max()} degrees"
+        )
     turned = np.mod(np.round(d, 6), 360.0)  # a float32 axis of 0.1 degree steps is good to 3e-5
     order = np.argsort(turned, kind="stable")
     same = np.diff(turned[order]) <= 1e-4
@@ -180,8 +182,8 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
     if span <= 2.0 * np.pi + 1e-3:
         raise ReaderError(
-            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: "
-            "is it in radians?"
+            f"{where} must be in degrees, as its unit says, but spans {span:.4g} in {d.size} "
+            "steps: is it in radians?"
         )
     return turned[order], order
 
@@ -289,7 +291,7 @@ def dataset(
         bands: (f, 2) lower and upper edge of each frequency's band [Hz], if the file has them.
         notes: further attributes.
     """
-    xr = science()
+    xr = load_xarray()
     variables: dict[str, Any] = {}
     coords: dict[str, Any] = {
         "freq": ("freq", frequency, {"standard_name": "sea_surface_wave_frequency", "units": "Hz"}),

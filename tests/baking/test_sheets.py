@@ -1,4 +1,4 @@
-"""Pictures beside a bake: they open, show the sea that was baked, and are the same every time."""
+"""Preview images: they open, show the baked sea, and have the same bytes every time."""
 
 import io
 import itertools
@@ -124,7 +124,7 @@ def test_the_frames_shown_are_spread_over_the_loop(frames, rows, monkeypatch):
     ],
     ids=str,
 )
-def test_any_ocean_has_a_picture(changes):
+def test_any_ocean_has_a_preview(changes):
     """
     Nothing overflows or divides by zero on the way, which the suite would turn into an error, and
     all of it can be seen.
@@ -296,7 +296,7 @@ def test_a_cascade_is_drawn_as_the_sum_of_its_tiles():
 
 
 @pytest.mark.usefixtures("small")
-def test_a_cascade_has_all_pictures():
+def test_a_cascade_has_all_previews():
     sea = fo.Sea.from_wind(speed=12.0, fetch=100e3)
     both = fo.Cascade(sea, [(32, 200.0), (32, 31.0)], seed=3, loop=16.0)
     sheet = pixels(preview.contact_sheet(both, 4, "two tiles"))
@@ -348,20 +348,20 @@ def test_broken_foam_covers_as_much_of_the_water_as_it_should():
 def test_the_threshold_is_found_for_a_cover(cover):
     sea = ocean(ocean__n=64)
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        whitecaps.minimum_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
         for i in reversed(range(40))
     ]
     caps = whitecaps.Whitecaps.before(moments, 0.25, fo.Foam(), cover)
     assert np.mean(caps.coverage) == pytest.approx(cover, rel=0.05)  # all points were looked at
 
 
-def test_foam_of_pictures_is_the_foam_of_the_library():
+def test_foam_of_previews_is_the_foam_of_the_library():
     """Of the default sea at frame 0 of a loop, against `Foam.loop`, in steps of 0.25 s."""
     sea = ocean(ocean__n=64, ocean__loop=16.0)
     foam = fo.Foam(threshold=0.8)
     truth = next(iter(foam.loop(sea, 64)))
     moments = [
-        whitecaps.smallest_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
+        whitecaps.minimum_eigenvalue(sea.frame(-0.25 * i, DISPLACEMENT_GRADIENT))
         for i in reversed(range(64))
     ]
     shown = whitecaps.Whitecaps.before(moments, 0.25, foam).coverage
@@ -371,15 +371,15 @@ def test_foam_of_pictures_is_the_foam_of_the_library():
     assert np.corrcoef(shown.ravel(), truth.ravel())[0, 1] > 0.9
 
 
-def test_squeeze_of_summed_tiles_is_that_of_the_sum():
+def test_minimum_eigenvalue_of_summed_tiles_is_that_of_the_sum():
     """Two waves on one tile, and each on a frame of its own."""
     waves = [(1, 2, 0.5, 0.0), (3, -1, 0.2, 1.0)]
     both, *each = (
         fo.Ocean.from_modes(some, n=64, size=60.0, loop=8.0).loop_frame(0, 1, DISPLACEMENT_GRADIENT)
         for some in (waves, waves[:1], waves[1:])
     )
-    one = whitecaps.smallest_eigenvalue(both)
-    two = whitecaps.smallest_eigenvalue(each)[::6, ::6]  # 384 to 64
+    one = whitecaps.minimum_eigenvalue(both)
+    two = whitecaps.minimum_eigenvalue(each)[::6, ::6]  # 384 to 64
     assert np.allclose(one, two, atol=1e-6)  # float32
 
 
@@ -392,7 +392,7 @@ def test_whitecaps_of_a_wind():
     assert whitecaps.whitecap_cover(60.0) == whitecaps.whitecap_cover(20.0) < 0.12
 
 
-def test_the_developed_picture_is_srgb():
+def test_the_developed_image_is_srgb():
     """
     Black is 0, much light is 255; a grey that lies between two levels is dithered between them.
     """

@@ -43,14 +43,14 @@ def test_the_table_says_what_measure_says(crossed):
     figure, s = plotted(plots.plot_realised, crossed), fo.measure(crossed)
     text = words(figure)
     assert figure.get_suptitle().startswith(
-        f"Realised: Hs {s.hs:#.3g} m of {s.ordered.hs:#.3g} m specified, "
+        f"Realised: Hs {s.hs:#.3g} m of {s.specified.hs:#.3g} m specified, "
     )
     for value in (
         f"{s.hs:#.3g} m",
-        f"{s.ordered.hs:#.3g} m",
+        f"{s.specified.hs:#.3g} m",
         f"{s.tp:#.3g} s",
         f"{s.spread:.1f}°",
-        f"{s.ordered.spread:.1f}°",
+        f"{s.specified.spread:.1f}°",
     ):
         assert value in text
     assert f"± {0.5 * s.sampling_error * 4 * math.sqrt(s.resolved):.2g} m" in text

@@ -75,7 +75,7 @@ def caption(job: Job, statistics: Statistics, tiles: str | None = None) -> str:
         statistics: of its ocean, or of all tiles together.
         tiles: the tiles of a cascade in words; None describes the job's own tile.
     """
-    specified, g = statistics.ordered, job.settings
+    specified, g = statistics.specified, job.settings
     assert specified is not None  # a job has a sea
     speed = g["sea.wind.speed"]
     wind = f"wind {speed:g} m/s (Beaufort {beaufort_of(speed)})   " if job.wind else ""

@@ -175,9 +175,7 @@ class _Frames:
 
     def _initial_foam(self, t: float) -> Whitecaps:
         """Return the foam at a time [s], accumulated over the few decay times before it."""
-        moments = [
-            self._smallest_eigenvalue(t - i * self.step) for i in reversed(range(self.steps))
-        ]
+        moments = [self._minimum_eigenvalue(t - i * self.step) for i in reversed(range(self.steps))]
         return Whitecaps.before(moments, self.step, self.foam, self.cover)
 
     def _advance(
@@ -187,11 +185,11 @@ class _Frames:
         parts = min(max(1, math.ceil((stop - start) / self.step)), self.steps)
         step = (stop - start) / parts
         for i in range(1, parts):
-            caps.add(self._smallest_eigenvalue(start + i * step), step)
-        caps.add(whitecaps.smallest_eigenvalue(fields), step)
+            caps.add(self._minimum_eigenvalue(start + i * step), step)
+        caps.add(whitecaps.minimum_eigenvalue(fields), step)
 
-    def _smallest_eigenvalue(self, t: float) -> Real:
-        return whitecaps.smallest_eigenvalue(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
+    def _minimum_eigenvalue(self, t: float) -> Real:
+        return whitecaps.minimum_eigenvalue(self.ocean.frame(t, DISPLACEMENT_GRADIENT))
 
 
 def _oceans(ocean: Sea) -> tuple[Ocean, ...]:
