@@ -1,4 +1,4 @@
-"""h0(k): the variance of each wavenumber cell times chance, frozen."""
+"""Random amplitudes h0(k) of a tile, from the variance of each wavenumber cell."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -71,7 +71,7 @@ class Amplitudes:
         self.freeze()
 
     def freeze(self) -> None:
-        """Forbid changes of the arrays; once more after they were unpickled, which forgets it."""
+        """Make the arrays read-only; needed again after unpickling, which drops the flag."""
         for array in (
             self.forward,
             self.backward,
@@ -85,7 +85,8 @@ class Amplitudes:
     @property
     def squares(self) -> Real:
         """
-        |forward|^2 + |backward|^2: half the a^2/2 of an entry's two waves, +k and -k together, (ny, nx // 2 + 1) [m^2].
+        The sum |forward|^2 + |backward|^2 [m^2], (ny, nx // 2 + 1): half the a^2/2 of an entry's
+        two waves, +k and -k together.
         """
         total: Real = np.abs(self.forward) ** 2 + np.abs(self.backward) ** 2
         return total
@@ -93,19 +94,18 @@ class Amplitudes:
     @property
     def omega(self) -> Real:
         """
-        The frequencies of the dispersion relation, before any loop [rad/s]; computed when asked
-        for.
+        The frequencies of the dispersion relation, before any loop [rad/s]; computed on demand.
         """
         return dispersion.angular_frequency(self.grid.k, self.depth, self.surface_tension)
 
     @property
     def running_omega(self) -> Real:
-        """The frequencies at which the waves do run: omega, or 2 pi cycles / loop  [rad/s]."""
+        """The frequencies of the waves as they run: omega, or 2 pi cycles / loop  [rad/s]."""
         return self.omega if self.cycles is None else self.cycles * (2.0 * np.pi / self.loop)  # type: ignore[operator]
 
     @property
     def variance(self) -> float:
-        """m0 that the tile holds on average over seeds: the sum of E_k [m^2]."""
+        """m0 of the tile, averaged over seeds: the sum of E_k [m^2]."""
         half = float(np.sum(self.variance_forward))
         return half + float(
             np.sum(self.variance_backward[:, 1:])
@@ -142,11 +142,11 @@ def seed_amplitudes(
     Args:
         sea: the sea to realise.
         grid: the tile.
-        seed: which of all the seas that it could be.
+        seed: random seed; each seed is another realisation of the sea.
         loop: period after which the tile repeats [s].
-        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from draw to
-            draw; "fixed" for random phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over
-            the waves is the same in every draw.
+        draw: "gaussian" for unit normals xi, as in a real sea, whose wave heights vary from seed to
+            seed; "fixed" for random phases alone, |h0| = sqrt(E_k/2), so that the sum of a^2/2 over
+            the waves is the same for every seed.
         band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever
             the band; one whose cell is cut by an edge keeps its phase, and carries the energy of
             its part (see `share_below`).
@@ -184,12 +184,12 @@ def seed_amplitudes(
             if band != WHOLE:
                 low, high = (cells.share_below(edge, mx, my) for edge in band)
                 variance *= np.maximum(high - low, 0.0)
-            chance = (
+            random = (
                 noise.complex_normals(seed, mx, my)
                 if draw == "gaussian"
                 else np.sqrt(2.0) * noise.unit_phasors(seed, mx, my)
             )
-            h0 = 0.5 * np.sqrt(variance) * chance
+            h0 = 0.5 * np.sqrt(variance) * random
             if sx > 0:
                 variance_forward[my, mx], forward[my, mx] = variance, h0
             else:
@@ -219,8 +219,8 @@ def place_modes(
     loop: float | None = None,
 ) -> Amplitudes:
     """
-    Build a sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x - omega
-    t - phase).
+    Return the sea of given waves (mx, my, amplitude [m], phase [rad]): height = sum a cos(k.x -
+    omega t - phase).
 
     Waves on the same (mx, my) add up.
 
@@ -246,7 +246,8 @@ def place_modes(
             and abs(my) <= reach_y
         ):
             raise ParameterError(
-                f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, not both 0, got ({mx}, {my})"
+                f"a wave on this grid must have whole |mx| <= {reach_x} and |my| <= {reach_y}, "
+                f"not both 0, got ({mx}, {my})"
             )
         mx, my = int(mx), int(my)
         h0 = 0.5 * LENGTH.check("amplitude", amplitude) * np.exp(-1j * ANGLE.check("phase", phase))

@@ -18,7 +18,7 @@ Integer = npt.NDArray[np.int64]
 """Signed integers, 64 bit."""
 
 RealLike = npt.ArrayLike
-"""What `np.asarray(..., float)` takes: a number, a list, an array."""
+"""An argument of `np.asarray(..., float)`: a number, a list, an array."""
 
 COMPLEX_OF: dict[str, np.dtype[Any]] = {
     "float32": np.dtype(np.complex64),
@@ -29,10 +29,13 @@ COMPLEX_OF: dict[str, np.dtype[Any]] = {
 
 def precision_of(dtype: Any) -> str:
     """
-    Return the name of a real type, "float32" or "float64", given as that or as the type itself.
+    Return the name of a real type, "float32" or "float64".
+
+    Args:
+        dtype: the name, or the type itself.
 
     Raises:
-        ParameterError: it is neither.
+        ParameterError: another type.
     """
     name = dtype if isinstance(dtype, str) else getattr(dtype, "__name__", None) or str(dtype)
     if name not in COMPLEX_OF:
@@ -41,13 +44,14 @@ def precision_of(dtype: Any) -> str:
 
 
 SHOWN = 280
-"""How long the text is by which a value shows itself, in characters, at most."""
+"""The largest length of the text of a value, in characters."""
 
 
 def brief(value: Any) -> str:
     """
-    Return a short text for a value within another: an array by its shape and type, a mapping by its
-    keys.
+    Return a short text for a part of a value.
+
+    Arrays are shown by shape and type, mappings by their keys.
     """
     if isinstance(value, np.ndarray):
         if value.size > 3:
@@ -62,17 +66,17 @@ def brief(value: Any) -> str:
 
 def brief_repr(value: Any) -> str:
     """
-    Return the `repr` of a dataclass or named tuple that holds arrays: its fields, each `brief`, cut
-    at `SHOWN` characters.
+    Return the `repr` of a dataclass or named tuple that holds arrays.
+
+    Each field is `brief`, and the whole is cut at `SHOWN` characters.
     """
     names = (
         [f.name for f in fields(value) if f.repr] if is_dataclass(value) else list(value._fields)
     )
-    return shortened(
-        f"{type(value).__name__}({', '.join(f'{name}={brief(getattr(value, name))}' for name in names)})"
-    )
+    contents = ", ".join(f"{name}={brief(getattr(value, name))}" for name in names)
+    return shortened(f"{type(value).__name__}({contents})")
 
 
 def shortened(text: str) -> str:
-    """Return a text that ends in a bracket, cut in its middle where it is longer than `SHOWN`."""
+    """Return a text that ends in a bracket, cut before it if it is longer than `SHOWN`."""
     return text if len(text) <= SHOWN else f"{text[: SHOWN - 4]}...{text[-1]}"

@@ -1,7 +1,4 @@
-"""
-One sea over several tiles: each a size and a band of wavenumbers of its own, so that no wave is
-missing and none is there twice.
-"""
+"""A sea over several tiles, each with its own size and band of wavenumbers."""
 
 import math
 import struct
@@ -42,28 +39,28 @@ class Cascade:
 
     The water at parameters (x0, y0) is the sum over the tiles: height = sum of heights, and the
     surface is at (x0, y0) + choppiness sum of displacements. Each wavenumber |k| belongs to one
-    tile; a cell that an edge between two bands cuts is shared out by energy. Where nothing is
-    given, the edge between two tiles is the geometric mean of the finest that the large one and the
-    coarsest that the small one can hold: as many samples to the shortest wave of the one as waves
-    across the other, within a factor 3.
+    tile, so no wave is missing and none is counted twice; a cell that is cut by the edge of a band
+    is shared between two tiles by energy. An automatic edge is the geometric mean of the largest
+    |k| of the large tile and the smallest of the small one: then there are as many samples to the
+    shortest wave of the one as waves across the other, within a factor 3.
 
-    Chance: the largest tile has `seed` itself, so it shows the waves of the `Ocean` that has its n,
-        size and seed; each further one has
-    a seed of its own, made of `seed` and its size (`cascade.oceans[i].seed`). So a tile's waves
-    depend neither on the other tiles below the first, nor on n, nor on where the bands are cut.
+    The largest tile has `seed` itself, so it shows the waves of the `Ocean` of its n, size and
+    seed. Each of the others has a seed of its own, made of `seed` and its size
+    (`cascade.oceans[i].seed`). So its waves depend neither on other tiles, nor on n, nor on the
+    bands.
 
     Args:
-        sea: what is ordered.
-        tiles: (n, size) of each, as in `Ocean`, from the largest to the smallest. Sizes that are no
-            multiples of one another repeat together only after a very long way.
+        sea: the specified sea state.
+        tiles: (n, size) of each, as in `Ocean`, from the largest to the smallest. If no size is a
+            multiple of another, the sum repeats only after a very long distance.
         bands: (lowest, highest) |k| of each tile [rad/m], each starting where the one before ends;
             None for automatic ones.
-        seed: which of all the seas that it could be.
-        loop: the period after which all tiles repeat [s], or one for each; None lets the water run
-            free.
+        seed: random seed.
+        loop: period after which all tiles repeat [s], or one for each; None for water that never
+            repeats.
         choppiness, dtype, amplitudes, backend, planning, threads: as in `Ocean`.
 
-    Threads may share a cascade as they may share an `Ocean`.
+    Threads can share a cascade as they can share an `Ocean`.
 
     Raises:
         ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers
@@ -110,22 +107,22 @@ class Cascade:
         self._recipe = (sea, seed, oceans)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set up once, as an ocean is."""
+        """Set an attribute once, as in an ocean."""
         if hasattr(self, "_recipe"):
             raise AttributeError(f"a cascade is frozen: make another with the {name} that you want")
         super().__setattr__(name, value)
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
-        """Pickle and copy as the tiles that it has."""
+        """Pickle and copy the tiles."""
         return from_oceans, self._recipe
 
     def __len__(self) -> int:
-        """How many tiles there are."""
+        """Number of tiles."""
         return len(self.oceans)
 
     @property
     def bands(self) -> tuple[Band, ...]:
-        """The wavenumbers |k| of each tile, from the first up to the second [rad/m]."""
+        """Lowest and highest wavenumber |k| of each tile [rad/m]."""
         return tuple(ocean.amplitudes.band for ocean in self.oceans)
 
     @property
@@ -140,22 +137,22 @@ class Cascade:
 
     @property
     def dtype(self) -> str:
-        """Of the fields: "float32" or "float64"."""
+        """Precision of the fields: "float32" or "float64"."""
         return self.oceans[0].dtype
 
     @property
     def loops(self) -> tuple[float | None, ...]:
-        """The period of each tile [s]."""
+        """Period of each tile [s], or None."""
         return tuple(ocean.loop for ocean in self.oceans)
 
     @property
     def loop(self) -> float | None:
-        """The period that all tiles have in common [s], or None."""
+        """Period that all tiles have in common [s], or None."""
         return self.loops[0] if len(set(self.loops)) == 1 else None
 
     @property
     def variance(self) -> float:
-        """m0 that the tiles hold together, on average over seeds [m^2]."""
+        """m0 of all tiles together, the mean over seeds [m^2]."""
         return sum(ocean.amplitudes.variance for ocean in self.oceans)
 
     def modes(self) -> Modes:
@@ -192,11 +189,13 @@ class Cascade:
     def __repr__(self) -> str:
         shown = 3  # tiles
         tiles = ", ".join(
-            f"{o.grid.nx} x {o.grid.ny} over {o.grid.lx:g} x {o.grid.ly:g} m for {low:.3g} to {high:.3g} rad/m"
+            f"{o.grid.nx} x {o.grid.ny} over {o.grid.lx:g} x {o.grid.ly:g} m "
+            f"for {low:.3g} to {high:.3g} rad/m"
             for o, (low, high) in zip(self.oceans[:shown], self.bands, strict=False)
         )
         tiles += f", {len(self) - shown} more" if len(self) > shown else ""
-        return f"Cascade({tiles}; depth={self.depth:g}, loop={self.loops if self.loop is None else self.loop}, dtype={self.dtype!r})"
+        loop = self.loops if self.loop is None else self.loop
+        return f"Cascade({tiles}; depth={self.depth:g}, loop={loop}, dtype={self.dtype!r})"
 
 
 def _summable(fields: Sequence[str]) -> tuple[str, ...]:
@@ -205,8 +204,9 @@ def _summable(fields: Sequence[str]) -> tuple[str, ...]:
     for name in names:
         if name in POINTWISE:
             raise ParameterError(
-                f"a field of a cascade must add up over its tiles, got {name!r}, which is formed of the sums: "
-                f"fo.Window(cascade).frame(t, fields=({name!r},)); that of one tile alone is cascade.oceans[i].frame(t, ({name!r},))"
+                f"a field of a cascade must add up over its tiles, got {name!r}, "
+                f"which is formed of the sums: fo.Window(cascade).frame(t, fields=({name!r},)); "
+                f"that of one tile alone is cascade.oceans[i].frame(t, ({name!r},))"
             )
     return names
 
@@ -220,8 +220,9 @@ def from_oceans(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
 
 def reach_of(grid: Grid) -> tuple[float, float]:
     """
-    Between which |k| a tile has every wave, whatever its direction [rad/m]: around its missing cell
-    at k = 0, within its rectangle.
+    Return the lowest and highest |k| at which a tile has waves of every direction [rad/m].
+
+    They lie outside its missing cell at k = 0, and within its rectangle of wavenumbers.
     """
     reach_x, reach_y = grid.reach
     return 0.5 * math.hypot(grid.dkx, grid.dky), min(
@@ -231,8 +232,7 @@ def reach_of(grid: Grid) -> tuple[float, float]:
 
 def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
     """
-    Return the band of each tile: from 0 to inf, cut between each two at the geometric mean of what
-    both can hold.
+    Return the band of each tile: from 0 to inf, cut at the geometric mean of what two can hold.
 
     Raises:
         ParameterError: between two tiles lie wavenumbers that neither can hold.
@@ -242,14 +242,16 @@ def band_edges(grids: Sequence[Grid]) -> tuple[Band, ...]:
         finest, coarsest = reach_of(large)[1], reach_of(small)[0]
         if not coarsest <= finest:
             raise ParameterError(
-                f"tiles must overlap in wavenumbers: tile {i} holds every wave up to {finest:.4g} rad/m, "
-                f"tile {i + 1} only from {coarsest:.4g} on; give tile {i} more samples or tile {i + 1} a larger size"
+                f"tiles must overlap in wavenumbers: tile {i} holds every wave up to "
+                f"{finest:.4g} rad/m, tile {i + 1} only from {coarsest:.4g} on; "
+                f"give tile {i} more samples or tile {i + 1} a larger size"
             )
         cuts.append(math.sqrt(coarsest * finest))
     for i, (low, high) in enumerate(pairwise(cuts)):
         if not low < high:
             raise ParameterError(
-                f"tile {i + 1} must be finer than tile {i} and coarser than tile {i + 2}: nothing is left for it to hold"
+                f"tile {i + 1} must be finer than tile {i} and coarser than tile {i + 2}: "
+                "nothing is left for it to hold"
             )
     return tuple(pairwise([WHOLE[0], *cuts, WHOLE[1]]))
 
@@ -267,14 +269,15 @@ def tile_jobs(tiles: Iterable[Tile], seed: int) -> list[tuple[Grid, int, Band]]:
 
 
 def tile_seeds(seed: int, grids: Sequence[Grid]) -> list[int]:
-    """The seed of each tile: the largest has the cascade's own."""
+    """Return the seed of each tile; the largest has that of the cascade."""
     return [seed, *(tile_seed(seed, grid.lx, grid.ly) for grid in grids[1:])]
 
 
 def tile_seed(seed: int, lx: float, ly: float) -> int:
     """
-    The seed of a smaller tile: a hash of the cascade's and of the tile's size, by the generator
-    that draws the waves.
+    Return the seed of a smaller tile: a hash of the cascade's seed and the tile's size.
+
+    The hash is one block of the generator that realises the waves.
     """
     counter = tuple(
         np.array(word, dtype=np.uint64) for word in struct.unpack("<4I", struct.pack("<2d", lx, ly))
@@ -297,13 +300,15 @@ def _grids(tiles: Iterable[Tile]) -> list[Grid]:
     for i, (large, small) in enumerate(pairwise(grids)):
         if not (small.lx < large.lx and small.ly < large.ly):
             raise ParameterError(
-                f"tiles must go from the largest to the smallest, got {large.lx:g} x {large.ly:g} m before {small.lx:g} x {small.ly:g} m"
+                f"tiles must go from the largest to the smallest, "
+                f"got {large.lx:g} x {large.ly:g} m before {small.lx:g} x {small.ly:g} m"
             )
         for along, ratio in (("x", large.lx / small.lx), ("y", large.ly / small.ly)):
             if abs(ratio - round(ratio)) < 1e-9 * ratio:
                 warnings.warn(
-                    f"tile {i} is exactly {round(ratio)} times as wide as tile {i + 1} along {along}: together they repeat no later than "
-                    "the larger one alone; choose sizes whose ratio is not whole",
+                    f"tile {i} is exactly {round(ratio)} times as wide as tile {i + 1} along "
+                    f"{along}: together they repeat no later than the larger one alone; "
+                    "choose sizes whose ratio is not whole",
                     SeaWarning,
                     stacklevel=3,
                 )
@@ -313,7 +318,10 @@ def _grids(tiles: Iterable[Tile]) -> list[Grid]:
 
 def _checked_bands(bands: Sequence[Band], grids: Sequence[Grid]) -> tuple[Band, ...]:
     """
-    Check given bands: each goes on where the last ended, and lies where its tile has every wave.
+    Return given bands, each of which starts where the last ended.
+
+    Raises:
+        ParameterError: bands that leave a gap, or reach beyond the waves of their tile.
     """
     try:
         pairs = [(low, high) for low, high in bands]
@@ -335,21 +343,24 @@ def _checked_bands(bands: Sequence[Band], grids: Sequence[Grid]) -> tuple[Band, 
             raise ParameterError(f"bands must rise, got {low:g} to {high:g} rad/m for tile {i}")
         if i > 0 and low != checked[i - 1][1]:
             raise ParameterError(
-                f"bands must adjoin: tile {i - 1} ends at {checked[i - 1][1]!r} rad/m, tile {i} starts at {low!r}"
+                f"bands must adjoin: tile {i - 1} ends at {checked[i - 1][1]!r} rad/m, "
+                f"tile {i} starts at {low!r}"
             )
         if i > 0 and low < coarsest:
             raise ParameterError(
-                f"the band of tile {i} must start at {coarsest:.4g} rad/m, its longest waves, or above, got {low:g}"
+                f"the band of tile {i} must start at {coarsest:.4g} rad/m, its longest waves, "
+                f"or above, got {low:g}"
             )
         if i < len(grids) - 1 and high > finest:
             raise ParameterError(
-                f"the band of tile {i} must end at {finest:.4g} rad/m, its shortest waves, or below, got {high:g}"
+                f"the band of tile {i} must end at {finest:.4g} rad/m, its shortest waves, "
+                f"or below, got {high:g}"
             )
     return tuple(checked)
 
 
 def _loops(loop: float | Sequence[float] | None, count: int) -> list[float | None]:
-    """One period for each tile."""
+    """Return one period for each tile."""
     if not isinstance(loop, (tuple, list)):
         return [None if loop is None else LOOP.check("loop", loop)] * count
     if len(loop) != count:
@@ -361,14 +372,15 @@ def _loops(loop: float | Sequence[float] | None, count: int) -> list[float | Non
 
 def _warn_of_short_loops(sea: Sea, bands: Sequence[Band], loops: Sequence[float | None]) -> None:
     """
-    A loop should hold four periods of the waves that matter in its band: the sea's peak, or the
-    longest there if they are shorter.
+    Warn of loops shorter than four periods of the most energetic waves of a band.
+
+    These are at the peak of the sea, or the longest in the band if they are shorter.
     """
     for i, (band, loop) in enumerate(zip(bands, loops, strict=True)):
         if loop is not None and loop < 4.0 * (period := longest_period(sea, band)):
             warnings.warn(
-                f"a loop of {loop:g} s is less than four periods of the long waves of tile {i} ({4.0 * period:.1f} s): "
-                "they run visibly too fast or too slow",
+                f"a loop of {loop:g} s is less than four periods of the long waves of tile {i} "
+                f"({4.0 * period:.1f} s): they run visibly too fast or too slow",
                 SeaWarning,
                 stacklevel=3,
             )

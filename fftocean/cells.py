@@ -100,7 +100,8 @@ class Cells:
                 total[:, block] += part.share * self._variances_of(part, ax[block], ay[block])
         if not np.all((total >= 0.0) & (total < np.inf)):
             raise ParameterError(
-                "the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, and is not"
+                "the sea's spectrum must be finite and at least 0 at every wavenumber of the tile, "
+                f"got {total[~((total >= 0.0) & (total < np.inf))][0]} m^2 in a cell"
             )
         return total
 
@@ -152,8 +153,8 @@ class Cells:
         self, half_x: float, half_y: float, band: Band = WHOLE
     ) -> Iterator[tuple["Part", Real, Real, Real]]:
         """
-        Cover the plane with rays from k = 0, on which integrals up to a rectangle's edge, or from
-        there on, are smooth in theta.
+        Yield rays from k = 0 that cover the plane, on which integrals up to a rectangle's edge, or
+        from there on, are smooth in theta.
 
         Yields:
             Each part of the sea with the directions [rad] and weights of its rays, and |k| where
@@ -165,8 +166,9 @@ class Cells:
             [a for edge in band if 0.0 < edge < math.inf for a in _crossings(half_x, half_y, edge)]
         )
         # k = half_x / cos(theta) turns fast beside the axes of a long rectangle
-        near = np.concatenate([a + s * np.array([-1.0, 1.0])[:, None] * (2.0 ** np.arange(-2.0, 40.0)) for a, s in
-                               ((0.0, corner), (0.5 * np.pi, 0.5 * np.pi - corner))], axis=None)  # fmt: skip
+        both_sides = np.array([-1.0, 1.0])[:, None] * 2.0 ** np.arange(-2.0, 40.0)
+        axes = ((0.0, corner), (0.5 * np.pi, 0.5 * np.pi - corner))
+        near = np.concatenate([axis + angle * both_sides for axis, angle in axes], axis=None)
         near = near[(np.abs(near) < 0.5 * np.pi) | (np.abs(near - 0.5 * np.pi) < 0.5 * np.pi)]
         edges = np.remainder(
             np.concatenate([corners, corners + np.pi, circles, near, near + np.pi]), 2.0 * np.pi
@@ -204,8 +206,9 @@ class Cells:
         for part in self.parts:
             if abs(part.unity - 1.0) > TOLERANCE:
                 raise ParameterError(
-                    f"the spreading must integrate to 1 round the circle, within {TOLERANCE:g}, got {part.unity:.6g} for "
-                    f"{part.system.spreading!r:.60}: name narrow features and jumps in its `breaks`, or wrap it in CustomSpreading"
+                    f"the spreading must integrate to 1 round the circle, within {TOLERANCE:g}, "
+                    f"got {part.unity:.6g} for {part.system.spreading!r:.60}: name narrow features "
+                    "and jumps in its `breaks`, or wrap it in CustomSpreading"
                 )
         reach_x, reach_y = grid.reach
         within = self.inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
@@ -213,9 +216,10 @@ class Cells:
         scale = sum(part.share * part.mainly for part in self.parts)
         if not abs(held - within) <= TOLERANCE * scale:
             raise ParameterError(
-                f"the waves of a tile must hold the sea's variance at their wavenumbers, {within:.6g} m^2 of {self.specified:.6g} m^2, "
-                f"within {TOLERANCE:g}, got {held:.6g} m^2: name narrow features and jumps of the spectrum and the spreading in "
-                "their `breaks`"
+                "the waves of a tile must hold the sea's variance at their wavenumbers, "
+                f"{within:.6g} m^2 of {self.specified:.6g} m^2, within {TOLERANCE:g}, "
+                f"got {held:.6g} m^2: name narrow features and jumps of the spectrum and the "
+                "spreading in their `breaks`"
             )
 
     def distances(self, mx: Integer, my: Integer) -> tuple[Real, Real]:
@@ -227,7 +231,7 @@ class Cells:
         return nearest, np.hypot((ax + 0.5) * self.dkx, (ay + 0.5) * self.dky)
 
     def _variances_of(self, part: "Part", ax: Integer, ay: Integer) -> Real:
-        """One part's variances, (4, m)."""
+        """Return the variances of one part, (4, m)."""
         out = np.zeros((4, ax.size))
         kx, ky = ax * self.dkx, ay * self.dky
         k, theta = np.hypot(kx, ky), np.arctan2(ky, kx)
@@ -265,7 +269,7 @@ class Cells:
         return out
 
     def _by_points(self, part: "Part", kx: Real, ky: Real, p: int) -> Real:
-        """The mean density over cells by p x p Gauss points, (4, m)."""
+        """Return the mean density over cells by p x p Gauss points, (4, m)."""
         x, w = np.polynomial.legendre.leggauss(p)
         weight = (0.25 * w[:, None] * w).ravel()
         kx = kx[:, None] + 0.5 * self.dkx * np.repeat(x, p)
@@ -276,7 +280,7 @@ class Cells:
         return mean
 
     def _on_ray(self, direction: float, kx: Real, ky: Real) -> Flags:
-        """The cells of each quadrant that a ray from k = 0 meets, (4, m)."""
+        """Return the cells of each quadrant that a ray from k = 0 meets, (4, m)."""
         signs = np.array(QUADRANTS, dtype=np.float64)
         cosine, sine = math.cos(direction), math.sin(direction)
         along = signs[:, :1] * kx * cosine + signs[:, 1:] * ky * sine
@@ -286,13 +290,14 @@ class Cells:
         return met
 
     def _by_rays(self, part: "Part", mx: Integer, my: Integer, band: Band) -> Real:
-        """One part's variance in the cells (mx, my) within a band, by rays, (m,)."""
+        """Return the variance of one part in the cells (mx, my) within a band, by rays, (m,)."""
         out = np.zeros(mx.size)
         for start in range(0, mx.size, _CELLS):
             some = slice(start, start + _CELLS)
+            axes = ((mx, self.dkx), (my, self.dky))
             low_x, high_x, low_y, high_y = (
-                (m[some] + s) * dk for m, dk in ((mx, self.dkx), (my, self.dky)) for s in (-0.5, 0.5)
-            )  # fmt: skip
+                (m[some] + s) * dk for m, dk in axes for s in (-0.5, 0.5)
+            )
             cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), band)
             c, s = np.cos(theta), np.sin(theta)
             with np.errstate(divide="ignore", over="ignore"):
@@ -311,7 +316,7 @@ class Cells:
     def _rays(
         self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band
     ) -> tuple[Index, Real, Real]:
-        """Cover cells with rays from k = 0: the cell, direction and weight of each."""
+        """Return rays from k = 0 that cover cells: the cell, direction and weight of each."""
         low_x, high_x, low_y, high_y = sides
         heading = np.arctan2(low_y + high_y, low_x + high_x)
 
@@ -464,8 +469,8 @@ class Part:
 
     def rings(self, narrow: float) -> list[float]:
         """
-        The edges of the frequency panels narrower than `narrow`, and the jumps: a cell's energy
-        bends where they cross its sides.
+        Return the edges of the frequency panels narrower than `narrow`, and the jumps: the energy
+        of a cell bends where they cross its sides.
         """
         narrow_panels = np.flatnonzero(np.diff(self.k) < narrow)
         narrow_panels = narrow_panels[self.energy[narrow_panels] > 1e-6 * self.variance]
@@ -475,13 +480,13 @@ class Part:
 
     def radially(self, nearest: Real, farthest: Real) -> tuple[Real, Flags]:
         """
-        How large cells are beside their frequency panels, in quarters of one, and which of them one
-        or two panels do not hold.
+        Return the size of cells relative to their frequency panels, in quarters of a panel, and a
+        flag for cells that more than two panels cover.
         """
         return _beside(self.k, self.k_jumps, nearest, farthest, _TAIL * nearest)
 
     def angularly(self, theta: Real, half: Real) -> tuple[Real, Flags]:
-        """The same for direction panels, of angles `half` to both sides of theta."""
+        """Return the same for direction panels, of angles `half` to both sides of theta."""
         return _beside(self.theta, self.theta_jumps, theta - half, theta + half, np.inf)
 
 
@@ -498,7 +503,9 @@ def _beside(
 
 
 def _length_around(edges: Real, low: Real, high: Real) -> Real:
-    """The lengths of the intervals between edges in which some shorter ones lie; inf outside."""
+    """
+    Return the lengths of the intervals between edges that contain some shorter ones; inf outside.
+    """
     lengths: Real = np.concatenate([[np.inf], np.diff(edges), [np.inf]])[
         np.searchsorted(edges, 0.5 * (low + high))
     ]
@@ -506,7 +513,7 @@ def _length_around(edges: Real, low: Real, high: Real) -> Real:
 
 
 def _crossings(half_x: float, half_y: float, edge: float) -> list[float]:
-    """The directions in which the circle |k| = edge leaves a rectangle [rad]."""
+    """Return the directions in which the circle |k| = edge leaves a rectangle [rad]."""
     found = [math.acos(half_x / edge)] if half_x < edge else []
     found += [math.asin(half_y / edge)] if half_y < edge else []
     return [sign * angle + turn for angle in found for sign in (-1.0, 1.0) for turn in (0.0, np.pi)]
@@ -514,8 +521,8 @@ def _crossings(half_x: float, half_y: float, edge: float) -> list[float]:
 
 def _toward_axes(dkx: float, dky: float) -> Real:
     """
-    Directions that narrow by halves toward the axis along which a long cell stretches; none for
-    cells up to twice as long as wide.
+    Return directions that narrow by halves toward the axis along which a long cell stretches; none
+    for cells up to twice as long as wide.
     """
     ratio = max(dkx, dky) / min(dkx, dky)
     if ratio <= 2.0:

@@ -1,4 +1,4 @@
-"""The constants of nature that the sea needs, in SI."""
+"""Physical constants of water waves, in SI."""
 
 from typing import Final
 

@@ -1,16 +1,15 @@
 """
-The water at places instead of the places of the water: fields resampled to a grid of world x and y.
+Fields resampled to a regular grid of world positions.
 
-A frame tells, for each undisplaced position x0, where its water is: at x0 + c D(x0). Here that is
-turned round. For each world position x of the grid the x0 is found whose water is there, and the
-fields are taken at x0. What comes out is the same surface as a plain height field: an
-`EulerianFrame`.
+A frame gives, for each undisplaced position x0, the displaced position x0 + c D(x0). This module
+inverts that map: for each world position x of the grid it finds the x0 whose water is at x, and
+takes the fields at x0. The result is the same surface as a plain height field: an `EulerianFrame`.
 
 Between samples the fields are quintic B-splines on a grid twice as fine. Their coefficients need no
-solving: they are the frame of a sea whose waves are divided by the spline's own response to each
-wavenumber (Unser 1999), and that sea is an `Ocean`, too. On a wave of wavenumber k sampled h apart
-the spline errs by (k h)^6/30240: 5e-4 at the shortest wave of the tile, 8e-6 at twice its length,
-so on a sea some hundredth of a millimetre.
+linear solve: they are the frame of a sea whose waves are divided by the spline's response to each
+wavenumber (Unser 1999), and that sea is an `Ocean`, too. For a wave of wavenumber k sampled h apart
+the relative error of the spline is (k h)^6/30240: 5e-4 at the shortest wave of the tile, 8e-6 at
+twice its length, about a hundredth of a millimetre for a sea.
 """
 
 import math
@@ -31,15 +30,18 @@ from fftocean.host import require_memory
 from fftocean.kernels import interpolate, resample, surface
 from fftocean.ocean import Ocean, check_fields, memory_needed
 
-# [m], what splines may miss of the height, as a standard deviation; the most of a tile is about 13
-# times that
 EXACT = 5e-6
-FINEST = 8  # samples of the splines to one of the ocean, at most
+"""
+The standard deviation of the splines' error in height that is allowed [m]; the largest error of a
+tile is about 13 times that.
+"""
+FINEST = 8
+"""The largest number of spline samples per sample of the ocean, along each axis."""
 STEEPEST = 1e3
 """The largest slope that is returned; only the rim of a fold is steeper."""
 
 DEFAULT = ("height", "slope_x", "slope_y")
-"""The fields that are returned unless told otherwise."""
+"""The fields that are returned by default."""
 
 _MADE_OF = {
     **{name: (name,) for name in BY_PLACE},
@@ -52,21 +54,20 @@ _MADE_OF = {
 
 class Eulerian:
     """
-    An ocean seen from fixed places. `frame` and `loop_frame` are those of `Ocean`, but sample [iy,
-    ix] is the water AT x, y.
+    An ocean sampled at fixed world positions.
 
-    Of an `EulerianFrame`, in world coordinates: height; slope_x, slope_y, dz/dx and dz/dy of the
-    surface (cut at 1000, which only the rim of a fold exceeds); normal, the surface's own. And of
-    the water that is there just now: jacobian, and velocity_*, before choppiness as ever. A height
-    field has neither displacement nor stretch: to ask for one is an error.
+    `frame` and `loop_frame` are those of `Ocean`, but sample [iy, ix] is the water AT x, y.
 
-    Where the surface is folded over a place, the highest of its sheets is taken; `folded` tells
-    where, of the last frame.
+    An `EulerianFrame` has height; slope_x and slope_y, dz/dx and dz/dy in world coordinates (cut at
+    1000, which only the rim of a fold exceeds); and normal. Of the water that is at x, y it has
+    jacobian and velocity_*, before choppiness as in every frame. A height field has neither
+    displacement nor displacement gradient: a request for one is an error.
 
-    It keeps the last frame's positions, for `resample`: one thread at a time.
+    Of a folded surface the highest sheet is taken; `folded` marks these positions in the last
+    frame. The positions of the last frame are kept for `resample`. One thread at a time.
 
     Raises:
-        ParameterError: not an ocean, or more memory than there is.
+        ParameterError: not an ocean, or more memory than is available.
 
     Pinned by tests/test_eulerian.py, against the parametric surface summed wave by wave.
     """
@@ -97,7 +98,7 @@ class Eulerian:
 
     def frame(self, t: float, fields: Sequence[str] = DEFAULT) -> EulerianFrame:
         """
-        Return the water at time t, by place; as `Ocean.frame`.
+        Return the frame at time t by world position, as `Ocean.frame`.
 
         Raises:
             ParameterError: as `Ocean.frame`, and a field that only a displaced surface has.
@@ -107,7 +108,7 @@ class Eulerian:
 
     def loop_frame(self, j: int, count: int, fields: Sequence[str] = DEFAULT) -> EulerianFrame:
         """
-        Return the j-th of `count` frames of the loop, by place; as `Ocean.loop_frame`.
+        Return the j-th of `count` frames of the loop by world position, as `Ocean.loop_frame`.
 
         Raises:
             ParameterError: as `Ocean.loop_frame`.
@@ -120,23 +121,23 @@ class Eulerian:
     @property
     def folded(self) -> npt.NDArray[np.bool_]:
         """
-        Where several sheets of the last frame's surface lie over one place, (ny, nx); their number
-        is `folded.sum()`.
+        Mask of the last frame's positions with several sheets of the surface over them, (ny, nx).
         """
         return self._folded
 
     @property
     def residual(self) -> float:
         """
-        How far the water taken is from its place, at most, in the last frame [m]; above 1e-6 m only
-        beside folds.
+        Largest distance of the water taken from its position, in the last frame [m].
+
+        It exceeds 1e-6 m only beside folds.
         """
         return float(np.max(self._residual)) / float(np.min(self._cells))
 
     @property
     def positions(self) -> tuple[Real, Real]:
         """
-        Where the water at each place of the last frame would be at rest: x0, y0, each (ny, nx) [m].
+        Undisplaced positions x0, y0 of the water at each position, (ny, nx) each [m].
         """
         return (self._u / self._cells[0]).reshape(self.grid.shape), (
             self._v / self._cells[1]
@@ -144,8 +145,9 @@ class Eulerian:
 
     def resample(self, field: Real) -> Real:
         """
-        Return another field of the last frame's moment, such as foam, by place: (ny, nx), bilinear
-        between its samples.
+        Return another field at the last frame's time, such as foam, by world position: (ny, nx).
+
+        The field is interpolated bilinearly between its samples.
 
         Raises:
             ParameterError: the field has another shape than the tile.
@@ -165,6 +167,7 @@ class Eulerian:
         return resampled
 
     def _reusable(self, needs: tuple[str, ...]) -> Frame | None:
+        """Return the last frame of splines if its arrays hold all the fields needed."""
         return (
             self._frame
             if self._frame is not None and set(needs) <= set(self._frame.fields)
@@ -172,7 +175,7 @@ class Eulerian:
         )
 
     def _resample(self, splines: Frame, fields: tuple[str, ...]) -> EulerianFrame:
-        """Find the water at each place, and take the fields there."""
+        """Find the water at each position, and return the fields there."""
         self._frame = splines
         self._find(splines)
         needs = tuple(dict.fromkeys(need for name in fields for need in _MADE_OF[name]))
@@ -198,8 +201,9 @@ class Eulerian:
 
     def _find(self, splines: Frame) -> None:
         """
-        Set `_u`, `_v` to the undisplaced positions of the water at each place, in samples of the
-        splines.
+        Set `_u`, `_v` to the undisplaced positions of the water at each position of the grid.
+
+        They are in samples of the splines.
         """
         fine = splines.grid
         c = splines.choppiness
@@ -215,13 +219,12 @@ class Eulerian:
         resample.uncover(
             at_nodes[0] + along, at_nodes[1] + up, at_nodes[2], self._finer, u, v, top, self._folded
         )
-        tolerance = (
-            1e-6 if splines.height.dtype == np.float32 else 1e-12
-        )  # of a sample: what the fields' own roundings allow
+        # [samples]: the rounding errors of the fields allow no less
+        tolerance = 1e-6 if splines.height.dtype == np.float32 else 1e-12
         resample.invert(shift, self._x, self._y, 8, tolerance, self._u, self._v, self._residual)
 
     def _sampled(self, splines: Frame, names: tuple[str, ...]) -> dict[str, Real]:
-        """The splines of some fields at the positions found, by name, each (ny, nx), float64."""
+        """Return fields at the positions found, by name, (ny, nx) each, float64."""
         if not names:
             return {}
         out = np.empty((self._u.size, len(names)))
@@ -234,8 +237,9 @@ class Eulerian:
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """
-    The fields asked for, and those to ask of the splines: displacement and height to find the
-    water, and what the fields are made of.
+    Return the requested fields, and the fields of the splines from which they are computed.
+
+    The latter include displacement and height, by which the water is found.
     """
     if isinstance(fields, Iterable):
         fields = (fields,) if isinstance(fields, str) else tuple(fields)
@@ -249,20 +253,20 @@ def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 def _fineness(ocean: Ocean) -> int:
     """
-    Return how many samples of the splines to one of the ocean keep the height to `EXACT`: 2 for
-    most seas, more for storms on few samples.
+    Return the number of spline samples per sample of the ocean that keeps the error to `EXACT`.
 
-    A quintic spline through samples h apart misses a wave of wavenumber k by (k h)^6 / 30240 of its
-    amplitude (Fourier's error kernel of the cardinal spline, to leading order), along each axis.
+    It is 2 for most seas, and more for storms on few samples. A quintic spline through samples h
+    apart has the error (k h)^6 / 30240 of the amplitude for a wave of wavenumber k (the Fourier
+    error kernel of the cardinal spline, to leading order), along each axis.
     """
     a, grid = ocean.amplitudes, ocean.grid
     energy = 2.0 * a.squares  # a^2/2 of the two waves of an entry
     finer = 2
     while finer < FINEST:
-        missed = (grid.kx[None, :] * grid.lx / (grid.nx * finer)) ** 6 + (
+        error = (grid.kx[None, :] * grid.lx / (grid.nx * finer)) ** 6 + (
             grid.ky[:, None] * grid.ly / (grid.ny * finer)
         ) ** 6
-        if float(np.sqrt(np.sum(energy * (missed / 30240.0) ** 2))) <= EXACT:
+        if float(np.sqrt(np.sum(energy * (error / 30240.0) ** 2))) <= EXACT:
             break
         finer *= 2
     return finer
@@ -270,17 +274,16 @@ def _fineness(ocean: Ocean) -> int:
 
 def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
     """
-    The ocean whose frames are the quintic spline coefficients of this one's fields, on a finer
-    grid.
+    Return an ocean whose frames are the quintic spline coefficients of another's fields.
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(grid.active)
-    rows_there = grid.my[rows]  # negative ones count from the end there, too
+    finer_rows = grid.my[rows]  # negative ones count from the end there, too
     response = _response(grid.mx[columns] / finer.nx) * _response(grid.my[rows] / finer.ny)
 
     def spread(values: npt.NDArray[Any], divisor: Real) -> npt.NDArray[Any]:
         wide = np.zeros(finer.half_shape, dtype=values.dtype, order="F")
-        wide[rows_there, columns] = values[rows, columns] / divisor
+        wide[finer_rows, columns] = values[rows, columns] / divisor
         return wide
 
     stretched: Amplitudes = replace(
@@ -296,8 +299,10 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
 
 def _response(cycles: Real) -> Real:
     """
-    What the quintic B-spline at whole numbers makes of a wave of so many cycles a sample: its
-    discrete Fourier transform.
+    Return the discrete Fourier transform of the quintic B-spline sampled at whole numbers.
+
+    Args:
+        cycles: of the wave, per sample.
     """
     angle = 2.0 * math.pi * cycles
     response: Real = (66.0 + 52.0 * np.cos(angle) + 2.0 * np.cos(2.0 * angle)) / 120.0
@@ -306,7 +311,9 @@ def _response(cycles: Real) -> Real:
 
 def _at_nodes(coefficients: Real) -> Real:
     """
-    The splines at their own nodes, (fields, my, mx): each axis filtered by 1, 26, 66, 26, 1 in 120.
+    Return the splines at their nodes, (fields, my, mx).
+
+    Each axis is filtered by (1, 26, 66, 26, 1)/120.
     """
     for axis in (-2, -1):
         total = 66.0 * coefficients

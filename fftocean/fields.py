@@ -13,7 +13,7 @@ backward e^{+i omega t} by -i omega and +i omega.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 
@@ -32,19 +32,23 @@ class Field:
     caption: str
 
 
+_H: Final = "height"
+_P: Final = "potential"
+_RAW = ", before choppiness"
+
 FIELDS: dict[str, Field] = {
-    #                     of          dx dy dt
-    "height":      Field("height",    0, 0, 0, "m",   "vertical displacement"),
-    "displace_x":  Field("potential", 1, 0, 0, "m",   "horizontal displacement along x, before choppiness"),
-    "displace_y":  Field("potential", 0, 1, 0, "m",   "horizontal displacement along y, before choppiness"),
-    "slope_x":     Field("height",    1, 0, 0, "1",   "d height / dx"),
-    "slope_y":     Field("height",    0, 1, 0, "1",   "d height / dy"),
-    "stretch_xx":  Field("potential", 2, 0, 0, "1",   "d displace_x / dx"),
-    "stretch_xy":  Field("potential", 1, 1, 0, "1",   "d displace_x / dy = d displace_y / dx"),
-    "stretch_yy":  Field("potential", 0, 2, 0, "1",   "d displace_y / dy"),
-    "velocity_x":  Field("potential", 1, 0, 1, "m/s", "d displace_x / dt of the surface particle, before choppiness"),
-    "velocity_y":  Field("potential", 0, 1, 1, "m/s", "d displace_y / dt of the surface particle, before choppiness"),
-    "velocity_z":  Field("height",    0, 0, 1, "m/s", "d height / dt of the surface particle"),
+    #                     of  dx dy dt
+    "height":      Field(_H, 0, 0, 0, "m",   "vertical displacement"),
+    "displace_x":  Field(_P, 1, 0, 0, "m",   "horizontal displacement along x" + _RAW),
+    "displace_y":  Field(_P, 0, 1, 0, "m",   "horizontal displacement along y" + _RAW),
+    "slope_x":     Field(_H, 1, 0, 0, "1",   "d height / dx"),
+    "slope_y":     Field(_H, 0, 1, 0, "1",   "d height / dy"),
+    "stretch_xx":  Field(_P, 2, 0, 0, "1",   "d displace_x / dx"),
+    "stretch_xy":  Field(_P, 1, 1, 0, "1",   "d displace_x / dy = d displace_y / dx"),
+    "stretch_yy":  Field(_P, 0, 2, 0, "1",   "d displace_y / dy"),
+    "velocity_x":  Field(_P, 1, 0, 1, "m/s", "d displace_x / dt of the surface particle" + _RAW),
+    "velocity_y":  Field(_P, 0, 1, 1, "m/s", "d displace_y / dt of the surface particle" + _RAW),
+    "velocity_z":  Field(_H, 0, 0, 1, "m/s", "d height / dt of the surface particle"),
 }  # fmt: skip
 
 DISPLACEMENT_GRADIENT = ("stretch_xx", "stretch_xy", "stretch_yy")

@@ -1,13 +1,12 @@
 """
 Forks while other threads compute.
 
-A forked child has only the thread that forked. What another thread was in the middle of stays as it
-was for ever: a plan half made, a lock held by nobody. So a fork waits until no thread makes an
-ocean or computes a frame, and takes the locks of the libraries that plan and compile; then the
-child can make oceans and frames of its own. It waits for `PATIENCE` seconds at most, so a fork
-never hangs, and what a child may do after a longer wait is not promised. Nor is a fork during an
-import in another thread, which Python itself does not survive: import the package and make a first
-ocean before.
+A forked child has only the thread that forked. The work of other threads is left unfinished: a plan
+half made, a lock that is never released. So a fork waits until no thread makes an ocean or computes
+a frame, and takes the locks of the libraries that plan and compile; then the child can make oceans
+and frames of its own. It waits for `PATIENCE` seconds at most, so a fork never hangs; a child
+forked after a longer wait can hang. So can one forked during an import in another thread, which
+Python itself does not survive: import the package and make a first ocean before.
 """
 
 import contextlib
@@ -22,23 +21,23 @@ PATIENCE = 30.0
 
 
 class Lock(Protocol):
-    """A lock that may be waited for."""
+    """A lock that can be waited for."""
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take it, or return False after `timeout` seconds."""
+        """Take the lock, or return False after `timeout` seconds."""
 
     def release(self) -> None:
-        """Give it back."""
+        """Release the lock."""
 
 
 class _Gate:
-    """How many threads are at work, and whether others must wait before they begin."""
+    """Number of threads at work, and a flag that makes others wait."""
 
     def __init__(self) -> None:
         self.changed = threading.Condition()
         self.working = 0
         self.closed = False
-        self.own = threading.local()  # how often the thread itself is inside
+        self.own = threading.local()  # depth of the blocks of the thread itself
 
 
 _gate = _Gate()
@@ -47,14 +46,14 @@ _taken: list[Lock] = []
 
 
 def guard(lock: Lock) -> None:
-    """Let each fork take a lock of a library, so that the child gets it free."""
+    """Make each fork take a lock of a library, so that it is free in the child."""
     _guarded.append(lock)
 
 
 @contextlib.contextmanager
 def no_fork() -> Iterator[None]:
     """
-    Keep forks of other threads waiting while the block runs; a block within a block is no other.
+    Make forks of other threads wait while the block runs; blocks can be nested.
     """
     gate = _gate
     depth = getattr(gate.own, "depth", 0)
@@ -97,7 +96,7 @@ def _in_child() -> None:
     global _gate
     while _taken:
         _taken.pop().release()
-    _gate = _Gate()  # nobody else is here
+    _gate = _Gate()  # the child has no other thread
 
 
 if hasattr(os, "register_at_fork"):

@@ -1,20 +1,34 @@
-"""Frames: the water at one moment, by the undisplaced position of the water or by place."""
+"""Frames: the fields of the water at one time, by rest position or by world position."""
 
 from collections.abc import Mapping
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from fftocean.arrays import Real
 from fftocean.errors import FieldError
+from fftocean.fields import FIELDS
 from fftocean.grid import Grid
 
 Own = TypeVar("Own", bound="_Arrays")
 
 
+class _FieldProperty(property):
+    """A field as an attribute, with the caption and unit of its row of `FIELDS`."""
+
+    def __init__(self, name: str) -> None:
+        field = FIELDS[name]
+        caption, unit = field.caption, "-" if field.unit == "1" else field.unit
+        if not caption.startswith("d "):  # a derivative, whose d stays small
+            caption = caption[0].upper() + caption[1:]
+        super().__init__(lambda frame: frame[name])
+        self.__doc__ = f"{caption} [{unit}]."
+
+    if TYPE_CHECKING:  # a plain property would make every field of type Any
+
+        def __get__(self, frame: Any, owner: type | None = None) -> Real: ...  # type: ignore[override]
+
+
 class _Arrays:
-    """
-    The moment, the grid and the named arrays that all frames have, and the fields that mean the
-    same in all of them.
-    """
+    """Time, grid and named arrays, with the fields that mean the same in all frames."""
 
     __slots__ = ("_arrays", "choppiness", "grid", "t")
 
@@ -26,7 +40,7 @@ class _Arrays:
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """The names of the arrays that are here."""
+        """Names of the arrays in this frame."""
         return tuple(self._arrays)
 
     def __getitem__(self, name: str) -> Real:
@@ -42,15 +56,18 @@ class _Arrays:
             raise FieldError(self._missing(name)) from None
 
     def _missing(self, name: str) -> str:
-        """The reason why a field is not here, and the way to it."""
+        """Return the message for a field that is not in this frame."""
         made = {
             "normal": ", or take fo.normals(frame)",
             "jacobian": ", or take fo.jacobian(frame)",
         }.get(name, "")
-        return f"this frame has {', '.join(self._arrays)}; for {name} ask frame(t, fields=({name!r}, ...)){made}"
+        return (
+            f"this frame has {', '.join(self._arrays)}; "
+            f"for {name} ask frame(t, fields=({name!r}, ...)){made}"
+        )
 
     def _become(self: Own, other: Own) -> None:
-        """Take over another frame's moment and arrays."""
+        """Take over the time and arrays of another frame."""
         self.t, self.grid, self.choppiness, self._arrays = (
             other.t,
             other.grid,
@@ -59,37 +76,15 @@ class _Arrays:
         )
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}(t={self.t}, {self.grid.nx} x {self.grid.ny}, {', '.join(self._arrays)})"
+        size = f"{self.grid.nx} x {self.grid.ny}"
+        return f"{type(self).__name__}(t={self.t}, {size}, {', '.join(self._arrays)})"
 
-    @property
-    def height(self) -> Real:
-        """Vertical displacement [m]."""
-        return self["height"]
-
-    @property
-    def slope_x(self) -> Real:
-        """d height / dx [-]."""
-        return self["slope_x"]
-
-    @property
-    def slope_y(self) -> Real:
-        """d height / dy [-]."""
-        return self["slope_y"]
-
-    @property
-    def velocity_x(self) -> Real:
-        """d displace_x / dt of the surface particle, choppiness not applied [m/s]."""
-        return self["velocity_x"]
-
-    @property
-    def velocity_y(self) -> Real:
-        """d displace_y / dt of the surface particle, choppiness not applied [m/s]."""
-        return self["velocity_y"]
-
-    @property
-    def velocity_z(self) -> Real:
-        """d height / dt of the surface particle [m/s]."""
-        return self["velocity_z"]
+    height = _FieldProperty("height")
+    slope_x = _FieldProperty("slope_x")
+    slope_y = _FieldProperty("slope_y")
+    velocity_x = _FieldProperty("velocity_x")
+    velocity_y = _FieldProperty("velocity_y")
+    velocity_z = _FieldProperty("velocity_z")
 
     @property
     def normal(self) -> Real:
@@ -98,49 +93,27 @@ class _Arrays:
 
     @property
     def jacobian(self) -> Real:
-        """
-        Area of displaced over still surface [-], of the water that the sample is about; below 0 it
-        is folded.
-        """
+        """Area of the displaced surface over that at rest [-]; below 0 the water is folded."""
         return self["jacobian"]
 
 
 class Frame(_Arrays):
     """
-    The water at one moment: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
+    The water at one time: named arrays, (ny, nx), indexed [iy, ix]; x east, y north, z up; SI.
 
-    Sample [iy, ix] is the water that is at rest at x, y. Only the fields that were asked for are
-    there; the others raise `FieldError`. Displacements, stretches and horizontal velocities are
+    Sample [iy, ix] is the water whose rest position is (x, y) of the grid. Fields that were not
+    asked for raise `FieldError`. Displacements, stretches and horizontal velocities are
     those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height),
     where c is `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
     """
 
     __slots__ = ()
 
-    @property
-    def displace_x(self) -> Real:
-        """Horizontal displacement along x, choppiness not applied [m]."""
-        return self["displace_x"]
-
-    @property
-    def displace_y(self) -> Real:
-        """Horizontal displacement along y, choppiness not applied [m]."""
-        return self["displace_y"]
-
-    @property
-    def stretch_xx(self) -> Real:
-        """d displace_x / dx [-]."""
-        return self["stretch_xx"]
-
-    @property
-    def stretch_xy(self) -> Real:
-        """d displace_x / dy = d displace_y / dx [-]."""
-        return self["stretch_xy"]
-
-    @property
-    def stretch_yy(self) -> Real:
-        """d displace_y / dy [-]."""
-        return self["stretch_yy"]
+    displace_x = _FieldProperty("displace_x")
+    displace_y = _FieldProperty("displace_y")
+    stretch_xx = _FieldProperty("stretch_xx")
+    stretch_xy = _FieldProperty("stretch_xy")
+    stretch_yy = _FieldProperty("stretch_yy")
 
 
 BY_PLACE = (
@@ -159,19 +132,18 @@ NOT_BY_PLACE = "a height field over places has no displacement, nor the stretch 
 
 
 def _absent(name: str) -> property:
-    """Return a property that raises the `FieldError` of a field which is never here."""
+    """Return a property that raises the `FieldError` of a field which this frame never has."""
     return property(lambda frame: frame[name], doc=f"{name}: absent, raises `FieldError`.")
 
 
 class EulerianFrame(_Arrays):
     """
-    The water at places: named arrays, (ny, nx), indexed [iy, ix]; sample [iy, ix] is the water that
-    is now at x, y.
+    The water by world position: named arrays, (ny, nx), indexed [iy, ix]; SI.
 
-    The surface is at (x, y, height): height, slope_x, slope_y and normal are those of a height
-    field over world x and y; SI. jacobian and velocity_* are those of the water that is there now;
-    horizontal velocities are before `choppiness`, as ever. There are no displacements and no
-    stretches, and nothing that is made of them.
+    Sample [iy, ix] is the water that is at (x, y) of the grid at time t. The surface is at (x, y,
+    height): height, slope_x, slope_y and normal are those of a height field over world x and y.
+    jacobian and velocity_* belong to the water particle at that position; horizontal velocities are
+    before `choppiness`. There are no displacements and no stretches.
     """
 
     __slots__ = ()

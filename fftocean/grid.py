@@ -1,4 +1,4 @@
-"""The tile: how many samples, how wide, in which order, and which wavenumbers it can hold."""
+"""Sample positions and wavenumbers of a periodic tile."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -52,17 +52,17 @@ class Grid:
 
     @property
     def half_shape(self) -> tuple[int, int]:
-        """(ny, nx // 2 + 1): the shape of its spectrum."""
+        """(ny, nx // 2 + 1): the shape of a half spectrum."""
         return self.ny, self.nx // 2 + 1
 
     @property
     def x(self) -> Real:
-        """Where the columns are, (nx,) [m]."""
+        """The positions of the columns, (nx,) [m]."""
         return np.arange(self.nx) * (self.lx / self.nx)
 
     @property
     def y(self) -> Real:
-        """Where the rows are, (ny,) [m]."""
+        """The positions of the rows, (ny,) [m]."""
         return np.arange(self.ny) * (self.ly / self.ny)
 
     @property
@@ -82,7 +82,7 @@ class Grid:
 
     @property
     def my(self) -> Integer:
-        """Integer wavenumbers of its rows, (ny,): 0, 1, ..., -2, -1."""
+        """Integer wavenumbers of the half plane's rows, (ny,): 0, 1, ..., -2, -1."""
         return np.fft.ifftshift(np.arange(self.ny, dtype=np.int64) - self.ny // 2)
 
     @property
@@ -111,7 +111,8 @@ class Grid:
     @property
     def active(self) -> npt.NDArray[np.bool_]:
         """
-        Which entries of the half plane hold a wave: all but k = 0 and the Nyquist row and column.
+        True for the entries of the half plane that hold a wave: all but k = 0 and the Nyquist row
+        and column.
         """
         reach_x, reach_y = self.reach
         mask: npt.NDArray[np.bool_] = (self.mx <= reach_x)[None, :] & (np.abs(self.my) <= reach_y)[
@@ -122,7 +123,7 @@ class Grid:
 
 
 def _pair(name: str, value: Any) -> tuple[Any, Any]:
-    """One value for both axes, or two."""
+    """Return one value for both axes, or two."""
     if isinstance(value, (tuple, list)):
         if len(value) != 2:
             raise ParameterError(f"{name} must be one value or two, (x, y), got {value!r}")

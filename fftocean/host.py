@@ -83,7 +83,8 @@ def require_memory(what: str, needed: float) -> None:
     if needed > available:
         free = max(available, 0.0) / 2**30
         raise ParameterError(
-            f"{what} needs about {needed / 2**30:.1f} GiB of memory, but only {free:.1f} GiB are free"
+            f"{what} needs about {needed / 2**30:.1f} GiB of memory, "
+            f"but only {free:.1f} GiB are free"
         )
 
 

@@ -1,10 +1,11 @@
 """
-Mip chains: each level the box means of the one before, for any number of samples, down to one.
+Mip chains of maps, down to a single texel.
 
-Level l has max(1, n >> l) samples a side, as GPUs count them. Means are kept on every level: of a
-height, of foam. What a mean loses is kept beside it: the covariance of the slopes within each
-texel, so that distant water, whose waves are smaller than a texel, keeps its roughness (LEAN
-mapping: Olano & Baker 2010). Over any level
+Each level holds box means of the one before, for any number of samples: level l has max(1, n >> l)
+samples a side, as GPUs count them. Every level has the mean of the first, as of a height or of
+foam. The covariance of the slopes within each texel holds the roughness that a mean loses, so that
+distant water, whose waves are smaller than a texel, stays rough (LEAN mapping: Olano & Baker 2010).
+Over any level
 
     variance of the mean slopes + mean of the covariances = variance of all slopes.
 """
@@ -21,30 +22,34 @@ from fftocean.physics.sea import Sea
 
 SHORTEST = 0.0173
 """
-Where gravity waves end: the wave of least speed, of 363 rad/m in clean water [m]  (Lamb 1932, art.
+The shortest gravity wave [m]: the wave of least speed, of 363 rad/m in clean water (Lamb 1932, art.
 267).
 """
 
 
 def chain(texels: Real) -> list[Real]:
     """
-    Return the levels of a picture (ny, nx, channels), itself the first; float64 inside, each in the
-    picture's own precision.
+    Return the levels of a map (ny, nx, channels), of which the first is the map itself.
+
+    Means are computed in float64, and stored in the precision of the map.
     """
     return [texels, *(level.astype(texels.dtype) for level in _chain(texels)[1:])]
 
 
 def slope_covariances(slope_x: Real, slope_y: Real, unresolved: Real | None = None) -> list[Real]:
     """
-    Return the covariance of the slopes within each texel of each level, (rows, columns, 3): xx, xy,
-    yy [-].
+    Return the covariance of the slopes within each texel of each level.
 
-    A texel of level 0 is one sample: what it holds within are the waves that the tile does not.
+    A texel of level 0 is one sample; the covariance within it is that of waves too short for the
+    tile.
 
     Args:
         slope_x, slope_y: (ny, nx) each.
         unresolved: the covariance of the slopes of waves that are not in the tile, (3,), the same
             everywhere; None for none.
+
+    Returns:
+        The levels, (rows, columns, 3) each: xx, xy, yy [-].
     """
     x: Real = slope_x.astype(np.float64)
     y: Real = slope_y.astype(np.float64)
@@ -54,9 +59,8 @@ def slope_covariances(slope_x: Real, slope_y: Real, unresolved: Real | None = No
     for level in levels:
         x, y = np.moveaxis(level[..., :2], -1, 0)
         covariance = level[..., 2:] - np.stack([x * x, x * y, y * y], axis=-1)
-        covariance[..., ::2] = np.maximum(
-            covariance[..., ::2], 0.0
-        )  # where all slopes are equal, roundings are left
+        # where all slopes are equal, rounding errors remain
+        covariance[..., ::2] = np.maximum(covariance[..., ::2], 0.0)
         within.append((covariance + beyond).astype(slope_x.dtype))
     return within
 
@@ -65,18 +69,16 @@ def normals(
     normal: Real, geometry: tuple[Real, Real, Real, Real, Real], choppiness: float
 ) -> list[Real]:
     """
-    Return the levels of a normal map, (rows, columns, 3): the normal of the mean plane of the water
-    in each texel.
+    Return the levels of a normal map, (rows, columns, 3): normals of the mean plane in each texel.
 
-    Not the mean of the normals, which are of length 1 each, but that of the cross products of the
-    tangents, whose length is the area: what they add up to is square to the rim of the patch, and
-    its slope is the mean slope, weighted with the area seen from above. The last level of a
-    periodic tile is up.
+    Cross products of the tangents are averaged, whose length is the area, rather than normals of
+    length 1. Their sum is normal to the rim of the patch, and its slope is the mean slope, weighted
+    with the area seen from above. The last level of a periodic tile points up.
 
     Args:
-        normal: level 0, which is returned as it is.
+        normal: level 0, returned unchanged.
         geometry: slope_x, slope_y, stretch_xx, stretch_xy, stretch_yy, each (ny, nx).
-        choppiness: factor on the stretches.
+        choppiness: factor on the displacement gradient [-].
     """
     sx, sy, xx, xy, yy = (field.astype(np.float64) for field in geometry)
     a, b, d = 1.0 + choppiness * xx, choppiness * xy, 1.0 + choppiness * yy
@@ -86,13 +88,15 @@ def normals(
 
 def unresolved_slopes(ocean: Ocean | Cascade, shortest: float = SHORTEST) -> Real:
     """
-    Return the slope covariance of the waves of an ocean's sea that are too short for its tile:
-    (3,), xx, xy, yy [-].
+    Return the slope covariance of the waves that are too short for an ocean's tile.
 
-    They are those beyond the tile's rectangle of wavenumbers, down to `shortest` [m]: the tail of
-    the sea's own spectrum, which for the spectra here falls as k^-3, so that each octave of waves
-    is as rough as the next. An ocean of given waves has none; nor has a tile of a cascade whose
-    band ends, as the next tile holds them. Of a cascade it is that of its last tile.
+    These waves lie beyond the tile's rectangle of wavenumbers, down to `shortest` [m]. They are the
+    tail of the sea's spectrum, which falls as k^-3 in the spectra here, so that each octave of
+    waves is as rough as the next. An ocean of given waves has none; neither has a tile of a cascade
+    whose band ends, as the next tile holds them. A cascade has those of its last tile.
+
+    Returns:
+        (3,): xx, xy, yy [-].
     """
     if isinstance(ocean, Cascade):
         ocean = ocean.oceans[-1]
@@ -103,8 +107,9 @@ def unresolved_slopes(ocean: Ocean | Cascade, shortest: float = SHORTEST) -> Rea
 
 def beyond(sea: Sea, grid: Grid, shortest: float) -> Real:
     """
-    The integral of (kx kx, kx ky, ky ky) S(k) over wavenumbers beyond a tile's, up to 2 pi /
-    shortest: rays of Simpson's rule.
+    Integrate (kx kx, kx ky, ky ky) S(k) over wavenumbers beyond a tile's, up to 2 pi / shortest.
+
+    The integral along each ray is Simpson's rule.
     """
     highest = 2.0 * np.pi / shortest
     reach_x, reach_y = grid.reach
@@ -130,7 +135,7 @@ _STEPS = 64
 
 
 def _chain(texels: Real) -> list[Real]:
-    """The levels in float64."""
+    """Return the levels in float64."""
     levels: list[Real] = [np.ascontiguousarray(texels, dtype=np.float64)]
     while max(levels[-1].shape[:2]) > 1:
         rows, columns, channels = levels[-1].shape
@@ -141,7 +146,7 @@ def _chain(texels: Real) -> list[Real]:
 
 
 def _unit(vectors: Real) -> Real:
-    """The same vectors at length 1; up where there is none."""
+    """Return the vectors scaled to length 1; a vector of length 0 becomes up."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     unit: Real = np.where(
         length > 0.0, vectors / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0]

@@ -1,6 +1,5 @@
 """
-Chance, as a function of (seed, mx, my): no generator to advance, so no order of drawing to get
-wrong.
+Random numbers as a function of (seed, mx, my), without a generator whose state has to advance.
 
 A wave's random numbers depend on its own integer wavenumbers alone: a finer grid, another thread
 count or another machine sees the same waves. The generator is Philox-4x32-10, a keyed bijection of
@@ -46,7 +45,8 @@ def philox(
 
 def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
     """
-    Two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in [0, 1).
+    Return two independent uniforms for each wave: 53 bits each, the first in (0, 1], the second in
+    [0, 1).
     """
     mx, my = np.broadcast_arrays(mx, my)
     first, second = np.empty(mx.shape), np.empty(mx.shape)
@@ -66,8 +66,8 @@ def _uniforms(seed: int, mx: Integer, my: Integer) -> tuple[Real, Real]:
 
 def complex_normals(seed: int, mx: Integer, my: Integer) -> Complex:
     """Return xi_r + i xi_i with independent unit normals, one for each wave (Box & Muller 1958)."""
-    radius, turn = _uniforms(seed, mx, my)
-    result: Complex = np.sqrt(-2.0 * np.log(radius)) * np.exp(2j * np.pi * turn)
+    radius, cycles = _uniforms(seed, mx, my)
+    result: Complex = np.sqrt(-2.0 * np.log(radius)) * np.exp(2j * np.pi * cycles)
     return result
 
 

@@ -47,7 +47,9 @@ if hasattr(os, "register_at_fork"):
 
 class Ocean:
     """
-    A periodic patch of a sea. `frame(t)` depends on t alone, so frames can be computed in any order.
+    A periodic patch of a sea.
+
+    `frame(t)` depends on t alone, so frames can be computed in any order.
 
     Args:
         sea: the specified sea state.

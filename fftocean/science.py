@@ -1,10 +1,10 @@
 """
-The sea as labelled data: frames as an xarray.Dataset with CF attributes, its realised spectrum in
-wavespectra's layout, and their files.
+Labelled datasets of frames, of realised spectra, and their files.
 
-Attributes are plain numbers, strings and lists of numbers, in SI; directions and spreads are in
-degrees. What a netCDF or JSON attribute cannot hold is left out (None) or spelt as a word (`inf`,
-which `float` reads back): Zarr keeps attributes as JSON, and that has no infinity.
+Frames become an xarray.Dataset with CF attributes; a realised spectrum has the layout of the
+wavespectra package. Attributes are plain numbers, strings and lists of numbers, in SI; directions
+and spreads are in degrees. None is left out, and infinity is written as the word `inf`, which
+`float` reads back: Zarr stores attributes as JSON, which has no infinity.
 """
 
 import importlib
@@ -15,7 +15,6 @@ import tempfile
 import warnings
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import asdict
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -28,7 +27,7 @@ from fftocean.errors import OutputError, ParameterError, SeaWarning, described, 
 from fftocean.fields import FIELDS
 from fftocean.files import write_whole
 from fftocean.host import require_memory
-from fftocean.limits import DIRECTION, FREQUENCY, TIME, Quantity
+from fftocean.limits import DIRECTION, FREQUENCY, TIME
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import measure
 from fftocean.window import Window
@@ -45,8 +44,8 @@ STANDARD_NAMES: Final = {
     "velocity_z": "upward_sea_water_velocity",
 }
 """
-The standard names that CF has for our fields (table 93): none for slopes, displacements and what
-follows from them.
+The standard names that CF has for the fields (table 93); it has none for slopes, displacements and
+what is derived from them.
 """
 
 MAPS: Final = {
@@ -54,9 +53,13 @@ MAPS: Final = {
     "normal": ("1", "unit normal of the displaced surface"),
     "jacobian": ("1", "area of the displaced over the still surface; below 0 it is folded"),
 }
-"""What can be asked for: unit and caption."""
+"""The maps that can be computed, with unit and caption."""
 
-_UNITS: Final = "Attributes are in SI units, directions and spreads in degrees; directions are toward, counter-clockwise from +x."
+_MOST = 10**6  # numbers in an argument
+_UNITS: Final = (
+    "Attributes are in SI units, directions and spreads in degrees; directions are toward, "
+    "counter-clockwise from +x."
+)
 _PERIODIC: Final = "Periodic in x and y. "
 _SUMMED: Final = "The sum of several tiles on a window of the world, which does not repeat. "
 _LAGRANGIAN: Final = (
@@ -74,20 +77,20 @@ def to_xarray(
     Args:
         ocean: any ocean, or a `Window` on a cascade, whose tiles have no grid in common.
         times: seconds, one or more, strictly ascending or descending as CF asks of a coordinate.
-        maps: which to compute, of `MAPS`: the names of `fields.FIELDS`, "normal", "jacobian".
+        maps: names of `MAPS`: the names of `fields.FIELDS`, "normal", "jacobian".
 
     Returns:
         An xarray.Dataset in the ocean's own dtype: each map (time, y, x), row 0 south; `normal`
         (time, y, x, component), whose components 0, 1, 2 are x, y, z. Every number is that of
-        `ocean.frame(t)`, to the bit. Attributes hold the ocean's parameters, its sea, what was
-        ordered and what is delivered (`measure`).
+        `ocean.frame(t)`, to the bit. Attributes hold the ocean's parameters, its sea, and the
+        specified and realised statistics (`measure`).
 
-        `time` [s] is time on the ocean's own clock. It has neither `axis` nor `standard_name`: to
-        CF these, and units with `since`, mean a date on a calendar (section 4.4), which no sea has.
+        `time` [s] is time on the ocean's own clock. It has neither `axis` nor `standard_name`: in
+        CF these, and units with `since`, denote a calendar date (section 4.4), which no ocean has.
         The unit is spelt `s`, as xarray takes `seconds` for a timedelta.
 
     Raises:
-        ParameterError: a time or map that cannot be, more memory than there is, or xarray is not
+        ParameterError: an invalid time or map, more memory than is available, or xarray is not
             installed.
     """
     xr = _require("xarray")
@@ -99,9 +102,8 @@ def to_xarray(
     shapes = {name: (t.size, *g.shape, *((3,) if name == "normal" else ())) for name in names}
     itemsize = np.dtype(ocean.dtype).itemsize
     whole = itemsize * sum(math.prod(shape) for shape in shapes.values())
-    one_frame = (
-        7 * itemsize * g.nx * g.ny + whole / t.size
-    )  # a normal is made of five fields, and a Jacobian of three of those
+    # a normal is computed from five fields, and a Jacobian from three of those
+    one_frame = 7 * itemsize * g.nx * g.ny + whole / t.size
     require_memory(
         f"{t.size} times of {g.nx} x {g.ny} samples of {', '.join(names)}", whole + one_frame
     )
@@ -129,7 +131,7 @@ def to_xarray(
         }
         coordinates["component"] = ("component", index, flags)
     variables = {
-        name: (("time", "y", "x", "component")[: values.ndim], values, _described(name))
+        name: (("time", "y", "x", "component")[: values.ndim], values, _map_attributes(name))
         for name, values in data.items()
     }
     title, place = (
@@ -148,13 +150,12 @@ def realised_spectrum(
     ocean: Ocean, *, freq: RealLike | None = None, dir: RealLike | None = None
 ) -> "Dataset":
     """
-    Return the 2-D spectrum of the waves that an ocean really has, in the layout of the wavespectra
-    package.
+    Return the realised 2-D spectrum of an ocean's waves, in the layout of the wavespectra package.
 
-    Each wave's energy a^2/2 is shared out between the two frequencies and the two directions around
-    it. In frequency the shares are linear: hat functions, whose integrals are the very widths
+    Each wave's energy a^2/2 is distributed between the two frequencies and the two directions
+    around it. In frequency the shares are linear: hat functions, whose integrals are the widths
     `np.gradient(freq)` with which wavespectra sums, so that its m0 and m1 are those of the waves to
-    round-off, and white noise comes out white. In direction the shares are those whose resultant
+    round-off, and white noise stays white. In direction the shares are those whose resultant
     points along the wave, sin(b) : sin(a) for a wave at angles a and b from its two bins. No share
     is negative, so bins of h radians widen the spread: by about h^2/6 in its square, which makes
     16.1 degrees of 16 with bins of 5.
@@ -169,12 +170,12 @@ def realised_spectrum(
 
     Returns:
         An xarray.Dataset: `efth` (freq, dir) [m2/Hz/degree], float64; `dpt`, the depth [m], where
-        it is finite. Frequencies are those at which the waves run: on a loop, whole turns in its
+        it is finite. Frequencies are those at which the waves run: on a loop, whole cycles in its
         period. Attributes are those of `to_xarray`, with `m0_outside` [m^2]: the energy of waves
-        beyond the outermost bands of `freq`, which is left out, as a wave buoy does.
+        beyond the outermost bands of `freq`, which is left out, as by a wave buoy.
 
     Raises:
-        ParameterError: frequencies or directions that cannot be, or xarray is not installed.
+        ParameterError: invalid frequencies or directions, or xarray is not installed.
 
     Warns:
         SeaWarning: more than 1 % of the energy lies beyond `freq`.
@@ -196,11 +197,14 @@ def realised_spectrum(
     inside = (hertz >= f[0] - 0.5 * width[0]) & (hertz <= f[-1] + 0.5 * width[-1])
     outside, total = float(np.sum(energy[~inside])), float(np.sum(energy))
     if outside > 0.01 * total:
-        message = f"{outside / total:.1%} of the energy lies outside the frequencies {f[0]:g} to {f[-1]:g} Hz, and is left out"
+        message = (
+            f"{outside / total:.1%} of the energy lies outside the frequencies {f[0]:g} to "
+            f"{f[-1]:g} Hz, and is left out"
+        )
         warnings.warn(message, SeaWarning, stacklevel=2)
 
     coming_from = 270.0 - np.degrees(np.arctan2(waves.ky[inside], waves.kx[inside]))
-    binned = _shared_out(
+    binned = _distributed(
         energy[inside], np.clip(hertz[inside], f[0], f[-1]), coming_from, f, bearing
     )
 
@@ -245,17 +249,19 @@ def realised_spectrum(
     return made
 
 
-def _shared_out(energy: Real, hertz: Real, coming_from: Real, f: Real, bearing: Real) -> Real:
+def _distributed(energy: Real, hertz: Real, coming_from: Real, f: Real, bearing: Real) -> Real:
     """
-    The energy of waves in the bins around them, (f, bearing) [m^2]; `realised_spectrum` says how.
+    Return the energy of waves in the bins around them, (f, bearing) [m^2].
+
+    `realised_spectrum` defines the shares.
     """
     i = np.clip(np.searchsorted(f, hertz, side="right") - 1, 0, f.size - 2)
     u = (hertz - f[i]) / (f[i + 1] - f[i])
     step = bearing[1] - bearing[0]
-    turn = np.mod(coming_from - bearing[0], 360.0) / step
-    j = np.floor(turn).astype(np.int64)
-    past, ahead = (np.sin(np.radians(step * part)) for part in (turn - j, 1.0 - (turn - j)))
-    v = past / (past + ahead)
+    steps = np.mod(coming_from - bearing[0], 360.0) / step
+    j = np.floor(steps).astype(np.int64)
+    below, above = (np.sin(np.radians(step * part)) for part in (steps - j, 1.0 - (steps - j)))
+    v = below / (below + above)
     binned = np.zeros(f.size * bearing.size)
     for row, in_row in ((i, 1.0 - u), (i + 1, u)):
         for column, in_column in ((j, 1.0 - v), (j + 1, v)):
@@ -267,32 +273,28 @@ def _shared_out(energy: Real, hertz: Real, coming_from: Real, f: Real, bearing: 
 
 def write(dataset: "Dataset", path: str | os.PathLike[str]) -> None:
     """
-    Write a dataset of this room so that every bit comes back, and a flipped one is noticed: `.nc`
-    is netCDF 4, `.zarr` is Zarr 3.
+    Write a dataset of this module without loss: `.nc` is netCDF 4, `.zarr` is Zarr 3.
 
     Arrays carry checksums (Fletcher-32; CRC-32C), so that reading damaged ones raises an error. A
-    chunk that goes missing from a Zarr store reads as NaN, not as a flat sea. Read with
+    chunk that is missing from a Zarr store reads as NaN, not as a flat sea. Read with
     `xarray.open_dataset(path)`.
 
-    Either the whole is there under its name or nothing is. A netCDF file is encoded in memory and
-    written from there, as HDF5 takes the process down with it when the disk is full; a file of that
-    name is replaced. A Zarr store is a folder, which cannot be replaced in one step: one that is
-    there is left alone.
+    The file or store is either complete or absent. A netCDF file is encoded in memory and written
+    from there, as HDF5 aborts the process when the disk is full; a file of that name is replaced. A
+    Zarr store is a folder, which cannot be replaced in one step: an existing one is not touched.
 
     Args:
         dataset: from `to_xarray` or `realised_spectrum`.
-        path: where to; its suffix says what.
+        path: the file or store; its suffix sets the format.
 
     Raises:
-        OutputError: the file or store cannot be written, or the store is there already.
-        ParameterError: another suffix, more memory than there is, or h5netcdf or zarr is not
+        OutputError: the file or store cannot be written, or the store exists already.
+        ParameterError: another suffix, more memory than is available, or h5netcdf or zarr is not
             installed.
     """
     path = Path(path)
     if not hasattr(dataset, "data_vars"):
-        raise ParameterError(
-            f"what is written must be an xarray.Dataset, got {type(dataset).__name__}"
-        )
+        raise ParameterError(f"dataset must be an xarray.Dataset, got {type(dataset).__name__}")
     if path.suffix == ".nc":
         _write_netcdf(dataset, path)
     elif path.suffix == ".zarr":
@@ -302,6 +304,7 @@ def write(dataset: "Dataset", path: str | os.PathLike[str]) -> None:
 
 
 def _write_netcdf(dataset: "Dataset", path: Path) -> None:
+    """Write a netCDF 4 file, encoded in memory."""
     _require("h5netcdf")
     require_memory(f"encoding {path.name}", 1.1 * dataset.nbytes)
     encoding = _encoding(
@@ -311,13 +314,16 @@ def _write_netcdf(dataset: "Dataset", path: Path) -> None:
 
 
 def _write_zarr(dataset: "Dataset", path: Path) -> None:
+    """Write a Zarr 3 store under a private name, and rename it when it is complete."""
     checksum = _require("zarr.codecs").Crc32cCodec()
     if os.path.lexists(path):
         raise OutputError(
-            f"{path} must not be there yet: a Zarr store is a folder, and cannot be replaced in one step"
+            f"{path} exists already: a Zarr store is a folder, and cannot be replaced in one step"
         )
     encoding = _encoding(
-        dataset, "chunks", lambda variable: {"compressors": (checksum,), **_absent(variable.dtype)}
+        dataset,
+        "chunks",
+        lambda variable: {"compressors": (checksum,), **_fill_value(variable.dtype)},
     )
     try:
         private = Path(tempfile.mkdtemp(prefix=f".{path.name}.", dir=path.parent))
@@ -347,8 +353,9 @@ def _encoding(
     dataset: "Dataset", chunks: str, more: Callable[["Variable"], dict[str, Any]]
 ) -> dict[Hashable, dict[str, Any]]:
     """
-    How to store each variable: frame by frame, at most 64 MiB at a time; coordinates without a fill
-    value, as CF will have it.
+    Return the encoding of each variable.
+
+    Chunks are parts of one frame, of at most 64 MiB; coordinates have no fill value, as CF demands.
     """
     encoding: dict[Hashable, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
@@ -364,15 +371,15 @@ def _encoding(
     return encoding
 
 
-def _absent(dtype: np.dtype[Any]) -> dict[str, Any]:
-    """What a missing chunk of a Zarr store reads as: no number that could be meant."""
+def _fill_value(dtype: np.dtype[Any]) -> dict[str, Any]:
+    """Return the value of a missing chunk of a Zarr store, which no valid data have."""
     if dtype.kind == "f":
         return {"fill_value": dtype.type(np.nan)}
     return {"fill_value": np.iinfo(dtype).min} if dtype.kind == "i" else {}
 
 
 def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
-    """Return an ocean's parameters, its sea, and what it realises beside what was specified."""
+    """Return an ocean's parameters, its sea, and its specified and realised statistics."""
     source = ocean.source if isinstance(ocean, Window) else ocean
     tiles = source.oceans if isinstance(source, Cascade) else (source,)
     grid, amplitudes, statistics = ocean.grid, tiles[0].amplitudes, asdict(measure(source))
@@ -386,7 +393,9 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
         "amplitudes": amplitudes.draw,
-        "seed": None if seed is None else str(seed),  # 64 bits, which netCDF 3 cannot count in
+        "seed": None
+        if seed is None
+        else str(seed),  # 64 bits: more than an integer of netCDF 3 has
         "dtype": ocean.dtype,
         "backend": tiles[0].backend,
     }
@@ -413,28 +422,27 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
     }
 
 
-def _described(name: str) -> dict[str, str]:
-    """A map's attributes."""
+def _map_attributes(name: str) -> dict[str, str]:
+    """Return a map's attributes."""
     unit, caption = MAPS[name]
     return {"units": unit, "long_name": caption} | (
         {"standard_name": STANDARD_NAMES[name]} if name in STANDARD_NAMES else {}
     )
 
 
-def _axis(name: str, way: str) -> dict[str, str]:
-    """A horizontal coordinate's attributes."""
+def _axis(name: str, direction: str) -> dict[str, str]:
+    """Return a horizontal coordinate's attributes."""
     return {
         "units": "m",
         "axis": name.upper(),
         "standard_name": f"projection_{name}_coordinate",
-        "long_name": f"{name}, {way}",
+        "long_name": f"{name}, {direction}",
     }
 
 
 def _powers(ocean: Ocean) -> Real:
     """
-    The powers of 1.05 [Hz] that cover all the waves that a tile can hold, and one more at either
-    end.
+    Return the powers of 1.05 [Hz] that cover all waves of a tile, and one more at either end.
     """
     hertz = ocean.amplitudes.running_omega[ocean.grid.active] / (2.0 * np.pi)
     low, high = np.log([np.min(hertz), np.max(hertz)] if hertz.size else [1.0, 1.0]) / math.log(
@@ -445,19 +453,19 @@ def _powers(ocean: Ocean) -> Real:
 
 
 def _seconds(times: Iterable[float]) -> Real:
-    """Times that make a coordinate."""
-    t = _numbers("times", times, TIME, 1)
+    """Return checked times, in a new array [s]."""
+    t = np.array(TIME.check_array("times", times, ndim=1, least=1, most=_MOST))
     step = np.diff(t)
     if not (np.all(step > 0.0) or np.all(step < 0.0)):
         i = int(np.argmax(step * np.sign(t[-1] - t[0]) <= 0.0))
         raise ParameterError(
-            f"times must ascend or descend without repeats, got {t[i + 1]:g} s after {t[i]:g} s"
+            f"times must be strictly ascending or descending, got {t[i + 1]:g} s after {t[i]:g} s"
         )
     return t
 
 
 def _maps(maps: Sequence[str]) -> tuple[str, ...]:
-    """Maps by name, each once."""
+    """Return checked names of maps, each once."""
     try:
         names = (maps,) if isinstance(maps, str) else tuple(dict.fromkeys(maps))
     except TypeError:
@@ -469,52 +477,31 @@ def _maps(maps: Sequence[str]) -> tuple[str, ...]:
 
 
 def _frequencies(freq: RealLike) -> Real:
-    """Frequencies [Hz] that make bands."""
-    f = _numbers("freq", freq, FREQUENCY, 2)
-    if not np.all(np.diff(f) > 0.0):
-        raise ParameterError(
-            f"freq must ascend without repeats, got {f[np.argmin(np.diff(f)) + 1]:g} Hz after {f[np.argmin(np.diff(f))]:g} Hz"
-        )
-    return f
+    """Return checked frequencies, in a new array [Hz]."""
+    return np.array(
+        FREQUENCY.check_array("freq", freq, ndim=1, least=2, most=_MOST, ascending=True)
+    )
 
 
 def _bearings(dir: RealLike) -> Real:
-    """Bearings in [0, 360), ascending [degrees]."""
-    bearing = np.sort(np.mod(_numbers("dir", dir, DIRECTION, 4), 360.0))
+    """Return checked bearings in [0, 360), ascending [degrees]."""
+    checked = DIRECTION.check_array("dir", dir, ndim=1, least=4, most=_MOST)
+    bearing: Real = np.sort(np.mod(checked, 360.0))
     steps = np.diff(bearing, append=bearing[0] + 360.0)
     if np.max(np.abs(steps - 360.0 / bearing.size)) > 1e-6:
         raise ParameterError(
-            f"dir must be evenly spaced round the circle, got steps of {steps.min():g} to {steps.max():g} degrees"
+            "dir must be evenly spaced round the circle, got steps of "
+            f"{steps.min():g} to {steps.max():g} degrees"
         )
     return bearing
 
 
-def _numbers(name: str, values: Any, quantity: Quantity, least: int) -> Real:
-    """At least so many numbers and at most a million, each of them checked."""
-    try:
-        items = iter(np.asarray(values).tolist() if hasattr(values, "__array__") else values)
-    except TypeError:
-        raise ParameterError(
-            f"{name} must be a list of numbers {quantity.rule}, got {values!r:.60}"
-        ) from None
-    numbers = [
-        quantity.check(f"{name}[{i}]", item) for i, item in enumerate(islice(items, _MOST + 1))
-    ]
-    if not least <= len(numbers) <= _MOST:
-        raise ParameterError(
-            f"{name} must be {least} to {_MOST} numbers, got {len(numbers) if len(numbers) <= _MOST else 'more'}"
-        )
-    return np.array(numbers, dtype=np.float64)
-
-
-_MOST = 10**6
-
-
 def _require_ocean(ocean: Any) -> None:
+    """Raise if `ocean` is not an Ocean."""
     if isinstance(ocean, Cascade):
         raise ParameterError(
-            "ocean must be an Ocean, got a Cascade, whose tiles have no grid in common: take fo.Window(cascade) for to_xarray, "
-            "or one of cascade.oceans"
+            "ocean must be an Ocean, got a Cascade, whose tiles have no grid in common: "
+            "take fo.Window(cascade) for to_xarray, or one of cascade.oceans"
         )
     if not isinstance(ocean, Ocean):
         raise ParameterError(f"ocean must be an Ocean, got {described(ocean)}")
@@ -522,10 +509,10 @@ def _require_ocean(ocean: Any) -> None:
 
 def _require(name: str) -> Any:
     """
-    A module of the extra, loaded when first needed: xarray takes a second to import.
+    Import and return a module of the extra `science`: xarray takes a second to import.
 
     Raises:
-        ParameterError: it is not installed.
+        ParameterError: the module is not installed.
     """
     try:
         return importlib.import_module(name)

@@ -1,7 +1,7 @@
 """
-The only inverse FFT: plans, buffers and libraries.
+Inverse FFTs of rows by MKL, FFTW or SciPy.
 
-All compute, for each row of a buffer,  result[j] = sum over m of source[m] e^{+2 pi i m j / n},
+For each row of a buffer they compute  result[j] = sum over m of source[m] e^{+2 pi i m j / n},
 without 1/n, on one thread.
 """
 
@@ -24,18 +24,18 @@ from fftocean.arrays import COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
 PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
-"""FFTW's efforts, by the names that pyFFTW knows."""
+"""Planning efforts, by the names of pyFFTW."""
 
 ESTIMATE = 64  # FFTW_ESTIMATE in C
 ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
-_planner = (
-    threading.RLock()
-)  # FFTW's planner is shared by all plans; a plan may be collected while its thread makes another
+# FFTW's planner is shared by all plans. A plan can be collected while its thread makes another, so
+# the lock can be taken twice.
+_planner = threading.RLock()
 _importing = threading.Lock()
 
 
 class _Planner:
-    """The planner's lock, whichever that is now, for forks to take."""
+    """The current lock of the planner, for forks to take."""
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
         return _planner.acquire(blocking, timeout)
@@ -48,7 +48,7 @@ forks.guard(_Planner())
 
 
 def _renew_locks() -> None:
-    """In a forked child: whoever held them is not there."""
+    """Replace the locks in a forked child, where the threads that held them do not exist."""
     global _planner, _importing
     _planner, _importing = threading.RLock(), threading.Lock()
 
@@ -59,8 +59,9 @@ if hasattr(os, "register_at_fork"):
 
 class InverseRows(Protocol):
     """
-    A plan for one shape and precision: fill `source`, call, read `result`; `source` is left as it
-    is.
+    A plan for one shape and precision: fill `source`, call, read `result`.
+
+    `source` keeps its values.
     """
 
     source: Complex  # (count, n), C-contiguous
@@ -81,9 +82,9 @@ def inverse_rows(
         shape: (count, n) of the buffer.
         dtype: "float32" or "float64", of its real and imaginary parts.
         backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
-        planning: FFTW's effort. "estimate" gives the same bytes in every run; "measure" and
-            "patient" time several ways, keep what they find in the user's cache, and give the same
-            bytes as long as it is there.
+        planning: planning effort of FFTW. "estimate" gives the same bytes in every run; "measure"
+            and "patient" time several algorithms, keep the fastest in the user's cache, and give
+            the same bytes as long as it is there.
 
     Raises:
         ParameterError: an unknown backend, precision or effort, or a backend that is not installed.
@@ -98,15 +99,17 @@ def inverse_rows(
         if (transform := BACKENDS[name](shape, dtype, planning)) is not None:
             return transform
     raise ParameterError(
-        f"backend {backend!r} must be installed (pip install {backend}), and is not; 'scipy' always is"
+        f"backend {backend!r} must be installed (pip install {backend}), and is not; "
+        "'scipy' always is"
     )
 
 
 @cache
 def library(backend: str) -> str | None:
     """
-    Name a backend's library and its version, such as "FFTW 3.3.5 (pyfftw 0.15.1)"; None where it is
-    not installed.
+    Return the library of a backend with its version; None if it is not installed.
+
+    For example "FFTW 3.3.5 (pyfftw 0.15.1)".
     """
     if backend == "mkl":
         return f"MKL {importlib.metadata.version('mkl')}" if _mkl() else None
@@ -121,7 +124,7 @@ def library(backend: str) -> str | None:
 
 
 def aligned(shape: tuple[int, int], dtype: str) -> Complex:
-    """Zeros that start on a cache line: the same bits in every run need the same alignment."""
+    """Return zeros that start on a cache line, since the bits of a plan depend on alignment."""
     kind = COMPLEX_OF[dtype]
     size = shape[0] * shape[1] * kind.itemsize
     raw = np.zeros(size + ALIGNMENT, dtype=np.uint8)
@@ -130,7 +133,7 @@ def aligned(shape: tuple[int, int], dtype: str) -> Complex:
 
 
 class _FFTW:
-    """FFTW through pyFFTW, out of place: for rows in cache as fast by its estimate as measured."""
+    """FFTW through pyFFTW, out of place; for rows in cache an estimated plan is the fastest."""
 
     backend = "pyfftw"
 
@@ -150,32 +153,28 @@ class _FFTW:
                 threads=1,
             )
 
-        with (
-            _planner,
-            wisdom.set_aside(pyfftw),
-        ):  # an estimate, too, takes what has been measured, and would differ from run to run
+        # An estimate, too, uses earlier measurements, and would differ from run to run.
+        with _planner, wisdom.set_aside(pyfftw):
             self._plan = (
                 plan()
                 if planning == "estimate"
                 else wisdom.planned(pyfftw, plan, shape, dtype, planning)
             )
-        self.source[:] = 0.0  # measuring scribbles over it
+        self.source[:] = 0.0  # measuring overwrites it
 
     def __call__(self) -> None:
         self._plan.execute()
 
     def __del__(self) -> None:
-        if _planner is not None and hasattr(
-            self, "_plan"
-        ):  # at the end of the interpreter there may be none
-            with (
-                _planner
-            ):  # pyfftw takes a lock of its own to destroy a plan, which no fork may find taken
+        # At the end of the interpreter there can be no lock. pyfftw takes a lock of its own to
+        # destroy a plan, which must be free when a process forks.
+        if _planner is not None and hasattr(self, "_plan"):
+            with _planner:
                 del self._plan
 
 
 class _MKL:
-    """MKL through its FFTW3 interface; its plans know no effort."""
+    """MKL through its FFTW3 interface, which ignores the planning effort."""
 
     backend = "mkl"
 
@@ -199,22 +198,21 @@ class _MKL:
             raise MemoryError(f"MKL could not plan {count} transforms of {n}")
         self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)
         destroy = getattr(mkl, f"{prefix}_destroy_plan")
-        weakref.finalize(
-            self, _destroyed, destroy, self._plan
-        ).atexit = False  # daemon threads may be at it then
+        finalizer = weakref.finalize(self, _destroy, destroy, self._plan)
+        finalizer.atexit = False  # daemon threads can still use the plan then
 
     def __call__(self) -> None:
         self._execute(self._plan)
 
 
-def _destroyed(destroy: Callable[[ctypes.c_void_p], None], plan: ctypes.c_void_p) -> None:
-    """Give back a plan of MKL, while nobody makes one."""
+def _destroy(destroy: Callable[[ctypes.c_void_p], None], plan: ctypes.c_void_p) -> None:
+    """Destroy a plan of MKL while no thread makes one."""
     with _planner:
         destroy(plan)
 
 
 class _SciPy:
-    """SciPy's pocketfft, always there."""
+    """SciPy's pocketfft, which is always installed."""
 
     backend = "scipy"
 
@@ -246,14 +244,15 @@ BACKENDS: dict[str, Callable[[tuple[int, int], str, str], InverseRows | None]] =
     "pyfftw": _with_pyfftw,
     "scipy": _with_scipy,
 }
-"""The backends, the fastest first; each makes a plan, or None where it is not installed."""
+"""The backends, fastest first; each returns a plan, or None if it is not installed."""
 
 
 @cache
 def _mkl() -> ctypes.CDLL | None:
     """
-    The library that the wheel `mkl` has brought, on one thread unless somebody has set it up
-    otherwise; None without it.
+    Load the library of the wheel `mkl`; None without it.
+
+    It runs on one thread, unless other code in the process has set it up before.
     """
     try:
         files = importlib.metadata.files("mkl") or []
@@ -266,20 +265,20 @@ def _mkl() -> ctypes.CDLL | None:
             try:
                 mkl = ctypes.CDLL(str(file.locate()))
             except OSError:
-                continue  # for another machine, or without a library that it needs
-            mkl.MKL_Set_Threading_Layer(
-                1
-            )  # sequential; without effect where this MKL is at work already
+                continue  # for another machine, or a library that it needs is missing
+            mkl.MKL_Set_Threading_Layer(1)  # sequential; no effect once this MKL has computed
             return mkl
     return None
 
 
 def _pyfftw() -> ModuleType | None:
     """
-    pyfftw if it is there; dask.array, which it would import for an interface that is not used here
-    (6 s), is kept out meanwhile.
+    Import pyfftw; None without it.
+
+    It would import dask.array (6 s) for an interface that is not used here, so that is hidden
+    meanwhile.
     """
-    with _importing:  # one thread must not see what another has imported half
+    with _importing:  # no thread must see a module that another has half imported
         hide = "pyfftw" not in sys.modules and "dask.array" not in sys.modules
         if hide:
             sys.modules["dask.array"] = None  # type: ignore[assignment]

@@ -1,7 +1,4 @@
-"""
-The summed water of a cascade on a grid of the world: the linear fields of all tiles added, and what
-follows from the sums.
-"""
+"""The sum of a cascade's tiles on a grid of the world, with pointwise fields of the sum."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -15,7 +12,7 @@ from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
-from fftocean.fields import EIGHT, FIELDS
+from fftocean.fields import EIGHT, FIELDS, POINTWISE
 from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
@@ -26,28 +23,21 @@ from fftocean.ocean import Ocean, check_fields, memory_needed
 PLACE = Quantity("m", -1e9, 1e9)
 WAVELENGTH = Quantity("m", 0.0, math.inf)
 OVERSAMPLED = 2
-"""
-Samples of the splines to one of the tile, along each axis, where the tile holds waves of less than
-eight samples.
-"""
+"""Samples of the splines to one of a tile that has waves of fewer than eight samples, a side."""
 
-_MADE_OF = {
-    **{name: (name,) for name in FIELDS},
-    "normal": ("slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy"),
-    "jacobian": ("stretch_xx", "stretch_xy", "stretch_yy"),
-}
+_MADE_OF: dict[str, tuple[str, ...]] = {**{name: (name,) for name in FIELDS}, **POINTWISE}
 
 
 class Window:
     """
-    A rectangle of the world in which all tiles of a cascade are added up. `frame` and `loop_frame`
-    are those of `Ocean`.
+    A rectangle of the world in which all tiles of a cascade are added up.
 
-    Sample [iy, ix] is the water whose undisplaced position is (x + ix size_x/nx, y + iy size_y/ny).
-    Heights, displacements, slopes, stretches and velocities are the sums over the tiles; "normal"
-    and "jacobian" are made from the sums, as are `fo.normals(frame)`, `fo.jacobian(frame)` and the
-    foam of `fo.Foam().loop(window, count)`: none of these is a sum of what the tiles have of it. A
-    window repeats in space only where its sides are whole multiples of all tiles' sizes.
+    `frame` and `loop_frame` are those of `Ocean`. Sample [iy, ix] is the water whose rest position
+    is (x + ix size_x/nx, y + iy size_y/ny). Heights, displacements, slopes, stretches and
+    velocities are sums over the tiles; "normal" and "jacobian" are computed from the sums, as are
+    `fo.normals(frame)`, `fo.jacobian(frame)` and the foam of `fo.Foam().loop(window, count)`: they
+    do not add up over tiles. A window repeats in space only where its sides are whole multiples of
+    the sizes of all tiles.
 
     Between the samples of a tile its fields are cubic splines on a grid that is fine enough: they
     miss at most 0.6 % of a wave of two samples, 0.04 % of one of four (Unser 1999, the error kernel
@@ -59,7 +49,7 @@ class Window:
         size: of the window [m], or (size_x, size_y); None is the largest tile's.
         x, y: its south-west corner in the world [m].
         shortest: waves shorter than this are left out [m]. 0 keeps all: values at points are right,
-            and a picture of them is aliased where its samples are farther apart than half the
+            and an image of them is aliased where its samples are farther apart than half the
             shortest wave.
 
     Raises:
@@ -113,12 +103,15 @@ class Window:
         self.source = source
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
-        """Pickle and copy as what it is made of."""
+        """Pickle and copy the arguments."""
         return _rebuilt, (self.source, self._recipe)
 
     def __repr__(self) -> str:
         g = self.grid
-        return f"Window({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m from ({self.x:g}, {self.y:g}), {len(self.oceans)} tiles)"
+        return (
+            f"Window({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m from ({self.x:g}, {self.y:g}), "
+            f"{len(self.oceans)} tiles)"
+        )
 
     def frame(self, t: float, fields: Sequence[str] = EIGHT, *, out: Frame | None = None) -> Frame:
         """
@@ -169,8 +162,7 @@ class Window:
         out: Frame | None,
     ) -> Frame:
         """
-        Add up splines of the tiles at the samples of the window, and make what follows from the
-        sums.
+        Sum the splines of the tiles at the samples of the window, and compute pointwise fields.
         """
         grid = self.grid
         total = np.zeros((grid.nx * grid.ny, len(needs)))
@@ -192,13 +184,13 @@ class Window:
         return out
 
     def _texels(self, fine: Grid) -> tuple[Real, Real]:
-        """The samples of the window in texels of a tile, reduced to it in double precision."""
+        """Return the samples of the window in texels of a tile, reduced in double precision."""
         u = np.fmod((self.x + self.grid.x) / fine.lx, 1.0) * fine.nx
         v = np.fmod((self.y + self.grid.y) / fine.ly, 1.0) * fine.ny
         return np.tile(u, self.grid.ny), np.repeat(v, self.grid.nx)
 
     def _made(self, name: str, sums: dict[str, Real]) -> Real:
-        """A normal or a Jacobian from summed slopes and stretches."""
+        """Return a normal or a Jacobian from summed slopes and stretches."""
         c = np.dtype(self.dtype).type(self.choppiness)
         parts = [sums[part] for part in _MADE_OF[name]]
         normal = name == "normal"
@@ -214,15 +206,16 @@ def _rebuilt(source: Cascade | Ocean, recipe: dict[str, Any]) -> Window:
 
 
 def _needed(fields: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The fields asked for, and the linear ones that they are made of."""
+    """Return the fields asked for, and the linear ones that they are computed from."""
     fields = check_fields(fields, tuple(_MADE_OF))
     return fields, tuple(dict.fromkeys(part for name in fields for part in _MADE_OF[name]))
 
 
 def _spline_grid(ocean: Ocean) -> Grid:
     """
-    The grid of a tile's splines: its own where all its waves have eight samples, else one
-    `OVERSAMPLED` times as fine.
+    Return the grid for the splines of a tile.
+
+    It is that of the tile if all waves have eight samples, else one `OVERSAMPLED` times as fine.
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(a.squares > 0.0)
@@ -235,8 +228,9 @@ def _spline_grid(ocean: Ocean) -> Grid:
 
 def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
     """
-    The ocean whose frames are the cubic spline coefficients of this one's fields, on a finer grid,
-    without its shortest waves.
+    Return the ocean whose frames are cubic spline coefficients of the fields of another.
+
+    They are on the grid `fine`, without waves shorter than `shortest` [m].
     """
     a, grid = ocean.amplitudes, ocean.grid
     rows, columns = np.nonzero(grid.active & (grid.k * shortest <= 2.0 * np.pi))

@@ -1,10 +1,9 @@
 """
-What FFTW has found out by measuring, kept in the user's cache: one small file for each library,
-processor and shape.
+FFTW wisdom, the result of its measurements, in the user's cache.
 
-A file that is cut, bent, or another machine's is replaced, with a note; a folder that cannot be
-written is done without. The first process that has measured a shape decides: others plan by what it
-found, and so get the same bits.
+There is one small file for each library, processor and shape. A file that is damaged, or comes from
+another machine, is replaced, with a warning; if the folder cannot be written, nothing is kept. The
+first process to measure a shape decides: others plan by its result, and so get the same bits.
 """
 
 import base64
@@ -23,11 +22,11 @@ from typing import Any
 from fftocean.errors import CacheWarning
 from fftocean.host import processor
 
-MAX_BYTES = 2**20  # what FFTW knows of a hundred shapes is 30 kB
+MAX_BYTES = 2**20  # the wisdom of a hundred shapes is 30 kB
 
 
 def folder() -> Path:
-    """The user's cache: FFTOCEAN_CACHE, or where the system keeps such things."""
+    """Return the user's cache: FFTOCEAN_CACHE, or the usual folder of the system."""
     if chosen := os.environ.get("FFTOCEAN_CACHE"):
         return Path(chosen)
     if sys.platform == "win32":
@@ -41,13 +40,16 @@ def planned(
     pyfftw: ModuleType, plan: Callable[[], Any], shape: tuple[int, int], dtype: str, planning: str
 ) -> Any:
     """
-    Call `plan` with what is known of it, or find it out and keep it. The caller holds FFTW's
-    planner, which knows nothing else.
+    Return a plan made with the wisdom in the cache, or measure, and keep the result there.
+
+    The caller holds the lock of FFTW's planner, whose wisdom is empty.
 
     Args:
         pyfftw: the library.
-        plan: makes a plan, in whatever way FFTW now thinks is the fastest.
-        shape, dtype, planning: what it is for.
+        plan: makes a plan by the wisdom that FFTW has.
+        shape: (count, n) of the rows to transform.
+        dtype: "float32" or "float64".
+        planning: planning effort.
     """
     key = {
         "library": f"{pyfftw.fftw_version} {pyfftw.__version__}",
@@ -60,7 +62,7 @@ def planned(
             / "wisdom"
             / f"{hashlib.sha256(json.dumps(key).encode()).hexdigest()[:24]}.json"
         )
-    except RuntimeError:  # a user without a home
+    except RuntimeError:  # a user without a home folder
         return plan()
     with contextlib.suppress(OSError):
         if path.is_file():
@@ -72,15 +74,16 @@ def planned(
         if not _kept(pyfftw, path, key) and path.is_file():
             pyfftw.forget_wisdom()
             if _learned(pyfftw, path, key, dtype):
-                made = plan()  # as the one who was first
+                made = plan()  # as the first process
     return made
 
 
 @contextlib.contextmanager
 def set_aside(pyfftw: ModuleType) -> Iterator[None]:
     """
-    Plan without what this process, or whoever else uses FFTW in it, has measured so far; afterwards
-    it is known again.
+    Empty FFTW's wisdom while the block runs, and restore it afterwards.
+
+    Other code in the process can have measured, too.
     """
     known = pyfftw.export_wisdom()
     pyfftw.forget_wisdom()
@@ -91,25 +94,27 @@ def set_aside(pyfftw: ModuleType) -> Iterator[None]:
 
 
 def _learned(pyfftw: ModuleType, path: Path, key: dict[str, str], dtype: str) -> bool:
-    """Read a file into FFTW, and say whether it was what it should be."""
+    """Read a file into FFTW; return False, with a warning, if it is not valid."""
     try:
         with path.open("rb") as file:
             tree = json.loads(file.read(MAX_BYTES))
         wise = tuple(base64.b64decode(part, validate=True) for part in tree["wisdom"])
         if tree["key"] != key or tree["sha256"] != _digest(wise) or len(wise) != 3:
-            raise ValueError("it is cut, bent, or another machine's")
+            raise ValueError("it is damaged, or another machine's")
         if not pyfftw.import_wisdom(wise)[("float64", "float32").index(dtype)]:
             raise ValueError("FFTW does not know it")
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         warnings.warn(
-            f"{path} is no wisdom of this FFTW and is ignored: {error}", CacheWarning, stacklevel=2
+            f"{path} is not FFTW wisdom for this build and is ignored: {error}",
+            CacheWarning,
+            stacklevel=2,
         )
         return False
     return True
 
 
 def _kept(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
-    """Write what FFTW knows, whole or not at all; False where another process was first."""
+    """Write FFTW's wisdom, whole or not at all; return False if another process was first."""
     wise = pyfftw.export_wisdom()
     tree = {
         "key": key,
@@ -122,7 +127,7 @@ def _kept(pyfftw: ModuleType, path: Path, key: dict[str, str]) -> bool:
         with open(handle, "w", encoding="utf-8") as file:  # noqa: PTH123 - a descriptor, not a path
             file.write(json.dumps(tree))
         try:
-            path.hardlink_to(temporary)  # refuses where there is one
+            path.hardlink_to(temporary)  # fails if the file exists
         except FileExistsError:
             return False
         except OSError:  # a file system without links

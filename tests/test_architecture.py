@@ -607,7 +607,8 @@ def test_a_forged_breach_is_caught(module, source, says):
         ),
         (
             "physics.spectra.tma",
-            "from fftocean.physics.spectra.jonswap import JONSWAP\nfrom .jonswap import fetch_limited",
+            "from fftocean.physics.spectra.jonswap import JONSWAP\n"
+            "from .jonswap import fetch_limited",
         ),
         ("__main__", "from fftocean.cli import main"),
         ("limits", "from fftocean.errors import ParameterError"),

@@ -282,7 +282,8 @@ def test_the_specified_spread_of_narrow_seas(spreading, spread):
 
 def test_long_crested_in_a_job_and_as_a_value():
     job = fo.Job.from_toml(
-        "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\nspreading = { kind = 'long-crested' }"
+        "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 7.0 }\n"
+        "spreading = { kind = 'long-crested' }"
     )
     assert job.sea().systems[0].spreading == fo.LongCrested()
     total = integrate.quad(

@@ -1,7 +1,4 @@
-"""
-The water at places, against the parametric surface summed wave by wave, which knows nothing of
-grids.
-"""
+"""Eulerian frames against the parametric surface summed wave by wave, without a grid."""
 
 import numpy as np
 import pytest
@@ -23,8 +20,7 @@ ALL = (
 
 def surface_over(ocean, x, y, t):
     """
-    The parametric surface at the parameters whose water is over (x, y): a fixed-point iteration on
-    exact sums.
+    Return the parametric surface over (x, y), by a fixed-point iteration on exact sums.
     """
     x0, y0 = x.copy(), y.copy()
     for _ in range(200):
@@ -36,7 +32,7 @@ def surface_over(ocean, x, y, t):
     raise AssertionError("the fixed point was not found")
 
 
-def some_places(ocean, count, seed=0):
+def some_positions(ocean, count, seed=0):
     rng = np.random.default_rng(seed)
     iy, ix = rng.integers(0, ocean.grid.ny, count), rng.integers(0, ocean.grid.nx, count)
     return iy, ix, ocean.grid.x[ix], ocean.grid.y[iy]
@@ -54,7 +50,7 @@ def test_a_realistic_sea_to_a_tenth_of_a_millimetre(dtype):
     ocean = fo.Ocean(
         fo.Sea.from_wind(speed=10.0, fetch=100e3), n=256, size=200.0, seed=2, dtype=dtype
     )
-    iy, ix, x, y = some_places(ocean, 12)
+    iy, ix, x, y = some_positions(ocean, 12)
     truth = surface_over(ocean, x, y, 3.3)
     euler = Eulerian(ocean)
     frame = euler.frame(3.3, ALL)
@@ -115,7 +111,7 @@ def test_without_choppiness_it_is_the_ocean_s_own_frame():
         )  # the spline goes through its samples
 
 
-def test_it_is_a_height_field_and_has_only_what_that_has():
+def test_normals_agree_with_slopes_and_the_jacobian_is_that_of_the_water():
     """
     Normals by place and by the slopes agree; the Jacobian is that of the water, and there is no
     stretch to make another of.
@@ -139,7 +135,7 @@ def test_it_is_a_height_field_and_has_only_what_that_has():
 @pytest.mark.parametrize(
     "name", ["displace_x", "displace_y", "stretch_xx", "stretch_xy", "stretch_yy"]
 )
-def test_what_a_height_field_has_not_is_refused_by_name(name):
+def test_fields_that_a_height_field_lacks_are_refused_by_name(name):
     euler = Eulerian(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=10.0))
     reason = f"{name}: a height field over places has no displacement"
     with pytest.raises(fo.ParameterError, match=reason):
@@ -160,9 +156,9 @@ def test_what_a_height_field_has_not_is_refused_by_name(name):
         euler._ocean.frame(0.0, ("height",), out=frame)
 
 
-def test_crests_are_sharper_than_troughs_there():
+def test_crests_are_narrower_than_troughs():
     """
-    One wave: the water above the mean level, half of the still one, is drawn together to 1/2 - c a
+    One wave: the water above the mean level, half of the still one, is compressed to 1/2 - c a
     k/pi of the places.
     """
     ocean = fo.Ocean.from_modes([(1, 0, 0.6, 0.4)], n=(512, 3), size=20.0, choppiness=1.2)
@@ -202,7 +198,7 @@ def test_folds_are_found_and_the_upper_sheet_is_taken():
     )
 
 
-def test_hopelessly_folded_water_stays_finite():
+def test_a_surface_with_many_folds_stays_finite():
     ocean = fo.Ocean(fo.Sea.from_wind(speed=30.0, fetch=500e3), n=32, size=60.0, choppiness=10.0)
     euler = Eulerian(ocean)
     frame = euler.frame(2.0, ALL)
@@ -226,7 +222,7 @@ def test_frames_come_in_any_order_with_the_same_bits():
     assert np.array_equal(two.loop_frame(3, 8, ("height",)).height, kept["height"])
 
 
-def test_another_field_is_carried_along():
+def test_another_field_is_resampled_at_the_same_positions():
     """
     The undisplaced x as a field of its own, then foam: within its range, and where the positions
     say.
@@ -252,7 +248,7 @@ def test_another_field_is_carried_along():
         euler.resample(foam[:16])
 
 
-def test_flat_water_and_the_smallest_tile():
+def test_flat_water_is_flat_on_the_smallest_tile():
     flat = Eulerian(fo.Ocean.from_modes([], n=(3, 1), size=10.0))
     frame = flat.frame(0.0, ALL)
     assert not frame.height.any()
@@ -261,7 +257,7 @@ def test_flat_water_and_the_smallest_tile():
     assert not flat.folded.any()
 
 
-def test_what_is_refused():
+def test_unknown_fields_and_other_types_are_refused():
     euler = Eulerian(fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=10.0))
     with pytest.raises(fo.ParameterError, match=r"a field must be one of height, .* got 'foam'"):
         euler.frame(0.0, ("foam",))

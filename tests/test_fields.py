@@ -1,11 +1,15 @@
 """One table of signs: each row is the derivative that its name says."""
 
+import inspect
 import math
 
 import numpy as np
 import pytest
 
+from fftocean.errors import FieldError
 from fftocean.fields import EIGHT, FIELDS, multiplier, potential_factor
+from fftocean.frame import EulerianFrame, Frame
+from fftocean.grid import Grid
 
 pytestmark = pytest.mark.nojit
 
@@ -47,3 +51,17 @@ def test_potential_factor_limits():
     assert potential_factor(k, math.inf)[0] == potential_factor(k, 1e-6)[0] == 0.0
     assert potential_factor(k, 0.01)[2] == pytest.approx(1.0 / (1e-6 * 0.01), rel=1e-9)
     assert np.all(np.isfinite(potential_factor(k, 1e-6)))
+
+
+def test_every_field_is_an_attribute_of_a_frame_with_its_caption_and_unit():
+    """Captions and units come from the table; a frame by world position has no displacement."""
+    for name, field in FIELDS.items():
+        document = inspect.getdoc(getattr(Frame, name))
+        assert document.lower().startswith(field.caption.lower())
+        assert document.endswith(f" [{'-' if field.unit == '1' else field.unit}].")
+        arrays = {name: np.full((2, 2), 3.0)}
+        assert getattr(Frame(0.0, Grid.of(2, 1.0), 1.0, arrays), name) is arrays[name]
+    assert isinstance(Frame.height, property)
+    assert EulerianFrame.velocity_z is Frame.velocity_z
+    with pytest.raises(FieldError, match="an eulerian frame has no displace_x"):
+        _ = EulerianFrame(0.0, Grid.of(2, 1.0), 1.0, {}).displace_x

@@ -109,7 +109,9 @@ def make():
     i = 0
     while going:
         i += 1
-        fo.Ocean(sea, n=12 + 2 * (i % 7), size=60.0, seed=i, threads=1 + i % 2, dtype=("float32", "float64")[i % 2]).frame(0.0)
+        dtype = ("float32", "float64")[i % 2]
+        ocean = fo.Ocean(sea, n=12 + 2 * (i % 7), size=60.0, seed=i, threads=1 + i % 2, dtype=dtype)
+        ocean.frame(0.0)
 
 threads = [threading.Thread(target=make) for _ in range(2)]
 for thread in threads:

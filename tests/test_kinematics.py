@@ -278,8 +278,9 @@ def test_sources_and_filter():
     few = fo.gerstner.CWR(period=5.0, amplitude=0.3, number=3)
     listed = fo.kinematics.at(few, 1.0, 2.0, -1.0, 3.0)
     waves = few.waves
-    same = fo.kinematics.at(fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=4, size=9.0).modes()._replace(
-        kx=waves.kx, ky=waves.ky, amplitude=waves.amplitude, phase=waves.phase, omega=waves.omega), 1.0, 2.0, -1.0, 3.0)  # fmt: skip
+    modes = fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=4, size=9.0).modes()
+    modes = modes._replace(**{name: getattr(waves, name) for name in modes._fields})
+    same = fo.kinematics.at(modes, 1.0, 2.0, -1.0, 3.0)
     assert np.allclose(listed.velocities, same.velocities, atol=1e-15)
     both = fo.Ocean.from_modes([(1, 0, 0.3, 0.0), (5, 1, 0.1, 0.0)], n=16, size=50.0)
     long = fo.Ocean.from_modes([(1, 0, 0.3, 0.0)], n=16, size=50.0)

@@ -1,7 +1,4 @@
-"""
-Smaller levels lose detail and nothing else: means, roughness and the normals' mean plane are kept,
-on tiles of any size.
-"""
+"""Mip chains of tiles of any size: the mean, roughness and mean plane of every level."""
 
 import math
 
@@ -19,22 +16,22 @@ SHAPES = [(16, 16), (1, 1), (2, 3), (7, 12), (5, 5), (31, 64), (1, 9), (100, 37)
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_levels_have_the_sizes_of_a_gpu_s_and_keep_the_mean(shape):
-    picture = np.random.default_rng(1).standard_normal((*shape, 2))
-    levels = mips.chain(picture)
-    assert levels[0] is picture
+    image = np.random.default_rng(1).standard_normal((*shape, 2))
+    levels = mips.chain(image)
+    assert levels[0] is image
     assert [level.shape for level in levels] == [
         (max(1, shape[0] >> i), max(1, shape[1] >> i), 2) for i in range(max(shape).bit_length())
     ]
     for level in levels:
-        assert np.allclose(level.mean(axis=(0, 1)), picture.mean(axis=(0, 1)), atol=1e-15)
+        assert np.allclose(level.mean(axis=(0, 1)), image.mean(axis=(0, 1)), atol=1e-15)
 
 
-def test_a_picture_s_precision_is_kept():
-    picture = np.random.default_rng(1).standard_normal((8, 8, 1)).astype(np.float32)
-    levels = mips.chain(picture)
+def test_levels_have_the_precision_of_the_map():
+    image = np.random.default_rng(1).standard_normal((8, 8, 1)).astype(np.float32)
+    levels = mips.chain(image)
     assert {level.dtype for level in levels} == {np.dtype(np.float32)}
     assert levels[-1][0, 0, 0] == np.float32(
-        np.mean(picture, dtype=np.float64)
+        np.mean(image, dtype=np.float64)
     )  # no rounding but the last
 
 
@@ -62,7 +59,7 @@ def test_roughness_is_kept_on_every_level(shape, unresolved):
     assert np.allclose(within[0], 0.0 if beyond is None else beyond, atol=1e-17)
 
 
-def test_roughness_of_one_wave():
+def test_the_roughness_of_one_wave_is_its_variance_of_slope():
     """
     Slope a k cos: over whole wavelengths its variance is (a k)^2/2, along its own direction, and is
     nothing across.
@@ -73,10 +70,8 @@ def test_roughness_of_one_wave():
     assert np.allclose(last, [(0.05 * 2 * np.pi / 2.0) ** 2 / 2, 0.0, 0.0], atol=1e-15)
 
 
-def test_distant_water_keeps_the_roughness_that_averaged_slopes_lose():
-    """
-    Why there is a covariance: a quarter of the way down, hardly any slope is left in the means.
-    """
+def test_coarse_levels_keep_the_roughness_that_mean_slopes_lose():
+    """At level 4 most of the slopes' variance is in the covariance."""
     frame = fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n=64, size=60.0).frame(0.0)
     mean = mips.chain(np.stack([frame.slope_x, frame.slope_y], -1))
     within = mips.slope_covariances(frame.slope_x, frame.slope_y)
@@ -156,7 +151,7 @@ def test_normals_without_choppiness_are_those_of_the_mean_slope():
     )  # which would be something else
 
 
-def test_waves_too_short_for_the_tile():
+def test_slopes_beyond_the_tile_are_those_of_a_cartesian_sum():
     """
     Against a plain sum over a Cartesian grid of wavenumbers, 0.04 rad/m wide, outside the tile's
     rectangle and inside the circle.
@@ -175,14 +170,19 @@ def test_waves_too_short_for_the_tile():
     kx, ky = kx[there], ky[there]
     magnitude = np.hypot(kx, ky)
     omega = np.sqrt(9.80665 * magnitude)
-    density = sum(w.spectrum(omega) * w.spreading(omega, np.angle(np.exp(1j * (np.arctan2(ky, kx) - math.radians(w.direction)))),
-                                                  w.spectrum.peak) for w in sea.systems) * 0.5 * omega / magnitude**2  # fmt: skip
-    exact = np.array([np.sum(density * a * b) for a, b in ((kx, kx), (kx, ky), (ky, ky))]) * 0.04**2
+    theta = np.arctan2(ky, kx)
+    density = np.zeros_like(omega)
+    for w in sea.systems:
+        from_mean = np.angle(np.exp(1j * (theta - math.radians(w.direction))))
+        density += w.spectrum(omega) * w.spreading(omega, from_mean, w.spectrum.peak)
+    density *= 0.5 * omega / magnitude**2
+    pairs = ((kx, kx), (kx, ky), (ky, ky))
+    exact = np.array([np.sum(density * a * b) for a, b in pairs]) * 0.04**2
     assert np.allclose(mips.beyond(sea, grid, shortest), exact, atol=4e-3 * exact.sum())
     assert exact[0] > 1e-3
 
 
-def test_finer_tiles_leave_less_beyond_them():
+def test_resolved_and_unresolved_slopes_add_up_to_the_same_sea():
     """
     Resolved and unresolved slopes add up to the same sea, whatever the tile: the mean square slope
     down to 10 cm.
@@ -204,7 +204,7 @@ def test_finer_tiles_leave_less_beyond_them():
     assert np.allclose(coarse + much, fine + little, atol=0.01 * np.sum((fine + little)[::2]))
 
 
-def test_who_has_no_waves_beyond():
+def test_given_waves_calm_seas_and_fine_tiles_have_no_slopes_beyond():
     assert not mips.unresolved_slopes(fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=8, size=20.0)).any()
     with pytest.warns(fo.SeaWarning, match="flat"):
         calm = fo.Sea.from_wind(speed=0.0, fetch=1e4)
@@ -227,7 +227,7 @@ def test_who_has_no_waves_beyond():
 
 
 @pytest.mark.parametrize("direction", [0.0, 33.0])
-def test_short_waves_of_one_direction(direction):
+def test_slopes_beyond_the_tile_of_one_direction_are_those_of_an_integral(direction):
     """
     All slopes along the waves: the integral of k^2 S, by QUADPACK, from the edge of the rectangle
     on; a narrow bell has the same.

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import fftocean as fo
-from fftocean.fields import FIELDS
+from fftocean.fields import EIGHT, FIELDS
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 LOOP = 24.0
@@ -35,10 +35,18 @@ def summed(cascade, x, y, times):
     )  # (points, waves)
     turn = np.exp(-1j * np.outer(times, w.omega))
     factors = {
-        "height": np.ones_like(k), "displace_x": 1j * w.kx / k, "displace_y": 1j * w.ky / k, "slope_x": 1j * w.kx, "slope_y": 1j * w.ky,
-        "stretch_xx": -w.kx * w.kx / k, "stretch_xy": -w.kx * w.ky / k, "stretch_yy": -w.ky * w.ky / k,
-        "velocity_x": w.omega * w.kx / k, "velocity_y": w.omega * w.ky / k, "velocity_z": -1j * w.omega,
-    }  # fmt: skip
+        "height": np.ones_like(k),
+        "displace_x": 1j * w.kx / k,
+        "displace_y": 1j * w.ky / k,
+        "slope_x": 1j * w.kx,
+        "slope_y": 1j * w.ky,
+        "stretch_xx": -w.kx * w.kx / k,
+        "stretch_xy": -w.kx * w.ky / k,
+        "stretch_yy": -w.ky * w.ky / k,
+        "velocity_x": w.omega * w.kx / k,
+        "velocity_y": w.omega * w.ky / k,
+        "velocity_z": -1j * w.omega,
+    }
     return {name: np.real((turn * factor) @ place.T) for name, factor in factors.items()}
 
 
@@ -72,8 +80,7 @@ def test_normals_and_jacobian_are_made_from_the_sums(cascade):
     at the displaced places.
     """
     window = fo.Window(cascade, n=(17, 12), size=(150.0, 61.0), x=40.0)
-    frame = window.frame(5.3, ("height", "displace_x", "displace_y", "slope_x", "slope_y", "stretch_xx", "stretch_xy", "stretch_yy",
-                               "normal", "jacobian"))  # fmt: skip
+    frame = window.frame(5.3, (*EIGHT, "normal", "jacobian"))
     x, y = places(window)
     s, c = {name: values[0] for name, values in summed(cascade, x, y, [5.3]).items()}, 1.1
     along = np.stack([1 + c * s["stretch_xx"], c * s["stretch_xy"], s["slope_x"]], -1)
@@ -137,8 +144,8 @@ def test_the_foam_of_a_cascade_is_that_of_the_summed_displacement_gradient(casca
     window = fo.Window(cascade, n=5, size=53.0, x=11.0, y=-7.0)
     dense, count = 3000, 12
     s, c = summed(cascade, *places(window), np.arange(dense) * (LOOP / dense)), 1.1
-    deformation = np.stack([np.stack([1 + c * s["stretch_xx"], c * s["stretch_xy"]], -1),
-                            np.stack([c * s["stretch_xy"], 1 + c * s["stretch_yy"]], -1)], -1)  # fmt: skip
+    xx, xy, yy = (c * s[f"stretch_{axes}"] for axes in ("xx", "xy", "yy"))
+    deformation = np.stack([np.stack([1 + xx, xy], -1), np.stack([xy, 1 + yy], -1)], -1)
     source = 40.0 * np.maximum(0.8 - np.linalg.eigvalsh(deformation)[..., 0], 0.0)
     memory = np.exp(-np.arange(dense) * (LOOP / dense) / 2.0) / (1.0 - math.exp(-LOOP / 2.0))
     made = np.fft.ifft(np.fft.fft(source, axis=0) * np.fft.fft(memory)[:, None], axis=0).real[

@@ -43,6 +43,8 @@ def imports_in(
     known: Collection[str],
     is_package: bool = False,
     doors: Mapping[tuple[str, str], str] | None = None,
+    *,
+    inside: bool = True,
 ) -> set[str]:
     """
     Return the modules of the package that a source imports.
@@ -57,6 +59,7 @@ def imports_in(
         known: names of modules.
         is_package: whether the importer is a package's `__init__.py`.
         doors: imports to leave out, by (module, function).
+        inside: whether imports within functions count.
     """
     tree = ast.parse(source)
     skipped = set()
@@ -68,6 +71,9 @@ def imports_in(
                 for line in node.body
                 if isinstance(line, ast.ImportFrom) and line.module == door
             }
+    if not inside:
+        functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+        skipped |= {node for function in functions for node in ast.walk(function)}
     here = [part for part in module.split(".") if part]
     found = set()
 
@@ -142,13 +148,22 @@ def between_packages(
     outer: dict[str, set[str]] = {}
 
     def package(module: str) -> str:
-        return module if module in packages else module.rpartition(".")[0] or module
+        while module not in packages and "." in module:
+            module = module.rpartition(".")[0]
+        return module
 
     for module, imported in graph.items():
         if module:
             targets = {package(name) for name in imported if name}
             outer.setdefault(package(module), set()).update(targets - {package(module)})
     return outer
+
+
+def graph_of_modules(
+    graph: Mapping[str, set[str]], packages: Collection[str]
+) -> dict[str, set[str]]:
+    """Return the imports between modules, without packages, which import their parts by purpose."""
+    return {name: found - set(packages) for name, found in graph.items() if name not in packages}
 
 
 def rings(graph: Mapping[str, set[str]]) -> list[tuple[str, str]]:
@@ -181,13 +196,20 @@ def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[1])
     parser.add_argument("--arrows", action="store_true", help="list the imports between packages")
+    parser.add_argument("folder", nargs="?", type=Path, default=PACKAGE, help="of the package")
     options = parser.parse_args()
-    sources, packages = modules_in(PACKAGE), packages_in(PACKAGE)
+    sources, packages = modules_in(options.folder), packages_in(options.folder)
     graph = {
         module: imports_in(module, source, sources, module in packages)
         for module, source in sources.items()
     }
     outer = between_packages(graph, packages)
+    at_import = {
+        module: imports_in(module, source, sources, module in packages, inside=False)
+        for module, source in sources.items()
+    }
+    upward = rings(between_packages(at_import, {name.partition(".")[0] for name in packages}))
+    upward += [(a, b) for a, b in rings(graph_of_modules(at_import, packages)) if a]
     if options.arrows:
         for name, imported in sorted(outer.items()):
             print(f"{name:22} -> {', '.join(sorted(imported)) or '-'}")
@@ -203,8 +225,8 @@ def main() -> None:
     print(f"imports between modules          {sum(len(v - {''}) for v in graph.values())}")
     print(f"packages and top-level modules   {len(outer)}")
     print(f"imports between them             {sum(map(len, outer.values()))}")
-    print(f"of these on a ring               {len(rings(outer))}")
-    for one, other in rings(outer):
+    print(f"imports on a ring                {len(upward)}")
+    for one, other in upward:
         print(f"    {one} -> {other}")
     print(f"longest line                     {longest[0]} ({longest[1]})")
     print(f"docstrings with a question word  {len(asked)}")

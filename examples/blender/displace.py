@@ -1,5 +1,5 @@
 """
-An animated sea in Blender from a bake, and a check that its vertices are where the water is.
+Animated sea in Blender from a bake, with a check of its vertices.
 
 Blender's Displace modifier moves a grid by the displacement maps, as an image sequence that loops.
 The scene has a lit, smooth-shaded material, a sun, a sky and a camera. Blender is a Python module
@@ -9,9 +9,9 @@ of its own version and with its own numpy, so it has an environment to itself:
     fftocean bake sea.toml -o sea --engine blender --maps displacement
     blender-env/bin/python examples/blender/displace.py sea --save sea.blend
 
-With `--expected FILE.npy`, (frames, ny, nx, 3) of displacements in metres by any other way, it says
-how far the vertices are from them. A bake that this script does not understand is refused, with the
-flag that makes one that it does.
+With `--expected FILE.npy`, (frames, ny, nx, 3) of displacements in metres by any other way, it
+prints the largest distance of the vertices from them. A bake that this script does not support is
+an error, which names the flag to change.
 """
 
 import argparse
@@ -26,8 +26,7 @@ SAMPLES = "u = X / size_x + 0.5 / nx, v = Y / size_y + 0.5 / ny, repeated"  # wh
 
 def read_bake(folder):
     """
-    Return the manifest of a bake that this script understands; leave with the reason if it does
-    not.
+    Return the manifest of a bake; exit with the reason if this script does not support it.
     """
     try:
         manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
@@ -100,7 +99,7 @@ def sea_mesh(n, size):
 
 
 def sequence_texture(files):
-    """Return the maps as they are: no colour space, no clamping, repeated in space and in time."""
+    """Return a texture of the maps: no colour space, no clamping, repeated in space and in time."""
     import bpy
 
     image = bpy.data.images.load(str(files[0].resolve()))
@@ -109,10 +108,9 @@ def sequence_texture(files):
     image.use_half_precision = False
     texture = bpy.data.textures.new("displacement", "IMAGE")
     texture.image = image
-    texture.use_clamp = False  # else what is below 0 becomes 0
-    texture.use_interpolation = (
-        False  # at a texel's middle there is nothing to interpolate; for a finer grid switch it on
-    )
+    texture.use_clamp = False  # clamping would set values below 0 to 0
+    # Vertices lie at the centres of texels; a finer grid needs interpolation.
+    texture.use_interpolation = False
     texture.extension = "REPEAT"
     user = texture.image_user
     user.frame_start, user.frame_duration, user.use_cyclic, user.use_auto_refresh = (
@@ -121,7 +119,7 @@ def sequence_texture(files):
         True,
         True,
     )
-    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, ours 0: -1
+    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, a bake's 0
     return texture
 
 
@@ -140,7 +138,7 @@ def water_material():
 
 
 def light_and_camera(size, height):
-    """Put a sun, a sky and a camera around a tile, [m]; `height` is that of its highest wave."""
+    """Add a sun, a sky and a camera around a tile [m]; `height` is that of its highest wave."""
     import bpy
     from mathutils import Vector
 
@@ -164,9 +162,7 @@ def light_and_camera(size, height):
 
 
 def animated_sea(folder):
-    """
-    Return the object with its modifier in a scene of its own, and the manifest it was made from.
-    """
+    """Return the object with its modifier, in a new scene, and the manifest of its bake."""
     manifest = read_bake(folder)
     import bpy
 
@@ -191,7 +187,7 @@ def animated_sea(folder):
 
 
 def vertices(sea, frame):
-    """Return where the vertices are at a frame, counted from 0, (vertices, 3)."""
+    """Return the vertices at a frame, counted from 0, (vertices, 3)."""
     import bpy
     import numpy as np
 
@@ -204,7 +200,7 @@ def vertices(sea, frame):
 
 
 def report_distances(sea, manifest, path):
-    """Print how far the vertices are from displacements in a file."""
+    """Print the distance of the vertices from displacements in a file."""
     import numpy as np
 
     still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
@@ -214,16 +210,14 @@ def report_distances(sea, manifest, path):
         np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e)
         for j, e in enumerate(expected)
     ]
-    again = np.abs(
-        vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0)
-    )  # one past the end is the beginning
+    # One frame past the end is the first.
+    again = np.abs(vertices(sea, len(expected)).astype(np.float64) - vertices(sea, 0))
     height, width = (
         np.max(np.abs(expected[..., 2])),
         np.max(np.hypot(expected[..., 0], expected[..., 1])),
     )
-    step = np.spacing(np.abs(expected).astype(np.float16)).astype(
-        np.float64
-    )  # of a half: what a half map may be off by half of
+    # Step of a half float; a map of halves has an error of at most half of it.
+    step = np.spacing(np.abs(expected).astype(np.float16)).astype(np.float64)
     print(
         f"{len(expected)} frames of {expected.shape[1]} vertices, height to {height:.3f} m, "
         f"horizontal to {width:.3f} m"

@@ -2,12 +2,18 @@
 #     fftocean bake sea.toml -o sea --engine godot --maps height --format bin --lookup eulerian
 #     var sea := SeaHeights.new("res://sea/height.json")
 #     var y := sea.at(boat.position.x, boat.position.z, Time.get_ticks_msec() / 1000.0)
-# A sea that this reader does not understand leaves `error` set, and no heights.
+# For a file that this reader does not support, `error` is set and there are no heights.
 # In an export preset, list *.bin and *.json as files to include.
 class_name SeaHeights
 extends RefCounted
 
-const EXPECTED := { "schema": 1.0, "dtype": "float16, little-endian", "levels": 1.0, "lookup": "eulerian", "closes": true }
+const EXPECTED := {
+	"schema": 1.0,
+	"dtype": "float16, little-endian",
+	"levels": 1.0,
+	"lookup": "eulerian",
+	"closes": true,
+}
 
 var s: Dictionary
 var heights: PackedFloat32Array # [frame, row, column], metres
@@ -20,7 +26,7 @@ func _init(json: String) -> void:
 		push_error(error)
 
 
-# Read a sidecar and its file; return why it cannot be read, or "".
+# Read a sidecar and its file; return the error, or "".
 func _read(json: String) -> String:
 	var found: Variant = JSON.parse_string(FileAccess.get_file_as_string(json))
 	if not found is Dictionary:
@@ -51,7 +57,11 @@ func at(x: float, z: float, t: float) -> float:
 	var frames := int(s["frames"])
 	var rows := int(s["rows"])
 	var columns := int(s["columns"])
-	var place := [(t - s["start"]) / s["loop"] * frames, s["row_origin"] + s["row_sign"] * z / s["size"][1] * rows, x / s["size"][0] * columns]
+	var place := [
+		(t - s["start"]) / s["loop"] * frames,
+		s["row_origin"] + s["row_sign"] * z / s["size"][1] * rows,
+		x / s["size"][0] * columns,
+	]
 	var sum := 0.0
 	for corner in 8:
 		var weight := 1.0

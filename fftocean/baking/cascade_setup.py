@@ -175,6 +175,7 @@ class TileSet:
         )
         yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
+        yield "folds", str(s.folding)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

@@ -80,7 +80,7 @@ def video_memory(scene: Scene, frames: int) -> float:
 
 
 def _container(scene: Scene, frames: int) -> float:
-    """Return the bytes to hold the largest map's sequence twice, as parts and put together."""
+    """Return the bytes to hold the largest map's sequence twice, as parts and as a container."""
     if scene.form.scope == "frame":
         return 0.0
     return 2.0 * max(_texels(scene, frames, n) for n in _channels(scene))

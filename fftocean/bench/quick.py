@@ -83,7 +83,7 @@ def quick(
     """
     SECONDS.check("seconds", seconds)
     for n in (*sizes, *direct_sizes):
-        SAMPLES.check_whole("n", n)
+        SAMPLES.check("n", n)
     if not sizes or len(direct_sizes) < 2 or list(direct_sizes) != sorted(set(direct_sizes)):
         raise ParameterError("sizes must be at least one, and direct_sizes at least two, rising")
     before, start = machine.moment(), time.perf_counter()

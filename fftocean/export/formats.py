@@ -230,12 +230,12 @@ def assemble(
     if bounds is not None:
         facts["bounds"] = {side: profile.scale * value for side, value in bounds.items()}
         facts["bounds"]["unit"] = profile.unit
-    special = {} if container is None else dict(container.facts(layout))
+    container_facts = {} if container is None else dict(container.facts(layout))
     values = rules.numbers(profile, size, (columns, rows), frames, loop, start)
     rule = rules.sampling(profile)
-    if "tiles" in special:
+    if "tiles" in container_facts:
         rule |= rules.atlas(profile)
-        across, down = special["tiles"]
+        across, down = container_facts["tiles"]
         values |= {"tiles_across": across, "tiles_down": down, "gutter": profile.gutter}
     facts["sampling"] = {**rule, "values": values}
     facts["world"] = rules.world(profile, kind)
@@ -243,14 +243,14 @@ def assemble(
     if form.scaled:
         low, high = quantised.limits(lo, hi, channels)
         facts |= {"lo": low.tolist(), "hi": high.tolist(), "value": quantised.VALUE}
-    facts |= special
+    facts |= container_facts
     files: dict[str, bytes | memoryview] = {}
     if container is not None:
         file = form.file.format(stem=stem)
         files[file] = container.join(payloads, layout)
         facts["sha256"] = hashlib.sha256(files[file]).hexdigest()
-        if "tiles" in special:
-            files |= recipes.beside(profile, file, facts)
+        if "tiles" in container_facts:
+            files |= recipes.files_beside(profile, file, facts)
     if form.sidecar:
         files[form.sidecar.format(stem=stem)] = form.sidecar_bytes(facts, layout)
     return files

@@ -19,7 +19,7 @@ class Page:
     text: Callable[[str, Mapping[str, Any]], str]
 
 
-def beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
+def files_beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[str, bytes]:
     """
     Return the files beside an atlas in an engine's project, by name.
 

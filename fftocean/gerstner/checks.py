@@ -55,7 +55,8 @@ def check_columns(**given: tuple[Any, Quantity]) -> dict[str, tuple[float, ...]]
     for name, column in columns.items():
         if len(column) not in (1, length) or not column:
             raise ParameterError(
-                f"{name} must be one number, or one for each wave ({max(length, 1)}), got {len(column)}"
+                f"{name} must be one number, or one for each wave ({max(length, 1)}), "
+                f"got {len(column)}"
             )
     return {name: column * (length // len(column)) for name, column in columns.items()}
 

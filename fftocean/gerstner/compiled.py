@@ -59,7 +59,9 @@ def _sum(
     x: Real, y: Real, kx: Real, ky: Real, a: Real, potential: Real, start: Real, out: Real
 ) -> None:
     """
-    out is (8, points); `potential` is a / (k tanh kh), the amplitude of the displacement potential.
+    Write the fields to `out`, (8, points).
+
+    `potential` is a / (k tanh kh), the amplitude of the displacement potential.
     """
     for p in range(x.size):
         h = dx = dy = sx = sy = xx = xy = yy = 0.0

@@ -32,7 +32,7 @@ class TrochoidalWaves:
 
     A finite `loop` makes the surface repeat after that time: every omega becomes the nearest whole
     multiple of 2 pi/loop, which is off by at most pi/loop; waves that would stand still are sped up
-    to one turn a loop.
+    to one cycle a loop.
 
     Each of kx, kz, a and phi is one number for all waves or a list of one for each.
 
@@ -69,7 +69,8 @@ class TrochoidalWaves:
         k = np.hypot(self.kx, self.kz)
         if not np.all(k >= WAVENUMBER.low):
             raise ParameterError(
-                f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} {WAVENUMBER.unit}, got {np.min(k)}"
+                f"kx and kz must make wavenumbers of at least {WAVENUMBER.low:g} "
+                f"{WAVENUMBER.unit}, got {np.min(k)}"
             )
 
     @property

@@ -47,7 +47,8 @@ def check_family(
     RATIO.check("scale", scale)
     if 0.5 * (number - 1) * math.log(scale) > math.log(1e6):
         raise ParameterError(
-            f"number and scale must keep scale^((number-1)/2), the outermost wave to the middle one, below 1e6, got {number} and {scale:g}"
+            "number and scale must keep scale^((number-1)/2), the outermost wave to the middle, "
+            f"below 1e6, got {number} and {scale:g}"
         )
     DIRECTION.check("direction", direction)
     ANGLE.check("angle", angle)

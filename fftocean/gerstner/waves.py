@@ -186,7 +186,8 @@ class Waves:
         k = self.wavenumber
         if not np.all(k > 0.0):
             raise ParameterError(
-                f"kx and ky must not both be 0 in any wave, got wavenumber {k.min()} rad/m in wave {int(k.argmin())}"
+                "kx and ky must not both be 0 in any wave, "
+                f"got wavenumber {k.min()} rad/m in wave {int(k.argmin())}"
             )
         object.__setattr__(self, "tau", check_tau(self.tau))
 

@@ -155,7 +155,7 @@ class Job:
         job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
         if at_sea:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # said once, when it is used
+                warnings.simplefilter("ignore")  # given once, when it is used
                 measured = job.measurements()
                 if "sea.depth" not in given:
                     job = job._at_measured_depth(measured)
@@ -182,8 +182,7 @@ class Job:
 
     def _at_measured_depth(self, measured: "Mapping[str, Realised]") -> "Job":
         """
-        Return the job in water as deep as its measured files say, where it names no sea.depth
-        itself.
+        Return the job with the depth of its measured files, where it names no sea.depth itself.
         """
         depths = {key: m.depth_source for key, m in measured.items() if m.depth_source is not None}
         if not depths:
@@ -210,12 +209,12 @@ class Job:
         for key, made in measured.items():
             depth, own = self.settings["sea.depth"], made.depth_source
             if own is None:
-                said = f"the file has no water depth; sea.depth is {depth:g} m"
+                note = f"the file has no water depth; sea.depth is {depth:g} m"
             elif math.isclose(own, depth, rel_tol=1e-9):
-                said = f"sea.depth is the file's own, {own:g} m"
+                note = f"sea.depth is the file's own, {own:g} m"
             else:
-                said = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
-            notes[key] = [said, *made.notes]
+                note = f"sea.depth is {depth:g} m; the file's own is {own:g} m"
+            notes[key] = [note, *made.notes]
         return notes
 
     def replaced(self, changes: Mapping[str, Any]) -> "Job":

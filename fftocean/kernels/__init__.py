@@ -1,4 +1,5 @@
 """
-Compiled loops over bare arrays: no classes, no checks, no allocation. The caller guarantees shape,
-dtype and order.
+Compiled loops over arrays, without checks and allocation.
+
+The caller guarantees shape, dtype and memory order.
 """

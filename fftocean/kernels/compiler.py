@@ -1,6 +1,7 @@
 """
-How the kernels are compiled: once, cached on disk where that can be, and never failing for the sake
-of a cache.
+Compilation of the kernels, with a cache on disk.
+
+A fault of the cache costs the time to compile, and is never an error.
 """
 
 import contextlib
@@ -16,34 +17,32 @@ from numba.core.compiler_lock import global_compiler_lock
 
 from fftocean import forks
 
-forks.guard(
-    global_compiler_lock._lock
-)  # a child would wait for ever for what another thread was compiling
+# Else a child would wait for ever for a kernel that another thread was compiling.
+forks.guard(global_compiler_lock._lock)
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def compiled(function: Function) -> Function:
     """
-    Compile a kernel at its first call, without the GIL. Of fast-math it may only fuse
-    multiply-adds, where the processor has them.
+    Compile a kernel at its first call; it runs without the GIL.
 
-    The machine code is kept where numba would keep it: beside the source or, where that is
-    read-only, in the user's own cache; where there is neither, the kernel is compiled anew in each
-    process. What is found there is used only if it is what was written.
+    Of fast-math only fused multiply-adds are allowed, if the processor has them. The machine code
+    is kept where numba would keep it: beside the source or, if that is read-only, in the user's
+    cache; without either, each process compiles anew. A file there is used only if its checksum is
+    right.
     """
     options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
     kernel = nb.njit(**options)(function)
-    if hasattr(
-        kernel, "enable_caching"
-    ):  # numba may be switched off, which leaves the plain function
+    # With numba switched off this is the plain function.
+    if hasattr(kernel, "enable_caching"):
         with contextlib.suppress(RuntimeError, OSError):  # no place for a cache
             kernel._cache = _Cache(function)
     return kernel  # type: ignore[no-any-return]
 
 
 class _Cache(FunctionCache):
-    """numba's cache of one function, whose faults cost the time to compile and nothing else."""
+    """The cache of one function, whose faults are not errors."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
@@ -53,20 +52,20 @@ class _Cache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
             return super().load_overload(sig, target_context)
-        except Exception:  # whatever a bent or foreign file makes of itself: as if there were none
+        except Exception:  # of a damaged or foreign file: as if there were none
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        with contextlib.suppress(
-            Exception
-        ):  # a full or read-only disk, another process: the code is here and works
+        # A full or read-only disk, or another process: the code is in memory and works.
+        with contextlib.suppress(Exception):
             super().save_overload(sig, data)
 
 
 class _Files(IndexDataCacheFile):
     """
-    Index and data files that end with the SHA-256 of what comes before: a bit flipped in machine
-    code would crash, not raise.
+    Index and data files that end with the SHA-256 of their contents.
+
+    A flipped bit in machine code would crash, not raise.
     """
 
     def _load_index(self) -> Any:
@@ -74,9 +73,7 @@ class _Files(IndexDataCacheFile):
 
     def _load_data(self, name: str) -> Any:
         if not _is_whole(self._data_path(name)):
-            raise OSError(
-                f"{name} is not what was written"
-            )  # numba takes this for a file that is gone
+            raise OSError(f"{name} is damaged")  # numba takes this for a missing file
         return super()._load_data(name)
 
     @contextlib.contextmanager
@@ -84,13 +81,12 @@ class _Files(IndexDataCacheFile):
         data = io.BytesIO()
         yield data
         with super()._open_for_write(filepath) as file:
-            file.write(
-                data.getvalue() + hashlib.sha256(data.getvalue()).digest()
-            )  # a pickle ends where it ends: the rest is not read
+            # A pickle is read up to its own end, so the digest is ignored.
+            file.write(data.getvalue() + hashlib.sha256(data.getvalue()).digest())
 
 
 def _is_whole(path: str) -> bool:
-    """Whether a file ends with its own checksum."""
+    """Return True if a file ends with the checksum of its contents."""
     try:
         data = Path(path).read_bytes()
     except OSError:

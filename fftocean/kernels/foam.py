@@ -19,7 +19,7 @@ def advance(
     state: Real,
 ) -> None:
     """
-    state = decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
+    Advance state to decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
 
     The smallest eigenvalue of the deformation gradient is a cubic through the four given times, and
     u_i are times from `now` to `then`: eigenvalue(u_i) is the sum of cubic[i] times the four. So a
@@ -44,7 +44,7 @@ def advance(
 
 @compiled
 def coverage(state: Real, out: Real) -> None:
-    """out = 1 - e^{-state}, in 0..1."""
+    """Write out = 1 - e^{-state}, in 0..1."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             out[j, i] = -np.expm1(-state[j, i])

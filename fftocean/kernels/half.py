@@ -1,7 +1,4 @@
-"""
-Single precision to half, many at once: IEEE 754 round to nearest, ties to even, on the bits
-themselves.
-"""
+"""Conversion of single to half precision, rounded to nearest, ties to even (IEEE 754)."""
 
 import numpy as np
 import numpy.typing as npt
@@ -12,12 +9,11 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def pack(bits: npt.NDArray[np.uint32], out: npt.NDArray[np.uint16]) -> None:
     """
-    out = the half nearest to each float, ties to even: the same bits as
-    `floats.astype(np.float16)`, several times faster.
+    Write the half nearest to each float, ties to even.
 
-    From 65520 on it is infinity, as IEEE 754 rounds; a NaN becomes the quiet NaN 7e00 with its
-    sign. There is no branch and all of it is 32 bit wide, so that the compiler can do many at a
-    time.
+    The bits are those of `floats.astype(np.float16)`, several times faster. From 65520 on the
+    result is infinity, as IEEE 754 rounds; a NaN becomes the quiet NaN 7e00 with its sign. There is
+    no branch, and all numbers are 32 bits wide, so that the loop is vectorised.
 
     Args:
         bits: `floats.view(np.uint32)` of C-contiguous float32, one axis.
@@ -27,10 +23,8 @@ def pack(bits: npt.NDArray[np.uint32], out: npt.NDArray[np.uint16]) -> None:
     Pinned by tests/kernels/test_half.py, against C's own packing.
     """
     one, low_mantissa = np.uint32(1), np.uint32(0x7FFFFF)
-    least, rebias = (
-        np.uint32(113 << 23),
-        np.uint32(112 << 23),
-    )  # the smallest normal half; what a float's exponent has too much
+    # The smallest normal half; the difference of the two exponents' biases.
+    least, rebias = np.uint32(113 << 23), np.uint32(112 << 23)
     for i in range(out.shape[0]):
         word = bits[i]
         size = word & np.uint32(0x7FFFFFFF)

@@ -83,7 +83,7 @@ def bilinear_gradient(
     Return (a, b, c, da/du, da/dv, db/du, db/dv) of the bilinear interpolant at (u, v).
 
     a, b and c are the first three channels. `texels` is flat, four channels to a texel; those of
-    the tile lie row by row from texel `first` on. (u, v) is finite, and small enough for an integer.
+    the tile lie row by row from texel `first` on. (u, v) is finite, and fits into an integer.
     """
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)

@@ -7,11 +7,11 @@ from fftocean.kernels.compiler import compiled
 @compiled
 def halve(texels: Real, out: Real) -> None:
     """
-    out = means of texels over boxes, each axis n samples to m = max(1, n // 2): box i covers i n/m
-    to (i + 1) n/m.
+    Write the means of texels over boxes, from n samples an axis to m = max(1, n // 2).
 
-    Where n is odd a box ends within a sample, which is shared out by length; so all samples count
-    alike, and means are kept. Both are (rows, columns, channels).
+    Box i covers i n/m to (i + 1) n/m. Where n is odd a box ends within a sample, which is shared by
+    length; so all samples have one weight, and means are kept. Both arrays are (rows, columns,
+    channels).
     """
     rows, columns, channels = texels.shape
     tall, wide = out.shape[0], out.shape[1]

@@ -78,8 +78,8 @@ def phasors(cycles: Real, cosine: Real, sine: Real) -> None:
     """
     Write cosine and sine of phases in cycles, |cycles| <= 1/2.
 
-    By Taylor series of half the angle, which is then doubled: no branch, no table. Half the angle is
-    at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of the cosine.
+    By Taylor series of half the angle, which is then doubled: no branch, no table. Half the angle
+    is at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of the cosine.
     """
     for b in range(cycles.shape[0]):
         phase, c, s = cycles[b], cosine[b], sine[b]
@@ -261,9 +261,9 @@ def pack(
     Write packed rows, whose transforms have one real field as real part, one as imaginary part.
 
     out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k. X and Y are the half-spectra `plus`
-    and `minus` of row first + r, the Hermitian halves of real rows. `factors` has each number twice,
-    for real and imaginary part; `mirrored` too, from the highest k down to the first above 0, the
-    second of each with a minus for the conjugate.
+    and `minus` of row first + r, the Hermitian halves of real rows. `factors` has each number
+    twice, for real and imaginary part; `mirrored` too, from the highest k down to the first above
+    0, the second of each with a minus for the conjugate.
     """
     high = mirrored.size // 2  # the highest k
     for r in range(rows):

@@ -439,7 +439,7 @@ def texel_coordinates(
 @compiled
 def sum_heights(tiles: tuple[Any, ...], x: Real, y: Real, origin: Real, out: Real) -> None:
     """
-    Write the height of linear theory, without horizontal displacement: the sum of a cos f at (x, y).
+    Write the height of linear theory at (x, y), without horizontal displacement.
 
     Args:
         tiles: the fields of `Tiles`, of which the waves are used.

@@ -1,8 +1,7 @@
 """
-From samples at undisplaced positions to samples at places: quintic B-splines, their inversion, and
-which places lie under a fold.
+Resampling from rest positions to world positions, by quintic B-splines.
 
-Positions (u, v) count samples of a periodic grid along x and y. Spline coefficients come
+Positions (u, v) count samples of a periodic grid along x and y. Spline coefficients are
 interleaved, (my, mx, fields).
 """
 
@@ -18,8 +17,9 @@ Flags = npt.NDArray[np.bool_]
 @compiled
 def weights(f: float, w: Real) -> None:
     """
-    w = the quintic B-spline at f + 2, f + 1, f, f - 1, f - 2, f - 3, for 0 <= f <= 1: the shares of
-    the six samples around.
+    Write the weights of six samples: the quintic B-spline at f + 2, f + 1, ..., f - 3.
+
+    f is the position between the third and the fourth, 0 <= f <= 1.
     """
     g = 1.0 - f
     f2 = f * f
@@ -33,7 +33,7 @@ def weights(f: float, w: Real) -> None:
 
 @compiled
 def rates(f: float, w: Real) -> None:
-    """w = the derivatives of `weights` with respect to f."""
+    """Write the derivatives of `weights` with respect to f."""
     g = 1.0 - f
     f2 = f * f
     w[0] = g * g * g * g * (-1 / 24)
@@ -46,7 +46,7 @@ def rates(f: float, w: Real) -> None:
 
 @compiled
 def sample(coefficients: Real, u: Real, v: Real, out: Real) -> None:
-    """out[p, field] = the spline of each field at (u[p], v[p]), summed in double precision."""
+    """Write the spline of each field at (u[p], v[p]) to out[p], summed in double precision."""
     rows, columns, fields = coefficients.shape
     wu, wv, total = np.empty(6), np.empty(6), np.empty(fields)
     for p in range(u.size):
@@ -72,12 +72,11 @@ def invert(
     shift: Real, x: Real, y: Real, steps: int, tolerance: float, u: Real, v: Real, residual: Real
 ) -> None:
     """
-    Solve (u, v) + shift(u, v) = (x, y) by Newton's method with the exact derivatives of the spline,
-    from (u, v) as given.
+    Solve (u, v) + shift(u, v) = (x, y) by Newton's method, from the given (u, v).
 
-    `shift` are coefficients (my, mx, 2) in samples; x, y, u, v and residual are (points,). A step
-    is at most one sample long; the best of all positions tried is kept, and how far it is off, in
-    samples.
+    The derivatives are those of the spline. `shift` are coefficients (my, mx, 2) in samples; x, y,
+    u, v and residual are (points,). A step is at most one sample long. The best of all positions
+    tried is kept, with its residual in samples.
     """
     rows, columns = shift.shape[0], shift.shape[1]
     wu, wv, du, dv = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
@@ -131,8 +130,7 @@ def uncover(
     x: Real, y: Real, z: Real, stride: int, u: Real, v: Real, top: Real, folded: Flags
 ) -> None:
     """
-    Find, for every stride-th place of a periodic grid, the undisplaced position of the highest
-    water over it.
+    Find the rest position of the highest water over every stride-th place of a periodic grid.
 
     The surface is two triangles to each cell of samples, displaced to (x, y) [samples] at height z,
     each (my, mx). Places lie at whole multiples of `stride`. u, v and top, the height, are (my /
@@ -210,11 +208,10 @@ def world_slopes(
     out_y: Real,
 ) -> None:
     """
-    out_x, out_y = dz/dx and dz/dy of the displaced surface in world coordinates, from its normal;
-    all (rows, columns).
+    Write dz/dx and dz/dy of the displaced surface in world coordinates, from its normal.
 
-    Where the surface stands upright or hangs over, at the rim of a fold, the slope would be
-    infinite: it is cut at `steepest`.
+    All arrays are (rows, columns). Where the surface stands upright or hangs over, at the rim of a
+    fold, the slope would be infinite: it is limited to `steepest`.
     """
     for j in range(slope_x.shape[0]):
         for i in range(slope_x.shape[1]):

@@ -1,7 +1,4 @@
-"""
-Pointwise geometry of the displaced surface: what slopes and stretches say about its normal and its
-folding.
-"""
+"""Pointwise geometry of the displaced surface: normals, Jacobians and folds."""
 
 import numpy as np
 
@@ -14,22 +11,18 @@ def normals(
     slope_x: Real, slope_y: Real, xx: Real, xy: Real, yy: Real, choppiness: float, out: Real
 ) -> None:
     """
-    out = the unit vector along (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy), the cross product
-    of the surface's two tangents.
+    Write the unit normal, along (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy).
 
+    It is the cross product of the two tangents.
     Its z component has the sign of the Jacobian: where the surface is folded over, the normal
     points down. Where both tangents vanish together there is no normal, and up is returned.
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     nothing = xx.dtype.type(0)
     n = out.shape[1]
-    unit = np.empty(
-        3 * n, xx.dtype
-    )  # a row of x, one of y, one of z: one array to write to is what compilers still vectorise
-    second, third = (
-        np.uint64(n),
-        np.uint64(2 * n),
-    )  # unsigned: an index that might be negative would have to be looked at
+    # Rows of x, y and z in one array: compilers vectorise a loop that writes to one.
+    unit = np.empty(3 * n, xx.dtype)
+    second, third = np.uint64(n), np.uint64(2 * n)  # unsigned: no check for negative indices
     for j in range(out.shape[0]):
         sx, sy, dxx, dxy, dyy = slope_x[j], slope_y[j], xx[j], xy[j], yy[j]
         for i in range(n):
@@ -56,8 +49,9 @@ def normals(
 @compiled
 def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     """
-    out = (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2: the area of displaced water surface over still; below
-    0 it is folded.
+    Write the Jacobian (1 + c Dxx)(1 + c Dyy) - (c Dxy)^2.
+
+    It is the area of the displaced surface over that at rest; below 0 the water is folded.
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     for j in range(out.shape[0]):
@@ -70,9 +64,9 @@ def jacobian(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None
 @compiled
 def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     """
-    out = the smallest eigenvalue of the deformation gradient.
+    Write the smallest eigenvalue of the deformation gradient.
 
-    The deformation gradient is [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]].
+    The gradient is [[1 + c Dxx, c Dxy], [c Dxy, 1 + c Dyy]].
     """
     one = xx.dtype.type(1)  # in the fields' own precision, as choppiness must be
     half = xx.dtype.type(0.5)
@@ -87,11 +81,10 @@ def minimum_eigenvalue(xx: Real, xy: Real, yy: Real, choppiness: float, out: Rea
 @compiled
 def folds(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     """
-    out = how many samples are folded, the smallest Jacobian, the smallest eigenvalue of the
-    displacement gradient; float64.
+    Write the number of folded samples, the smallest Jacobian, and the smallest eigenvalue.
 
-    Folded are those whose smaller eigenvalue of the deformation, 1 + c times that of the gradient,
-    is below 0.
+    The eigenvalue is that of the displacement gradient; float64. A sample is folded if the smallest
+    eigenvalue of the deformation gradient, 1 + c times that, is below 0.
     """
     folded = 0
     least = np.inf

@@ -1,1 +1,1 @@
-"""The continuous sea: no grid, no FFT, no chance."""
+"""Continuous sea state: spectra, spreadings and dispersion, without grid or random numbers."""

@@ -1,6 +1,6 @@
 """
-The dispersion relation of water waves: omega(k), d omega/dk, k(omega), and the frequencies that
-close a loop.
+Dispersion relation of surface gravity-capillary waves: omega(k), d omega/dk, k(omega), and the
+frequencies of a loop.
 """
 
 import math
@@ -24,13 +24,13 @@ FREQUENCY = Quantity("rad/s", 0.0, LARGEST)
 
 
 def _water(depth: float, surface_tension: float) -> float:
-    """Check the water itself; return its kinematic surface tension sigma/rho [m^3/s^2]."""
+    """Return the kinematic surface tension sigma/rho [m^3/s^2] of checked water."""
     DEPTH.check("depth", depth)
     return SURFACE_TENSION.check("surface_tension", surface_tension) / WATER_DENSITY
 
 
 def _times_depth(k: Real, depth: float) -> Real:
-    """k h, with 0 h = 0 also in infinitely deep water."""
+    """Return k h, with 0 h = 0 also in infinitely deep water."""
     if math.isinf(depth):
         return np.where(k > 0.0, np.inf, 0.0)
     with np.errstate(over="ignore"):  # inf is as deep as it gets
@@ -38,7 +38,7 @@ def _times_depth(k: Real, depth: float) -> Real:
 
 
 def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
-    """omega(k), unchecked."""
+    """Return omega(k), unchecked."""
     omega: Real = np.sqrt(
         (GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth))
     )
@@ -46,7 +46,7 @@ def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
 
 
 def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
-    """(d omega/dk) / (omega/k), unchecked."""
+    """Return (d omega/dk) / (omega/k), unchecked."""
     s = kinematic_tension * k**2
     x2 = 2.0 * np.minimum(
         _times_depth(k, depth), 350.0
@@ -61,12 +61,12 @@ def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
 def turns_per_second(omega: Real) -> Real:
     """
     Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest
-    double, not the next.
+    double.
     """
-    turns: Real = (
+    cycles: Real = (
         omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
     ).astype(np.float64)
-    return turns
+    return cycles
 
 
 def angular_frequency(k: RealLike, depth: float = math.inf, surface_tension: float = 0.0) -> Real:
@@ -178,29 +178,30 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     return result
 
 
-# from a guess within 1/4 of the root in ln k, five steps reach the last digit; one for the road
+# from a guess within 1/4 of the root in ln k, five steps reach the last digit; one is spare
 _NEWTON_STEPS = 6
 
 
 def loop_cycles(omega: RealLike, period: float) -> Integer:
     """
-    Return how many whole turns each wave makes in a loop of `period` [s]: max(1, round(omega T / 2
-    pi)).
+    Return the number of whole cycles of each wave in a loop of `period` [s]: max(1, round(omega T /
+    2 pi)).
 
     A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T,
-    except for the slowest waves, which are sped up to one turn a loop rather than frozen.
+    except for the slowest waves, which are sped up to one cycle a loop rather than frozen.
 
     Raises:
-        ParameterError: a frequency or period out of its range, or more turns than a 64 bit integer
-            counts.
+        ParameterError: a frequency or period out of its range, or more cycles than a 64 bit
+            integer counts.
 
     Source: Tessendorf 2001, section 4.4 (who truncates; rounding halves the error).
     """
     period = LOOP.check("period", period)
-    turns = np.rint(FREQUENCY.check_array("omega", omega) * (period / (2.0 * np.pi)))
-    if np.any(turns >= 2.0**63):
+    cycles = np.rint(FREQUENCY.check_array("omega", omega) * (period / (2.0 * np.pi)))
+    if np.any(cycles >= 2.0**63):
         raise ParameterError(
-            f"omega must make fewer than 2^63 turns in a loop, got {np.max(turns):g} in {period:g} s"
+            f"omega must make fewer than 2^63 cycles in a loop, got {np.max(cycles):g} "
+            f"in {period:g} s"
         )
-    cycles: Integer = np.maximum(turns, 1.0).astype(np.int64)
-    return cycles
+    whole: Integer = np.maximum(cycles, 1.0).astype(np.int64)
+    return whole

@@ -109,7 +109,7 @@ class Way(Generic[M]):
         return self.required <= names <= set(self.keys)
 
     def __str__(self) -> str:
-        """The keys as messages show them, the optional ones in brackets."""
+        """Return the keys as messages show them, the optional ones in brackets."""
         shown = (name if name in self.required else f"[{name}]" for name in self.keys)
         return "{" + ", ".join(shown) + "}"
 

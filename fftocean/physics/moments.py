@@ -1,4 +1,4 @@
-"""What the integrals of a spectrum say: m_n, Hs, Tp, Tz, mean direction and spread."""
+"""Integral parameters of a spectrum: m_n, Hs, Tp, Tz, mean direction and spread."""
 
 import math
 from collections.abc import Callable, Iterable
@@ -10,7 +10,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
 
-# Spectra and seas are told apart by what they can do, not imported: this room lies below theirs.
+# Any callable with a peak is taken: this module lies below those of spectra and seas.
 Spectrum = Any
 """A `FrequencySpectrum`: callable on omega, with `.peak` and, where it has corners, `.breaks`."""
 
@@ -96,8 +96,8 @@ def _peak_of(spectrum: Spectrum) -> float:
 
 def _refined(edges: list[float]) -> list[float]:
     """
-    Put edges in between so that no finite piece spans more than a factor of 16: a quadrature may
-    overlook a peak at one end of it.
+    Return the edges with more in between, so that no finite piece spans more than a factor of 16: a
+    quadrature may overlook a peak at one end of a long piece.
     """
     refined = edges[:1]
     for a, b in pairwise(edges):
@@ -107,7 +107,7 @@ def _refined(edges: list[float]) -> list[float]:
 
 
 def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool:
-    """Whether a piece holds anything at all: a relative tolerance cannot be met on nothing."""
+    """Return True if a piece has any energy: a relative tolerance cannot be met on none."""
     probes = (
         a + (b - a) * np.linspace(0.0, 1.0, 65)
         if math.isfinite(b)
@@ -117,7 +117,7 @@ def _any_energy(integrand: Callable[[float], float], a: float, b: float) -> bool
 
 
 def _split(integrand: Callable[[float], float], a: float, b: float, tolerance: float) -> float:
-    """Integrate in 64 panels; give up as soon as the errors exceed the tolerance."""
+    """Integrate in 64 panels; raise as soon as the errors exceed the tolerance."""
     from scipy import integrate
 
     total = doubt = 0.0
@@ -128,42 +128,43 @@ def _split(integrand: Callable[[float], float], a: float, b: float, tolerance: f
         total, doubt = total + part, doubt + error
         if doubt > tolerance:
             raise ParameterError(
-                f"the spectrum is too rough to integrate: a part of the moment came out as {part:g} +- {error:g}"
+                "the spectrum is too rough to integrate: a part of the moment came out as "
+                f"{part:g} +- {error:g}"
             )
     return total
 
 
 def _diverges(spectrum: Spectrum, n: int) -> bool:
     """
-    Whether omega^(n+1) S no longer falls far out on the tail: 1e10 peaks out, past where even the
-    shallowest water turns deep.
+    Return True if omega^(n+1) S no longer falls far out on the tail: 1e10 peaks out, where even the
+    shallowest water is deep.
     """
     near, far = (float(spectrum(x * float(spectrum.peak))) for x in (1e10, 1e11))
     return near > 0.0 and far > 0.0 and math.log10(far / near) + n + 1 > math.log10(0.9)
 
 
 def significant_wave_height(spectrum: Spectrum) -> float:
-    """Hs = 4 sqrt(m0) [m]."""
+    """Return Hs = 4 sqrt(m0) [m]."""
     return 4.0 * math.sqrt(moment(spectrum, 0))
 
 
 def mean_period(spectrum: Spectrum) -> float:
-    """Tm01 = 2 pi m0/m1 [s]; NaN-free: 0 for a flat sea."""
+    """Return Tm01 = 2 pi m0/m1 [s]; 0 for a flat sea."""
     m0, m1 = moment(spectrum, 0), moment(spectrum, 1)
     return 2.0 * math.pi * m0 / m1 if m1 > 0.0 else 0.0
 
 
 def zero_crossing_period(spectrum: Spectrum) -> float:
-    """Tz = 2 pi sqrt(m0/m2) [s]; 0 for a flat sea."""
+    """Return Tz = 2 pi sqrt(m0/m2) [s]; 0 for a flat sea."""
     m0, m2 = moment(spectrum, 0), moment(spectrum, 2)
     return 2.0 * math.pi * math.sqrt(m0 / m2) if m2 > 0.0 else 0.0
 
 
 def peak_period(spectrum: Spectrum) -> float:
     """
-    Tp = 2 pi / omega at which S is highest [s], found on the curve itself; 0 for a flat sea.
+    Return Tp = 2 pi / omega at which S is highest [s], found on the curve itself; 0 for a flat sea.
 
-    For a wrapped spectrum (TMA) this is the peak of what is delivered, a little shorter than that
+    For a wrapped spectrum (TMA) this is the peak of the product, a little shorter than that
     of the deep-water sea.
     """
     peak = _peak_of(spectrum)
@@ -207,8 +208,8 @@ def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float
 
 def spectral_grid(peaks: Iterable[float], breaks: Iterable[float] = (), points: int = 400) -> Real:
     """
-    Frequencies [rad/s] on which to look at a sea: a tenth of its lowest peak to 30 times its
-    highest, dense round each, every corner.
+    Return frequencies [rad/s] that show a sea: from a tenth of its lowest peak to 30 times its
+    highest, dense round each peak, with every corner.
     """
     peaks = list(peaks)
     if not peaks:

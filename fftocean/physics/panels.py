@@ -7,6 +7,7 @@ by halves toward each of them, toward the peak and toward the system's own direc
 values change there, and are bisected until eight Gauss points resolve each of them.
 """
 
+import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -68,7 +69,7 @@ def split(low: Real, high: Real, edges: Real) -> tuple[Index, Real, Real]:
 
 def parts_of(system: "WaveSystem") -> "list[tuple[float, WaveSystem]]":
     """
-    Return the systems, each with its share, that make up one: a blend with a long-crested part is
+    Return the systems that make up one, each with its share: a blend with a long-crested part is
     taken apart.
     """
     spreading = system.spreading
@@ -116,7 +117,7 @@ def frequency_panels(system: "WaveSystem") -> Panels:
         [
             edges,
             *(
-                _graded(sampled, f, f, np.max(sampled(np.array(features)), axis=1))
+                _graded(sampled, f, (f, f), np.max(sampled(np.array(features)), axis=1))
                 for f in features
             ),
         ]
@@ -128,7 +129,7 @@ def frequency_panels(system: "WaveSystem") -> Panels:
 
 def energetic_frequencies(system: "WaveSystem", edges: Real, count: int = 16) -> tuple[Real, Real]:
     """
-    Return frequencies [rad/s] that stand for a system, the peak first, and the energy of the
+    Return frequencies [rad/s] that represent a system, the peak first, and the energy of the
     panels, (panels,) [m^2].
     """
     omega, weight = gauss(edges[:-1], edges[1:])
@@ -157,7 +158,15 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
         np.concatenate([[-0.5 * np.pi, 0.0, 0.5 * np.pi], breaks[np.abs(breaks) < np.pi]])
     )
     top = np.max(sampled(np.concatenate([features, quarters])), axis=1)
-    graded = [_graded(sampled, f, 0.25 * np.pi, top) for f in features]
+    # up to the next feature on each side: a table names many
+    gaps = np.minimum(
+        np.diff(features, prepend=features[-1] - 2.0 * np.pi, append=features[0] + 2.0 * np.pi),
+        0.25 * np.pi,
+    )
+    graded = [
+        _graded(sampled, f, reach, top)
+        for f, reach in zip(features, itertools.pairwise(gaps), strict=True)
+    ]
     edges = np.concatenate([quarters, features, *graded])
     edges = _bisected(sampled, _apart(edges[np.abs(edges) <= np.pi], 1e-12))
     jumps = _jumps(sampled, features, np.full(features.size, 1e-9))
@@ -165,7 +174,7 @@ def direction_panels(system: "WaveSystem", omega: Real) -> Panels:
 
 
 def _apart(edges: Iterable[float], least: float) -> Real:
-    """The same edges, ascending, without those that stand on another but for rounding."""
+    """Return the edges, ascending, without those that differ from another by rounding only."""
     ascending = np.unique(np.fromiter(edges, dtype=np.float64))
     kept: Real = ascending[
         np.concatenate([[True], np.diff(ascending) > least * np.abs(ascending[1:])])
@@ -173,14 +182,15 @@ def _apart(edges: Iterable[float], least: float) -> Real:
     return kept
 
 
-def _graded(sampled: Sampled, feature: float, reach: float, top: Real) -> Real:
+def _graded(sampled: Sampled, feature: float, reach: tuple[float, float], top: Real) -> Real:
     """
-    Edges at `reach` halved on both sides of a feature, down to where the values no longer change.
+    Return edges at `reach` (before, after) halved on both sides of a feature, down to where the
+    values no longer change.
     """
-    steps = reach * 0.5 ** np.arange(1, _HALVINGS + 1)
     found = []
     scale = np.where(top > 0.0, top, 1.0)[:, None]
-    for side in (-1.0, 1.0):
+    for side, most in zip((-1.0, 1.0), reach, strict=True):
+        steps = most * 0.5 ** np.arange(1, _HALVINGS + 1)
         values = sampled(feature + side * np.append(steps, 0.25 * steps[-1]))
         changed = np.any(
             np.abs(values[:, :-1] - values[:, -1:]) > _CHANGE * np.maximum(scale, values[:, -1:]),
@@ -192,7 +202,9 @@ def _graded(sampled: Sampled, feature: float, reach: float, top: Real) -> Real:
 
 
 def _bisected(sampled: Sampled, edges: Real) -> Real:
-    """The edges, with more in between until eight points resolve every curve in every panel."""
+    """
+    Return the edges, with more in between until eight points resolve every curve in every panel.
+    """
     low, high = edges[:-1], edges[1:]
     done = [edges]
     total: Real | float = 0.0
@@ -217,7 +229,7 @@ def _bisected(sampled: Sampled, edges: Real) -> Real:
 
 
 def _jumps(sampled: Sampled, at: Real, step: Real) -> Real:
-    """Those of some points at which a curve jumps."""
+    """Return the points among some at which a curve jumps."""
     before, after = sampled(at - step), sampled(at + step)
     top = np.max(np.maximum(before, after), axis=1, keepdims=True)
     jumping: Real = at[np.any(np.abs(after - before) > 1e-3 * top, axis=0) & (at != 0.0)]

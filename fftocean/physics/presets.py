@@ -1,6 +1,6 @@
 """
-Wind seas by number: Beaufort's winds and the sea states of WMO code table 3700, each with exactly
-the height it promises.
+Wind seas of the Beaufort scale and of the sea states of WMO code table 3700, each with exactly the
+wave height of its number.
 """
 
 import math
@@ -64,8 +64,8 @@ _SEA_STATES: tuple[tuple[str, float, float], ...] = (
 @dataclass(frozen=True, slots=True)
 class Preset:
     """
-    What a number promises: a wind, and the sea of exactly `hs` that it raises. A calm has no
-    spectrum.
+    Wind and sea of a number on a scale: the wind, and the sea of exactly `hs` under it. A calm has
+    no spectrum.
     """
 
     number: int
@@ -82,7 +82,7 @@ class Preset:
 
     def spectrum(self, depth: float = math.inf) -> TMA | None:
         """
-        The sea's spectrum, whose Hs *in water of `depth`* [m] is the promised one; None of a calm.
+        Return the spectrum of the sea, whose Hs in water of `depth` [m] is `hs`; None for a calm.
 
         Raises:
             ParameterError: waves that would be too steep in so little water.
@@ -151,12 +151,12 @@ def sea_state(number: int) -> Preset:
 
 
 def beaufort_table() -> tuple[Preset, ...]:
-    """The scale from 0 to 12."""
+    """Return the scale from 0 to 12."""
     return tuple(beaufort(number) for number in range(len(_BEAUFORT)))
 
 
 def sea_state_table() -> tuple[Preset, ...]:
-    """Code table 3700 from 0 to 9, with the wind that raises each sea."""
+    """Return code table 3700 from 0 to 9, with the wind that raises each sea."""
     return tuple(sea_state(number) for number in range(len(_SEA_STATES)))
 
 
@@ -165,15 +165,15 @@ _DEVELOPED_HEIGHT = 4.0 * math.sqrt(8.1e-3 / 5.0) / FULLY_DEVELOPED_PEAK**2
 
 
 def _developing_wind(hs: float) -> float:
-    """The wind U10 [m/s] whose fully developed sea has `hs` [m]."""
+    """Return the wind U10 [m/s] of the fully developed sea of `hs` [m]."""
     return math.sqrt(GRAVITY * hs / _DEVELOPED_HEIGHT)
 
 
 @lru_cache(maxsize=64)
 def _young_or_developed(wind: float, hs: float) -> tuple[float, float]:
     """
-    Peak period [s] and gamma of the sea of `hs` [m] under `wind` [m/s], or of the developed sea
-    where the wind is too little.
+    Return the peak period [s] and gamma of the sea of `hs` [m] under `wind` [m/s], or of the
+    developed sea where the wind is too weak.
     """
     if not hs:
         return 0.0, 1.0

@@ -1,6 +1,4 @@
-"""
-The sea as a sum of wave systems: a wind sea, a swell or two, one water depth under all of them.
-"""
+"""Sea state as a sum of wave systems, wind seas and swells, over one depth of water."""
 
 import math
 import warnings
@@ -24,7 +22,7 @@ if TYPE_CHECKING:
 
 def from_compass(bearing: float) -> float:
     """
-    Turn a meteorological bearing into our direction.
+    Return the direction in the library's convention of a meteorological bearing.
 
     Args:
         bearing: where the waves or the wind come FROM [degrees], clockwise from north, as forecasts
@@ -38,7 +36,7 @@ def from_compass(bearing: float) -> float:
 
 
 def _short(model: object) -> str:
-    """A model as it shows itself, where that is short; else its name and those of its parts."""
+    """Return the repr of a model where it is short; else its name and those of its parts."""
     text = repr(model)
     if len(text) <= 90:
         return text
@@ -55,7 +53,7 @@ def _by(part: str | None) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WaveSystem:
-    """One wind sea or swell: how much energy at each frequency, and where it goes."""
+    """One wind sea or swell: a spectrum, its spreading and its mean direction."""
 
     spectrum: FrequencySpectrum
     spreading: Spreading = field(default_factory=DonelanBanner)
@@ -70,15 +68,17 @@ class WaveSystem:
             for other in statements(name, "spreading", self.spreading):
                 if spectral and not math.isclose(spectral.value, other.value, rel_tol=SAME):
                     warnings.warn(
-                        f"the {words} of a wave system is {spectral.value:g} m/s for its {spectral} and "
-                        f"{other.value:g} m/s for its {other}: its directions are those of another wind",
+                        f"the {words} of a wave system is {spectral.value:g} m/s for its "
+                        f"{spectral} and {other.value:g} m/s for its {other}: its directions are "
+                        "those of another wind",
                         SeaWarning,
                         stacklevel=3,
                     )
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """
-        S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise from +x.
+        Return S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise
+        from +x.
         """
         return self.spectrum(omega) * self.spreading(
             omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak
@@ -157,7 +157,7 @@ class Sea:
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
-        The short way to a sea: TMA, spread by an even blend of Donelan-Banner and cos^2.
+        Return a TMA sea, spread by an even blend of Donelan-Banner and cos^2.
 
         Args:
             speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says
@@ -192,8 +192,8 @@ class Sea:
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
-        The open sea of a Beaufort number, 0 (flat) to 12, with exactly the scale's probable wave
-        height; see `presets.beaufort`.
+        Return the open sea of a Beaufort number, 0 (flat) to 12, with exactly the scale's probable
+        wave height; see `presets.beaufort`.
 
         Args:
             number: on the Beaufort scale.
@@ -217,8 +217,8 @@ class Sea:
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
-        The sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`, see
-        `presets.sea_state`.
+        Return the sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`,
+        see `presets.sea_state`.
         """
         return cls._preset(presets.sea_state(number), direction, depth, spreading)
 
@@ -235,8 +235,8 @@ class Sea:
         negative: str = "refuse",
     ) -> "Sea":
         """
-        The sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight from the
-        wavespectra package.
+        Return the sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight
+        from the wavespectra package.
 
         Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
         bands. `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports
@@ -276,7 +276,7 @@ class Sea:
         )
 
     def _stated(self, name: str) -> Iterator[Statement]:
-        """The statements of all parts about the water."""
+        """Yield the statements of all parts about the water."""
         for i, system in enumerate(self.systems):
             yield from statements(name, f"systems[{i}].spectrum", system.spectrum)
             yield from statements(name, f"systems[{i}].spreading", system.spreading)
@@ -317,7 +317,7 @@ class Sea:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where the sum bends sharply: the systems' peaks and corners [rad/s]."""
+        """The frequencies of sharp bends of the sum: the systems' peaks and corners [rad/s]."""
         return tuple(
             sorted(
                 {
@@ -329,13 +329,13 @@ class Sea:
         )
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S(omega) of all systems together, [m^2 s/rad]."""
+        """Return S(omega) of all systems together, [m^2 s/rad]."""
         omega = np.asarray(omega, dtype=np.float64)
         return sum((s.spectrum(omega) for s in self.systems), np.zeros_like(omega))
 
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """
-        S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is
+        Return S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is
         counter-clockwise from +x.
         """
         omega, theta = np.broadcast_arrays(

@@ -1,7 +1,4 @@
-"""
-Units of the sea's trades, turned into SI at the border: inside the package there are metres and
-seconds only.
-"""
+"""Conversion of nautical units to SI; the rest of the package has metres and seconds only."""
 
 from typing import Final
 

@@ -31,7 +31,8 @@ class Statement:
 
 def statements(name: str, path: str, part: Any) -> Iterator[Statement]:
     """
-    Yield what a spectrum or spreading, or else the parts that it is made of, states as `name`.
+    Yield the statements about `name` of a spectrum or spreading, or else of the parts that it is
+    made of.
 
     A part states a value by an attribute of that name that is a number; one that is None states
     nothing. The outermost statement holds: the spectrum in a `TMA` is one of deep water, and the
@@ -51,8 +52,8 @@ def _statements(name: str, path: str, part: Any, depth: int) -> Iterator[Stateme
 
 def _parts(part: Any) -> Iterator[tuple[str, Any]]:
     """
-    The callables that an object holds as attributes, alone or in lists; a function or a class holds
-    none.
+    Yield the callables that an object holds as attributes, alone or in lists, with their labels;
+    none of a function or a class.
     """
     if is_dataclass(part) and not isinstance(part, type):
         held: Iterable[tuple[str, Any]] = (
@@ -82,13 +83,15 @@ def agreed(
         first = stated[0]
         if value is not None and not _same(value, statement.value):
             raise ParameterError(
-                f"{name} of a sea must be that of its spectra and spreadings, got {_with_unit(value, quantity)} for the "
-                f"sea and {_with_unit(statement.value, quantity)} for {statement}"
+                f"{name} of a sea must be that of its spectra and spreadings, "
+                f"got {_with_unit(value, quantity)} for the sea and "
+                f"{_with_unit(statement.value, quantity)} for {statement}"
             )
         if not _same(first.value, statement.value):
             raise ParameterError(
                 f"{name} must be the same in all spectra and spreadings of a sea, got "
-                f"{_with_unit(first.value, quantity)} for {first} and {_with_unit(statement.value, quantity)} for {statement}"
+                f"{_with_unit(first.value, quantity)} for {first} and "
+                f"{_with_unit(statement.value, quantity)} for {statement}"
             )
     if value is not None:
         return value

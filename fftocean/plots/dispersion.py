@@ -10,7 +10,7 @@ from fftocean.measured_dispersion import MeasuredDispersion, measured_dispersion
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion
 from fftocean.plots.axes import round_periods, spell_out_ticks
-from fftocean.plots.figures import new_figure, write_message
+from fftocean.plots.figures import new_figure, panels, write_message
 from fftocean.plots.labels import stack_labels
 from fftocean.plots.ranges import NEGLIGIBLE
 from fftocean.plots.theme import BLUE, FAINT, INK, LABEL_BOX, VERMILION, energy_colormap
@@ -47,7 +47,7 @@ def draw_dispersion(figure: "FigureBase", ocean: Ocean) -> None:
         x=0.01,
         ha="left",
     )
-    left, right = figure.subfigures(1, 2, width_ratios=(1.2, 1.0), squeeze=False)[0]
+    left, right = panels(figure, 1, 2, width_ratios=(1.2, 1.0))
     _draw_wavenumbers(left, ocean, measured.k_max)
     above, under = right.subplots(2, 1, sharex=True)
     _draw_relation(above, ocean, measured)

@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import numpy as np
+
 from fftocean.errors import ParameterError
 from fftocean.files import write_whole
 from fftocean.ocean import Ocean
@@ -12,7 +14,7 @@ from fftocean.physics.sea import Sea
 from fftocean.plots.theme import BLUE, DPI, WIDTH, style
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure, FigureBase
+    from matplotlib.figure import Figure, FigureBase, SubFigure
 
 Subject = TypeVar("Subject", Sea, Ocean)
 
@@ -93,6 +95,11 @@ def new_figure(
         FigureCanvasAgg(figure)
         draw(figure, subject)
     return figure
+
+
+def panels(figure: "FigureBase", rows: int, columns: int, **spacing: Any) -> "list[SubFigure]":
+    """Divide a figure into panels, and return them row by row."""
+    return list(np.ravel(np.asarray(figure.subfigures(rows, columns, **spacing), dtype=object)))
 
 
 def write_message(figure: "FigureBase", title: str, words: str) -> None:

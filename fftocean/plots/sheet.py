@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from fftocean.ocean import Ocean
 from fftocean.plots.directions import draw_directions
 from fftocean.plots.dispersion import draw_dispersion
-from fftocean.plots.figures import new_figure, write_message
+from fftocean.plots.figures import new_figure, panels, write_message
 from fftocean.plots.realised import draw_realised
 from fftocean.plots.spectrum import draw_spectrum
 from fftocean.plots.theme import WIDTH
@@ -34,10 +34,9 @@ def _draw_job(figure: "FigureBase", ocean: Ocean) -> None:
         f"A tile of {grid.lx:g} × {grid.ly:g} m, {grid.nx} × {grid.ny} samples, {depth}; {loop}",
         fontsize=14,
     )
-    rows = figure.subfigures(2, 1, height_ratios=(1.0, 1.15), hspace=0.03, squeeze=False)
-    upper, lower = rows[:, 0]
-    spectrum, directions = upper.subfigures(1, 2, wspace=0.03, squeeze=False)[0]
-    realised, relation = lower.subfigures(1, 2, wspace=0.03, squeeze=False)[0]
+    upper, lower = panels(figure, 2, 1, height_ratios=(1.0, 1.15), hspace=0.03)
+    spectrum, directions = panels(upper, 1, 2, wspace=0.03)
+    realised, relation = panels(lower, 1, 2, wspace=0.03)
     if ocean.sea is None:
         for part, name in ((spectrum, "Spectrum"), (directions, "Directions")):
             title = f"{name}: none was specified"

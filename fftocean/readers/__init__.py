@@ -80,13 +80,13 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
             f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})"
         )
     path = Path(os.fsdecode(path))
-    with bounded_reads.refusing(path.name or str(path)):
+    with bounded_reads.reader_errors(path.name or str(path)):
         folder = "\0" not in str(path) and path.is_dir()
     if folder:
         path = _only_set(path)
     bounded_reads.require_file(path)
     try:
-        return dataset_layout.announce(_read(path, site, bins))
+        return dataset_layout.warn_of_notes(_read(path, site, bins))
     except ReaderError as error:
         text = bounded_reads.printable(str(error))
         if text == str(error):
@@ -100,7 +100,7 @@ def _read(path: Path, site: int, bins: int) -> "Dataset":
     for reader in FORMATS:
         if reader.sniff(head):
             return _note_unterminated(reader.files(path), reader.read(path, site, bins))
-    if (hint := near_misses.name(head)) is not None:
+    if (hint := near_misses.hint(head)) is not None:
         raise ReaderError(f"{path.name} {hint}")
     for _ in bounded_reads.lines(path):  # raises if it is cut, binary, or one endless line
         break
@@ -129,7 +129,7 @@ def _only_set(folder: Path) -> Path:
     Raises:
         ReaderError: no set, or several; the message names them.
     """
-    with bounded_reads.refusing(folder.name):
+    with bounded_reads.reader_errors(folder.name):
         names = []
         for entry in folder.iterdir():
             names.append(entry.name)

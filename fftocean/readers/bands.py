@@ -102,7 +102,7 @@ def checked(where: str, frequency: Real, edges: RealLike) -> Real:
     return bands
 
 
-def without(frequency: Real, edges: Real | None, kept: npt.NDArray[np.bool_]) -> Real:
+def remaining(frequency: Real, edges: Real | None, kept: npt.NDArray[np.bool_]) -> Real:
     """
     Return the bands of the remaining frequencies; the two beside a gap meet in its middle.
 

@@ -4,6 +4,7 @@ Bounded reads of files that may be damaged, huge or hostile.
 Every failure is a `ReaderError`.
 """
 
+import codecs
 import gzip
 import io
 import os
@@ -34,7 +35,7 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?
 
 
 @contextmanager
-def refusing(name: str) -> Iterator[None]:
+def reader_errors(name: str) -> Iterator[None]:
     """
     Turn errors of the operating system and of gzip into a `ReaderError` that names the file.
     """
@@ -53,7 +54,7 @@ def require_file(path: Path) -> None:
     Raises:
         ReaderError: nothing is there, or a directory, a device, a pipe, an empty file.
     """
-    with refusing(path.name or str(path)):
+    with reader_errors(path.name or str(path)):
         if "\0" in str(path) or not path.exists():
             raise ReaderError(f"the spectrum must be a file that exists, got {str(path)!r}")
         if not path.is_file():
@@ -75,7 +76,7 @@ def opened(path: Path) -> Iterator[IO[bytes]]:
     Raises:
         ReaderError: no regular file, or one that cannot be read.
     """
-    with refusing(path.name):
+    with reader_errors(path.name):
         descriptor = os.open(
             path,
             os.O_RDONLY
@@ -95,19 +96,26 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
     Open a file as a stream of bytes, through gzip if its first bytes are those of gzip (whatever
     its name).
     """
-    with refusing(path.name), opened(path) as raw:
+    with reader_errors(path.name), opened(path) as raw:
         if raw.read(2) == _GZIP:
             raw.seek(0)
             with gzip.GzipFile(fileobj=raw) as stream:
-                yield cast(IO[bytes], stream)
+                yield _after_mark(cast(IO[bytes], stream))
         else:
             raw.seek(0)
-            yield raw
+            yield _after_mark(raw)
+
+
+def _after_mark(stream: IO[bytes]) -> IO[bytes]:
+    """Return a stream at its first byte, after a byte-order mark if it has one."""
+    if stream.read(len(codecs.BOM_UTF8)) != codecs.BOM_UTF8:
+        stream.seek(0)
+    return stream
 
 
 def is_packed(path: Path) -> bool:
     """Return True if a file is gzip."""
-    with refusing(path.name), opened(path) as raw:
+    with reader_errors(path.name), opened(path) as raw:
         return raw.read(2) == _GZIP
 
 
@@ -197,7 +205,7 @@ def has_final_newline(path: Path) -> bool:
     """
     if is_packed(path):
         return True
-    with refusing(path.name), opened(path) as file:
+    with reader_errors(path.name), opened(path) as file:
         file.seek(-1, io.SEEK_END)
         return file.read(1) == b"\n"
 

@@ -34,7 +34,7 @@ NEGATIVE: Final = ("refuse", "clip")
 MAX_VALUES: Final = 2**27  # numbers in one dataset: 1 GiB
 
 
-def science() -> Any:
+def load_xarray() -> Any:
     """
     Return the xarray module, imported on first use because that takes seconds.
 
@@ -44,11 +44,11 @@ def science() -> Any:
     try:
         import xarray
     except ImportError as error:
-        raise missing(error) from error
+        raise not_installed(error) from error
     return xarray
 
 
-def missing(error: ImportError) -> ReaderError:
+def not_installed(error: ImportError) -> ReaderError:
     """Return the error for an optional package that is not installed."""
     hint = how_to_install("science")
     return ReaderError(
@@ -56,7 +56,7 @@ def missing(error: ImportError) -> ReaderError:
     )
 
 
-def announce(made: "Dataset") -> "Dataset":
+def warn_of_notes(made: "Dataset") -> "Dataset":
     """
     Return a dataset after warning of its reader's doubts, the attributes that end in `_note`.
     """
@@ -289,7 +289,7 @@ def dataset(
         bands: (f, 2) lower and upper edge of each frequency's band [Hz], if the file has them.
         notes: further attributes.
     """
-    xr = science()
+    xr = load_xarray()
     variables: dict[str, Any] = {}
     coords: dict[str, Any] = {
         "freq": ("freq", frequency, {"standard_name": "sea_surface_wave_frequency", "units": "Hz"}),

@@ -334,7 +334,7 @@ READER: Final = Reader(
     extensions=(".data_spec", ".txt"),
     description="The last 45 days of a buoy (.data_spec, with .swdir .swdir2 .swr1 .swr2), "
     "or a year of S(f).",
-    sniff=lambda head: recognises(head.first_line) and near_misses.name(head) is None,
+    sniff=lambda head: recognises(head.first_line) and near_misses.hint(head) is None,
     read=_read,
     files=files_of,
 )

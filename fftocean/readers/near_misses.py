@@ -7,7 +7,7 @@ from typing import Final
 from fftocean.readers.reader import Head
 
 
-def name(head: Head) -> str | None:
+def hint(head: Head) -> str | None:
     """Return the nature of a file and the one to open instead, or None if it is unknown."""
     return next((text for matches, text in _KNOWN if matches(head)), None)
 

@@ -96,7 +96,7 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             unknown or contradictory.
         ParameterError: `site` is not in the file.
     """
-    xr = dataset_layout.science()
+    xr = dataset_layout.load_xarray()
     magic = bounded_reads.head(path, 8)
     if not magic.startswith((hdf5.MAGIC, *CLASSIC)):
         raise ReaderError(
@@ -130,7 +130,7 @@ def read(path: Path, *, site: int, bins: int = 72) -> "Dataset":
             with xr.open_dataset(
                 stream, engine=engine, decode_timedelta=False, drop_variables=unread
             ) as raw:
-                return tidy(raw, site=site, source=path.name, bins=bins, file_bytes=size)
+                return to_layout(raw, site=site, source=path.name, bins=bins, file_bytes=size)
 
 
 @contextmanager
@@ -144,7 +144,7 @@ def _broken(name: str) -> Iterator[None]:
         raise
     except ImportError as error:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
-            raise dataset_layout.missing(error) from error
+            raise dataset_layout.not_installed(error) from error
         raise ReaderError(
             f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
         ) from error
@@ -155,7 +155,7 @@ def _broken(name: str) -> Iterator[None]:
         ) from error
 
 
-def tidy(
+def to_layout(
     raw: "Dataset | DataArray",
     *,
     site: int = 0,

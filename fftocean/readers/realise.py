@@ -20,8 +20,8 @@ from fftocean.physics.spectra import TabulatedSpectrum
 from fftocean.physics.spreading import Spreading, TabulatedSpreading
 from fftocean.physics.spreading.tabulated import bin_widths
 from fftocean.readers import bands
-from fftocean.readers.dataset_layout import announce
-from fftocean.readers.netcdf import tidy
+from fftocean.readers.dataset_layout import warn_of_notes
+from fftocean.readers.netcdf import to_layout
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -80,7 +80,7 @@ class Realised:
             ParameterError: a time, site or depth out of range; directions missing, or given
                 twice.
         """
-        spectrum = announce(tidy(dataset, site=site, time=time, negative=negative))
+        spectrum = warn_of_notes(to_layout(dataset, site=site, time=time, negative=negative))
         notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
         own_depth = _own_depth(spectrum)
         depth = _depth(own_depth, depth, notes)
@@ -113,7 +113,7 @@ class Realised:
             total = np.asarray(spectrum["ef"].values[0])
             measured = ~np.isnan(total)
             total = total[measured]
-        edges = bands.without(frequency, own, measured)
+        edges = bands.remaining(frequency, own, measured)
         frequency = frequency[measured]
         if frequency.size < 2:
             raise ReaderError(

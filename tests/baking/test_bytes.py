@@ -20,6 +20,7 @@ import zlib
 from importlib import metadata
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 from llvmlite import binding as llvm
@@ -47,7 +48,7 @@ def signature() -> dict[str, str]:
         "machine": f"{platform.system()} {platform.machine()}",
         "numpy's instruction sets": hashlib.sha256(" ".join(features).encode()).hexdigest(),
         "compiler's processor": hashlib.sha256(llvm.get_host_cpu_name().encode()).hexdigest(),
-        "fft": str(fo.Job.default().replaced({"ocean.n": 16}).ocean().backend),
+        "fft": str(builders.job({"ocean.n": 16}).ocean().backend),
         "set by the user": " ".join(
             f"{key}={os.environ[key]}" for key in SETTINGS if key in os.environ
         ),
@@ -58,7 +59,7 @@ def baked(form: str, folder: Path) -> tuple[dict[str, str], fo.Bake]:
     """Bake the default sea; return the SHA-256 of each map's files, and the maps."""
     maps = ["height"] if form == "r16" else ["displacement", "normal"]
     changes = {"ocean.n": 64, "bake.frames": 4, "bake.pictures": [], "bake.maps": maps}
-    job = fo.Job.default().replaced({**changes, "bake.format": form})
+    job = builders.job({**changes, "bake.format": form})
     fo.bake(job, folder, executor="serial")
     files = {
         path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
@@ -123,7 +124,7 @@ def renew() -> None:
             if FORMATS[form].stored == "float32":
                 pixels |= {name: m[:, ::EVERY, ::EVERY] for name, m in maps.maps.items()}
             elif form == "r16":
-                exact = fo.Job.default().replaced({"ocean.n": 64}).ocean()
+                exact = builders.job({"ocean.n": 64}).ocean()
                 heights = [exact.loop_frame(j, 4, ("height",)).height.copy() for j in range(4)]
                 pixels["height"] = np.stack(heights)[:, ::EVERY, ::EVERY, None]
     text = json.dumps({"made with": signature(), "sha256": sums}, indent=1)

@@ -1,6 +1,5 @@
 """
-A cascade as one bake: its tiles are the cascade's own, and every promise of a bake holds for the
-folder around them.
+Bakes of cascades: tiles that are the cascade's own, in a folder with every guarantee of a bake.
 """
 
 import hashlib
@@ -13,6 +12,7 @@ import sys
 import warnings
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -31,7 +31,7 @@ from fftocean.files import as_json
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 TILES = [(32, 200.0), (32, 29.0), (16, 4.1)]
 SMALL = [(16, 100.0), (16, 15.0)]
-JOB = fo.Job.default().replaced(
+JOB = builders.job(
     {
         "bake.frames": 3,
         "bake.maps": ["height", "stretch"],
@@ -207,7 +207,7 @@ def test_other_refusals(tmp_path):
 
 
 def test_maps_that_are_not_named_are_the_ingredients(tmp_path):
-    job = fo.Job.default().replaced({"bake.frames": 1, "bake.pictures": []})
+    job = builders.job({"bake.frames": 1, "bake.pictures": []})
     with pytest.warns(fo.SeaWarning, match="displacement, derivative, stretch in place of"):
         listed = bake(tmp_path / "sea", job)
     assert [tile["maps"] for tile in listed["tiles"]] == 2 * [
@@ -407,7 +407,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("name", DAMAGES)
-def test_every_damage_is_found_and_mended_to_the_same_bytes(made, copy, name):
+def test_every_damage_is_found_and_repaired_to_the_same_bytes(made, copy, name):
     damage, expected = DAMAGES[name]
     damage(copy)
     assert told(copy) == expected
@@ -544,6 +544,7 @@ def test_info_of_tiles(capsys):
         "m specified",
         "realised by all tiles",
         "energy outside",
+        "choppiness up to",
         "files",
     ):
         assert line in out

@@ -1,8 +1,9 @@
-"""Folds and the water's properties in what a bake says of itself: manifest, check, info."""
+"""Folds and water properties in the manifest and on the command line."""
 
 import math
 from pathlib import Path
 
+import builders
 import numpy as np
 import pytest
 
@@ -13,7 +14,7 @@ from fftocean.cli import main
 def job(**changes):
     """A small job of the default sea on short waves."""
     small = {"ocean.n": 16, "ocean.size": 25.0, "bake.frames": 3, "bake.maps": ["height", "normal"]}
-    return fo.Job.default().replaced({**small, "bake.pictures": [], **changes})
+    return builders.job({**small, "bake.pictures": [], **changes})
 
 
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
@@ -22,9 +23,9 @@ def test_folds_are_in_the_manifest_and_in_what_the_command_line_says(lookup, tmp
     Over all frames, by the eigenvalues of the ocean's own stretches; the check notes them and finds
     nothing wrong.
     """
-    order = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
-    extremes = fo.bake(order, tmp_path / "out")["extremes"]
-    ocean = order.ocean()
+    sea_job = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
+    extremes = fo.bake(sea_job, tmp_path / "out")["extremes"]
+    ocean = sea_job.ocean()
     frames = [ocean.loop_frame(j, 3) for j in range(3)]
     gradients = np.stack(
         [[f.stretch_xx, f.stretch_xy, f.stretch_xy, f.stretch_yy] for f in frames], axis=-1

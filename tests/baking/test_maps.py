@@ -3,6 +3,7 @@
 import dataclasses
 from typing import get_args
 
+import builders
 import numpy as np
 import pytest
 
@@ -205,7 +206,7 @@ def test_a_map_that_no_height_field_shows_is_refused(tmp_path):
     )
     with pytest.raises(fo.ParameterError, match=reason):
         maps.needed(["height", "stretch"], eulerian=True)
-    job = fo.Job.default().replaced(
+    job = builders.job(
         {"bake.lookup": "eulerian", "bake.maps": ["height", "stretch"], "ocean.n": 8}
     )
     with pytest.raises(fo.JobError, match=reason):

@@ -244,6 +244,15 @@ def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp
         fresh.python("-c", "import sys; sys.exit(print('why', file=sys.stderr) or 3)")
 
 
+def test_every_file_that_a_profile_is_sorted_by_exists(script):
+    bake = script("bake")
+    places = [place for _, places in bake.ROOMS for place in places if not place.startswith("~")]
+    files = [path.relative_to(bake.PACKAGE).as_posix() for path in bake.PACKAGE.rglob("*.py")]
+    for place in places:
+        start = place.partition(":")[0]
+        assert any(file.startswith(start) for file in files), place
+
+
 def test_a_profile_is_sorted_by_room(script):
     """
     A profile made by hand: own times go to the room of the file; a library's to whoever called it;
@@ -252,10 +261,10 @@ def test_a_profile_is_sorted_by_room(script):
     bake = script("bake")
     at = lambda path, name: (str(bake.PACKAGE / path), 1, name)  # noqa: E731
     baker, frame, encode, halves = (
-        at("bake/baker.py", "bake"),
+        at("baking/bake.py", "bake"),
         at("ocean.py", "loop_frame"),
         at("export/exr.py", "encode"),
-        at("bake/frames.py", "_halves"),
+        at("baking/scene/scene.py", "_halves"),
     )
     kernel, pack = at("kernels/passes.py", "pack"), at("kernels/half.py", "pack")
     library, deep = ("/lib/json.py", 5, "dumps"), ("~", 0, "<built-in method deep>")

@@ -1,6 +1,7 @@
 """
-Fixtures that start the clients: a browser with the engines of package.json, Blender, mono. Absent
-ones skip, or fail on request.
+Fixtures that start the clients: a browser with the engines of package.json, Blender, mono.
+
+A missing client skips its tests, or fails them on request.
 """
 
 import os
@@ -15,10 +16,7 @@ ROOT = HERE.parents[1]
 
 
 def require(found: object, reason: str) -> None:
-    """
-    Skip the test where a client is absent; fail it where FFTOCEAN_REQUIRE_CLIENTS says that all are
-    there.
-    """
+    """Skip the test if a client is missing; fail it if FFTOCEAN_REQUIRE_CLIENTS is set."""
     if found:
         return
     if os.environ.get("FFTOCEAN_REQUIRE_CLIENTS", "0") not in ("", "0"):

@@ -1,4 +1,4 @@
-"""A baked height field, questions that a reader answers, and the right answers."""
+"""A baked height field, questions for a reader, and the answers."""
 
 import numpy as np
 from water import FRAMES, LOOP, OBLONG, Text, between, half_step, job
@@ -8,8 +8,8 @@ import fftocean as fo
 
 def heights_bake(engine, folder):
     """
-    Bake heights by place for an engine; return what the sidecar says, and our own heights (frames,
-    ny, nx) [m].
+    Bake heights by position for an engine; return the sidecar, and the heights (frames, ny, nx)
+    [m].
     """
     baked = job(
         bake__engine=engine, bake__format="bin", bake__maps=["height"], bake__lookup="eulerian"

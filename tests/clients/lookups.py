@@ -1,4 +1,4 @@
-"""Bakes that a page's shader looks up by the sidecar's formulas, and what it must find."""
+"""Bakes that a page's shader looks up by the sidecar's formulas, and the expected values."""
 
 import warnings
 from dataclasses import dataclass
@@ -22,8 +22,7 @@ SUFFIX = {
 @dataclass
 class Lookup:
     """
-    One map of one format and frame: the numbers that the engine found, those that it must find, and
-    their tolerance.
+    One map of one format and frame: the engine's numbers, the expected ones, and their tolerance.
     """
 
     keys: list
@@ -43,9 +42,7 @@ def baked(browser, engine, format_, maps, label, **keys):
 
 
 def texture(folder, format_, name, frame, **more):
-    """
-    Return how a page loads one map of a bake: by the loader of the format, from these addresses.
-    """
+    """Return the page's description of one map of a bake: loader of the format, and addresses."""
     path = f"{name}{SUFFIX[format_].format(frame=frame)}"
     assert (folder / path).is_file()
     return {
@@ -105,10 +102,9 @@ def look_up(browser, engine, page, formats, frames):
     return found, value
 
 
-def hold(found):
+def require_equal(found):
     """
-    Hold what an engine found against what it must find, and see that the map is not so flat that
-    anything would pass.
+    Assert that the engine's numbers are the expected ones, and that the map varies enough to tell.
     """
     apart = np.abs(found.seen - found.expected)
     place, channel = np.unravel_index(np.argmax(apart / found.tolerance), apart.shape)
@@ -122,10 +118,7 @@ def hold(found):
 
 
 def on_screen(value, said):
-    """
-    Hold where the engine draws X and Z, looking down with north up: east to the right, and north
-    up.
-    """
+    """Assert that the engine draws X and Z, seen from above with north up, east to the right."""
     east, north = (next(k for k, (axis, _) in said.axes.items() if axis == a) for a in "xy")
     for axis, sign, index in ((east, said.axes[east][1], 0), (north, said.axes[north][1], 1)):
         direction = np.array(value["screen"][axis][:2])

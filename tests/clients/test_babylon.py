@@ -5,7 +5,7 @@ its material lights a normal map.
 
 import numpy as np
 import pytest
-from lookups import MAPS, baked, hold, look_up, on_screen, texture
+from lookups import MAPS, baked, look_up, on_screen, require_equal, texture
 from water import SQUARE, N, Text, half_step, truth
 from web import floats
 
@@ -28,7 +28,7 @@ SUNS = [
 
 @pytest.fixture(scope="module")
 def found(browser):
-    """Return the lookups of one page, and what else it said."""
+    """Return the lookups of one page, and its other answers."""
     return look_up(browser, "babylon", "babylon.html", FORMATS, FRAMES)
 
 
@@ -39,7 +39,7 @@ def test_the_formulas_of_the_sidecar_find_the_water(found, format_, name, frame)
     At every sample, the same some tiles away, and between samples, the channels give what the
     formulas say they give.
     """
-    hold(found[0][format_, name, frame])
+    require_equal(found[0][format_, name, frame])
 
 
 def test_the_axes_lie_on_the_screen_as_the_manifest_says(browser, found):
@@ -98,7 +98,7 @@ def normals(browser):
 
 @pytest.mark.parametrize("format_", SETTINGS)
 def test_a_flat_sea_is_exactly_up_in_a_stock_material(normals, format_):
-    """Of (0.5, 0.5, 1) the material makes (0, 1, 0), in single precision."""
+    """The material turns (0.5, 0.5, 1) into (0, 1, 0), in single precision."""
     found, _ = normals
     assert np.abs(found[format_, "flat"] - [0.0, 1.0, 0.0]).max() <= 1e-6
 

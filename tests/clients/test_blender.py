@@ -20,7 +20,9 @@ EXAMPLE = HERE.parents[1] / "examples" / "blender" / "displace.py"
 
 
 def run(blender, *arguments, folder):
-    """Return what a script says on its last line, without the environment's own Python settings."""
+    """
+    Return the last line of a script's output, run without the environment's own Python settings.
+    """
     command = [str(blender), "-I", *map(str, arguments)]
     done = subprocess.run(
         command,

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from heights import heights_bake, questions
-from lookups import Lookup, baked, hold, on_screen
+from lookups import Lookup, baked, on_screen, require_equal
 from pck import pack
 from water import FRAMES, LOOP, OBLONG, SQUARE, N, Text, between, half_step, places, steepest, truth
 
@@ -25,8 +25,8 @@ FRAME = 3
 
 def shader(said, meaning):
     """
-    Return a canvas shader: the bits of up to four formulas of a map, looked up by the sidecar's, as
-    bytes of a picture.
+    Return a canvas shader for the bits of up to four formulas of a map, looked up by the sidecar's,
+    as bytes of an image.
     """
     real = lambda text: re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"\1.0", text)  # noqa: E731
     numbers = "".join(
@@ -61,8 +61,7 @@ void fragment() {{
 @pytest.fixture(scope="module")
 def godot(browser):
     """
-    Run the project once on all bakes; return its answers, what it complained of, and what the tests
-    must find.
+    Run the project once on all bakes; return its answers, its errors, and the expected values.
     """
     site = browser.site.folders["bakes"]
     said, heights = heights_bake("godot", site / "godot-heights")
@@ -163,7 +162,7 @@ def test_a_texture_array_in_a_shader_is_the_water(godot, name):
     halves = pixels[..., 0] | pixels[..., 1] << 8
     bits = halves[0::2] | halves[1::2] << 16
     seen = bits.astype("<u4").view("<f4").astype(float).T[:, : len(keys)]
-    hold(Lookup(keys, seen, expected, tolerance))
+    require_equal(Lookup(keys, seen, expected, tolerance))
 
 
 def test_a_stock_material_lights_the_sea_by_its_normals(godot):

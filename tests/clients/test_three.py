@@ -5,7 +5,7 @@ its materials light a normal map.
 
 import numpy as np
 import pytest
-from lookups import MAPS, baked, hold, look_up, on_screen, texture
+from lookups import MAPS, baked, look_up, on_screen, require_equal, texture
 from water import OBLONG, SQUARE, N, Text, half_step, truth
 from web import floats
 
@@ -20,7 +20,7 @@ NORMAL_SCALE_Y = {"bin": -1, "exr": 1}
 
 @pytest.fixture(scope="module")
 def found(browser):
-    """Return the lookups of one page, and what else it said."""
+    """Return the lookups of one page, and its other answers."""
     return look_up(browser, "three", "three.html", FORMATS, FRAMES)
 
 
@@ -31,7 +31,7 @@ def test_the_formulas_of_the_sidecar_find_the_water(found, format_, name, frame)
     At every sample, the same some tiles away, and between samples, the channels give what the
     formulas say they give.
     """
-    hold(found[0][format_, name, frame])
+    require_equal(found[0][format_, name, frame])
 
 
 def test_the_axes_lie_on_the_screen_as_the_manifest_says(browser, found):

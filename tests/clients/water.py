@@ -1,4 +1,6 @@
-"""The water of these tests, by our own frames; and the text of sidecars, read to the letter."""
+"""
+The water of these tests by the library's frames, and the text of sidecars evaluated literally.
+"""
 
 import json
 import re
@@ -46,8 +48,8 @@ FIELDS = (
 
 def truth(baked):
     """
-    Return the job's water by names, in our own axes, metres, row 0 south, each (frames, ny, nx),
-    float64: by its ocean alone.
+    Return the job's water by names, in library axes, metres, row 0 south, each (frames, ny, nx),
+    float64, from its ocean alone.
     """
     ocean = baked.ocean(dtype="float64")
     frames = [ocean.frame(j * LOOP / FRAMES, FIELDS) for j in range(FRAMES)]
@@ -99,9 +101,7 @@ COMPASS = {
 
 @dataclass
 class Text:
-    """
-    What a bake says of a map: the frame of its numbers, and the formulas by which it is sampled.
-    """
+    """Text of a bake about a map: the axes of its numbers, and its sampling formulas."""
 
     conventions: dict
     sampling: dict  # formulas for places and times, and the numbers in them
@@ -109,7 +109,7 @@ class Text:
 
     @classmethod
     def of(cls, folder, name):
-        """Read the sidecar of a map, or, where it has none, the manifest."""
+        """Read the sidecar of a map, or the manifest if it has none."""
         folder = Path(folder)
         tree = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
         meaning = tree["maps"][name]["world"]
@@ -120,7 +120,7 @@ class Text:
 
     @property
     def axes(self):
-        """Return where each of the engine's axes points: {"X": ("x", 1.0), ...}."""
+        """Return the direction of each of the engine's axes: {"X": ("x", 1.0), ...}."""
         found = dict(
             re.findall(r"\b([XYZ]) (east|west|north|south|up|down)\b", self.conventions["axes"])
         )
@@ -139,7 +139,7 @@ class Text:
         return {"m": 1.0, "cm": 100.0}[self.conventions["unit"]]
 
     def world(self, x, y, z=0.0):
-        """Return our x, y, z [m] in the engine's own axes and unit, (places, 3)."""
+        """Return x, y, z [m] in the engine's own axes and unit, (places, 3)."""
         ours = {"x": x, "y": y, "z": np.broadcast_to(z, np.shape(x))}
         return np.stack(
             [
@@ -151,8 +151,8 @@ class Text:
 
     def expected(self, fields, key):
         """
-        Return what the formula for `key` must give, of our fields (frames, ny, nx): "X", "slope_X",
-        "stretch_X" or "normal_X".
+        Return the expected value of the formula for `key` from the library's fields (frames, ny,
+        nx): "X", "slope_X", "stretch_X" or "normal_X".
         """
         kind, _, letter = key.rpartition("_")
         axis, sign = self.axes[letter]

@@ -41,9 +41,7 @@ class Site:
 
 
 class _Handler(http.server.SimpleHTTPRequestHandler):
-    """
-    GET of files below the folders; isolated from other origins, as engines with threads demand.
-    """
+    """Server of files below the folders, isolated from other origins for engines with threads."""
 
     extensions_map = {  # noqa: RUF012
         **http.server.SimpleHTTPRequestHandler.extensions_map,
@@ -69,11 +67,11 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         super().end_headers()
 
     def log_message(self, *_):
-        """Say nothing: a file that is missing shows in the page."""
+        """Log nothing: the page shows a missing file."""
 
 
 class Browser:
-    """One headless Chromium, driven by `driver.mjs`."""
+    """One headless Chromium, controlled by `driver.mjs`."""
 
     def __init__(self, chromium, modules, site, *, log):
         self.site = site
@@ -113,9 +111,7 @@ class Browser:
         self._errors.close()
 
     def run(self, page, args):
-        """
-        Return what `run(args)` of a page gives; and its console, without errors, or the test fails.
-        """
+        """Return the result of `run(args)` of a page, and its console; fail the test on errors."""
         url = f"{self.site.address}/pages/{page}"
         self._process.stdin.write(json.dumps({"url": url, "args": args}).encode() + b"\n")
         self._process.stdin.flush()

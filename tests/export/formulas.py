@@ -1,6 +1,5 @@
 """
-A small evaluator of the formulas in sidecars: numbers, names, + - * /, floor, mod, an index;
-nothing else.
+Evaluator of the formulas in sidecars: numbers, names, + - * /, floor, mod, an index; nothing else.
 """
 
 import ast

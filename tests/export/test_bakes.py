@@ -1,10 +1,8 @@
-"""
-Bakes for engines from end to end: what is refused before anything is written, encodings of normals,
-the text beside the data.
-"""
+"""Bakes for engines from end to end: refusals, encodings of normals, text beside the data."""
 
 import json
 
+import builders
 import numpy as np
 import pytest
 from formulas import value_of
@@ -24,16 +22,14 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """No integrals over the sea."""
+    """Avoid integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     monkeypatch.setattr(baker, "measure", lambda _: still)
 
 
 def job(**changes):
     small = {"ocean.n": (8, 6), "ocean.size": (40.0, 25.0), "bake.frames": 4, "bake.pictures": []}
-    return fo.Job.default().replaced(
-        {**small, **{key.replace("__", "."): value for key, value in changes.items()}}
-    )
+    return builders.job(small, **changes)
 
 
 PAIRS = [pair for pair, cell in engines.TABLE.items() if isinstance(cell, engines.Refusal)]

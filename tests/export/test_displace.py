@@ -1,7 +1,4 @@
-"""
-The Blender example refuses every bake that it would show wrongly, before Blender is needed; the
-rest it understands.
-"""
+"""The Blender example reads bakes for Blender, and refuses every other before Blender is needed."""
 
 import importlib.util
 import json
@@ -11,6 +8,7 @@ import sys
 from pathlib import Path
 from unittest.mock import MagicMock
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -31,7 +29,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    """No integrals over the sea."""
+    """Avoid integrals over the sea."""
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     monkeypatch.setattr(baker, "measure", lambda _: still)
 
@@ -48,7 +46,7 @@ def script():
 @pytest.mark.parametrize("lookup", ["lagrangian", "eulerian"])
 def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
     manifest = fo.bake(
-        fo.Job.default().replaced({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path
+        builders.job({**SMALL, "bake.format": form, "bake.lookup": lookup}), tmp_path
     )
     assert script.read_bake(tmp_path) == json.loads(json.dumps(manifest))
 
@@ -74,7 +72,7 @@ def test_a_bake_for_blender_is_understood(script, tmp_path, form, lookup):
     ],
 )
 def test_a_bake_that_it_would_show_wrongly_is_refused(script, tmp_path, changes, frames, why):
-    fo.bake(fo.Job.default().replaced({**SMALL, **changes}), tmp_path, frames=frames)
+    fo.bake(builders.job({**SMALL, **changes}), tmp_path, frames=frames)
     with pytest.raises(SystemExit, match=why):
         script.read_bake(tmp_path)
 
@@ -82,7 +80,7 @@ def test_a_bake_that_it_would_show_wrongly_is_refused(script, tmp_path, changes,
 def test_what_is_no_bake_or_another_tools_is_refused(script, tmp_path):
     with pytest.raises(SystemExit, match=r"must be a finished bake with its manifest\.json"):
         script.read_bake(tmp_path)
-    fo.bake(fo.Job.default().replaced(SMALL), tmp_path / "sea")
+    fo.bake(builders.job(SMALL), tmp_path / "sea")
     text = json.loads((tmp_path / "sea/manifest.json").read_text())
     for key, value, why in (
         ("tool", "another", "must be of fftocean, got 'another'"),

@@ -1,7 +1,4 @@
-"""
-The page for users says what the table of engines does: its own tables and rules are read as a
-machine would.
-"""
+"""Tables and rules of docs/engines.md, compared with the table of engines."""
 
 import re
 from pathlib import Path
@@ -17,7 +14,7 @@ PAGE = (Path(__file__).resolve().parents[2] / "docs" / "engines.md").read_text(e
 
 def table(heading):
     """
-    The rows of the table that begins with a heading, the heading first, without the line below it.
+    Return the rows of the table that begins with a heading, without the line below the heading.
     """
     lines = PAGE[PAGE.index(f"| {heading} |") :].split("\n\n")[0].splitlines()
     return [

@@ -1,6 +1,4 @@
-"""
-EXR files: the pixels that went in, rounded once, the north row on top, and never a silent clip.
-"""
+"""EXR files: the given pixels, rounded once, north row on top, never clipped."""
 
 import io
 import struct
@@ -23,15 +21,15 @@ SHAPES = [(1, 1), (1, 7), (7, 1), (2, 2), (31, 31), (80, 48), (17, 256)]  # (ny,
 
 
 def raw(data):
-    """Header and pixels as OpenEXR itself reads them, row 0 as it stands in the file."""
+    """Return header and pixels as OpenEXR reads them, without reordering rows."""
     file = OpenEXR.File(io.BytesIO(data), separate_channels=True)
     return file.header(), {name: channel.pixels for name, channel in file.channels().items()}
 
 
 def fields(shape, dtype=np.float64, seed=0):
     """
-    Three channels over all the sizes that a half can hold, from subnormals to thousands, of both
-    signs.
+    Return three channels of all magnitudes that a half can hold, from subnormals to thousands, of
+    both signs.
     """
     rng = np.random.default_rng(seed)
     return [
@@ -42,8 +40,8 @@ def fields(shape, dtype=np.float64, seed=0):
 
 def rounded(values):
     """
-    The nearest half of each value, ties to even, by C's own packing: not by numpy, whose cast is
-    what is tested.
+    Return the nearest half of each value, ties to even, by C's packing, because the NumPy cast is
+    under test.
     """
     flat = [struct.unpack("<e", struct.pack("<e", float(v)))[0] for v in np.ravel(values)]
     return np.array(flat, dtype=np.float64).reshape(np.shape(values))
@@ -160,7 +158,9 @@ def test_header_is_one_that_every_engine_opens():
 
 
 def as_before(red, green, blue):
-    """The first encoder of this package, word for word: files of then and now must be the same."""
+    """
+    Return the file of the first encoder of this package, unchanged: the bytes must stay the same.
+    """
     channels = {
         name: np.ascontiguousarray(values[::-1], dtype=np.float16)
         for name, values in (("R", red), ("G", green), ("B", blue))
@@ -273,7 +273,7 @@ def test_the_largest_half_passes():
 
 
 def baked(name, frame):
-    """A map of a frame as the canonical picture."""
+    """Return a map of a frame as the canonical image."""
     entry = MAPS[name]
     return encode("exr", arrange(PROFILES["canonical"], entry.kind, entry.channels(frame)))
 

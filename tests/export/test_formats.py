@@ -1,7 +1,4 @@
-"""
-Every format with every profile: what went in comes back as exactly as promised; what cannot be held
-is refused; bent data is seen.
-"""
+"""Every format with every profile: round trips, refusals and damaged data."""
 
 import dataclasses
 import hashlib
@@ -37,7 +34,7 @@ SEQUENCES = [name for name, format_ in FORMATS.items() if format_.scope == "sequ
 
 
 def water(channels, frames=FRAMES, rows=ROWS, columns=COLUMNS, seed=0):
-    """A sequence of maps, float32: metres of both signs, some of them tiny."""
+    """Return a sequence of maps, float32: metres of both signs, some of them tiny."""
     rng = np.random.default_rng(seed)
     return (
         rng.standard_normal((frames, rows, columns, channels))
@@ -46,7 +43,7 @@ def water(channels, frames=FRAMES, rows=ROWS, columns=COLUMNS, seed=0):
 
 
 def span(sequence):
-    """The range that a scaled format needs."""
+    """Return the range that a scaled format needs."""
     return {"lo": float(sequence.min()), "hi": float(sequence.max())}
 
 
@@ -55,7 +52,7 @@ def options(name, sequence):
 
 
 def through(name, sequence):
-    """A sequence stored and read back as a bake would: by its files, or by its container."""
+    """Return a sequence stored and read back like in a bake: by its files, or by its container."""
     scale = options(name, sequence)
     parts = [encode(name, frame, **scale) for frame in sequence]
     if FORMATS[name].scope == "sequence":
@@ -250,7 +247,7 @@ def test_a_range_for_each_channel():
 
 def file_of(name, sequence):
     """
-    The one file that a reader would be handed: a frame's own, or the container; and a function that
+    Return the one file that a reader opens, a frame's own or the container, and a function that
     reads it.
     """
     scale = options(name, sequence)

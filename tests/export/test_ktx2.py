@@ -17,8 +17,8 @@ from fftocean.export.profiles import PROFILES
 
 def by_the_specification(data):
     """
-    Every rule of KTX 2.0 (sections 3 to 5) and KDF 1.4 (chapter 5) that bears on an uncompressed
-    array, asserted; and its images.
+    Return the images of a KTX 2.0 file after asserting every rule of KTX 2.0 (sections 3 to 5) and
+    KDF 1.4 (chapter 5) for an uncompressed array.
     """
     u32 = lambda at: struct.unpack_from("<I", data, at)[0]  # noqa: E731
     u64 = lambda at: struct.unpack_from("<Q", data, at)[0]  # noqa: E731

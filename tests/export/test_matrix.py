@@ -1,10 +1,10 @@
 """
-Every engine with every format, map, lookup and tile: right, or refused with a way out.
+Every engine with every format, map, lookup and tile: correct, or refused with an alternative.
 
-Files are decoded here by readers of this page alone, and sampled as each engine's sampler does it,
-from what is known of the engine: its axes, its unit, and where its loader puts row 0. The text
-beside the files (rules for u and v, rows and columns, frames, cells of an atlas, meaning of the
-channels) is evaluated to the letter, and must give the water that was written.
+Readers of this module alone decode the files and sample them like each engine's sampler, from the
+engine's documented axes, unit and position of row 0. The text beside the files (rules for u and v,
+rows and columns, frames, cells of an atlas, meaning of the channels) is evaluated literally, and
+must give the water that was written.
 """
 
 import io
@@ -88,7 +88,9 @@ def exr_pixels(data):
 
 
 def png_pixels(data):
-    """16 bit, gray or RGB, rows that are differences from the row above."""
+    """
+    Return the pixels of a PNG: 16 bit, gray or RGB, rows that are differences from the row above.
+    """
     columns, rows, depth, colour = struct.unpack(">IIBB", data[16:26])
     assert depth == 16
     at, packed = 8, b""
@@ -109,7 +111,7 @@ def png_pixels(data):
 
 
 def ktx2_layers(data, count, rows, columns):
-    """Level 0 of an array of half RGBA, by the header's index of levels."""
+    """Return level 0 of an array of half RGBA, by the header's index of levels."""
     (format_,) = struct.unpack_from("<I", data, 12)
     assert format_ == 97
     offset, size, _ = struct.unpack_from("<3Q", data, 80)
@@ -119,7 +121,7 @@ def ktx2_layers(data, count, rows, columns):
 
 
 def stored_layers(name, parts, files, rows, columns, channels):
-    """Each frame's texels as the files have them, (rows, columns, channels): or the one atlas."""
+    """Return each frame's stored texels, (rows, columns, channels), or those of the one atlas."""
     if name in ("exr", "exr-float"):
         return [exr_pixels(part) for part in parts]
     if name == "exr-atlas":
@@ -147,8 +149,8 @@ def stored_layers(name, parts, files, rows, columns, channels):
 
 def bilinear(texture, u, v, row0_v):
     """
-    A sampler with repeat and linear filter: texel (r, c) has its middle at ((c + 0.5) / columns, (r
-    + 0.5) / rows from row 0).
+    Sample with repeat and linear filter: texel (r, c) has its centre at ((c + 0.5) / columns, (r +
+    0.5) / rows from row 0).
     """
     rows, columns = texture.shape[:2]
     x = u * columns - 0.5
@@ -163,8 +165,8 @@ def bilinear(texture, u, v, row0_v):
 
 def in_world(engine, kind, ours):
     """
-    Return a map of ours along the engine's axes, by the names of the sidecar; ours is (...,
-    channels).
+    Return a map of the library, (..., channels), along the engine's axes, by the names of the
+    sidecar.
     """
     world = ENGINES[engine].world.split()
     scale = ENGINES[engine].per_metre
@@ -201,7 +203,10 @@ def in_world(engine, kind, ours):
 
 @pytest.fixture(scope="module")
 def water():
-    """Every map of two frames, in our own frame, by (tile, lookup): (frames, ny, nx, channels)."""
+    """
+    Return every map of two frames in library axes by (tile, lookup, map): (frames, ny, nx,
+    channels).
+    """
     found = {}
     for tile, (n, size) in TILES.items():
         ocean = fo.Ocean(fo.Sea.from_wind(speed=6.0, fetch=3e3), n=n, size=size, seed=3, loop=LOOP)
@@ -222,10 +227,7 @@ def water():
 
 
 def written(engine, form, name, truth, tile, lookup):
-    """
-    A map of some engine in some format: parts, files, the profile, and all that is said beside
-    them.
-    """
+    """Return a map of an engine in a format: parts, files, the profile, and the sidecar."""
     m = MAPS[name]
     profile = profile_for(engine, form)
     (nx, ny), size = TILES[tile]
@@ -259,8 +261,8 @@ def written(engine, form, name, truth, tile, lookup):
 
 def places(tile):
     """
-    Points of ours: every sample, and others between, across the edge and far outside: x, y, and how
-    many are samples.
+    Return points x, y, every sample and others between, across the edge and far outside, and the
+    number of samples.
     """
     (nx, ny), (lx, ly) = TILES[tile]
     j, i = np.meshgrid(np.arange(ny), np.arange(nx), indexing="ij")
@@ -275,7 +277,7 @@ def places(tile):
 
 
 def between(truth, tile, x, y):
-    """A map of ours between its samples, periodic: bilinear."""
+    """Return a map of the library between its samples, periodic and bilinear."""
     (nx, ny), (lx, ly) = TILES[tile]
     texture = np.asarray(truth, float)
     return bilinear(texture, x / lx + 0.5 / nx, y / ly + 0.5 / ny, 0)
@@ -283,8 +285,8 @@ def between(truth, tile, x, y):
 
 def allowed(form, profile, kind, said, expected):
     """
-    Return the tolerance of a value: half a step of what is stored, enlarged by the text's formulas,
-    and float32's own.
+    Return the tolerance of a value: half a step of the stored type, enlarged by the formulas, plus
+    that of float32.
     """
     largest = max(float(np.max(np.abs(v))) for v in expected.values())
     if FORMATS[form].scaled:
@@ -306,7 +308,7 @@ def allowed(form, profile, kind, said, expected):
 
 def right(engine, form, name, truth, tile, lookup):
     """
-    Assert that a cell's files, read and sampled as its text says, are the water; return "right" or
+    Assert that a cell's files, read and sampled by their text, are the water; return "right" or
     "noted".
     """
     m, facts = MAPS[name], ENGINES[engine]
@@ -434,7 +436,7 @@ def test_every_cell_is_right_or_refused(engine, water):
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_rule_of_a_cascade_finds_every_tile(engine, water):
-    """By the text that stands in `cascade.json`, with each tile's own n and size [m]."""
+    """The text in `cascade.json` applies with each tile's own n and size [m]."""
     form = "exr" if engine == "three-exr" else "bin"
     facts, profile = ENGINES[engine], profile_for(engine, form)
     rule = rules.cascade(profile)
@@ -522,7 +524,7 @@ def test_an_unlisted_cell_is_an_error_at_import():
 @pytest.mark.parametrize("form", [name for name in FORMATS if 3 in FORMATS[name].channels])
 def test_a_flat_sea_is_up_in_a_stock_material(form):
     """
-    By 2 c - 1 of what is stored, as a material computes it.
+    A material computes 2 c - 1 of the stored value c.
 
     Half and single precision hold 1/2: exactly up. No step k of 65535 has 2 k / 65535 - 1 = 0: the
     nearest is 1/65535 off along x and y, 0.0012 degrees.

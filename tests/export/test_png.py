@@ -1,6 +1,4 @@
-"""
-Sixteen-bit PNG against a reader written from the standard, and against Pillow, as far as that goes.
-"""
+"""16-bit PNG against a reader written from the standard, and against Pillow."""
 
 import io
 import struct
@@ -18,8 +16,8 @@ SHAPES = [(1, 1, 1), (1, 7, 3), (7, 1, 1), (31, 17, 3), (64, 48, 1)]
 
 def by_the_standard(data):
     """
-    Any PNG that is not interlaced and has no palette, every filter, byte by byte: ISO/IEC 15948,
-    5.3, 9.2 and 9.4.
+    Return the pixels of any PNG without interlacing and palette, every filter, byte by byte:
+    ISO/IEC 15948, 5.3, 9.2 and 9.4.
     """
     assert data[:8] == bytes([137, 80, 78, 71, 13, 10, 26, 10])
     at, packed, header = 8, b"", None

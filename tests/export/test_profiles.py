@@ -56,7 +56,7 @@ everywhere = pytest.mark.parametrize("name", ENGINES)
 
 
 def texels(name, rows, columns):
-    """u and v of each texel of the file, as the engine's loader places them: its centre."""
+    """Return u and v of each texel's centre as the engine's loader places them."""
     c, r = np.meshgrid(np.arange(columns), np.arange(rows))
     v = (r + 0.5) / rows
     return (c + 0.5) / columns, v if ENGINES[name].row0_v == 0 else 1.0 - v
@@ -78,7 +78,7 @@ def ground(name, rows=NY, columns=NX, size=(LX, LY)):
 
 
 def to_world(name, ours):
-    """Points of ours in the engine's axes and unit."""
+    """Return points in the engine's axes and unit."""
     engine = ENGINES[name]
     return (
         np.stack([sign * ours[..., axis] for axis, sign in engine.world], axis=-1)
@@ -87,7 +87,7 @@ def to_world(name, ours):
 
 
 def differences(field, axis, step):
-    """Central differences of the eighth order around a periodic array."""
+    """Return central differences of the eighth order around a periodic array."""
     parts = ((1, 4 / 5), (2, -1 / 5), (3, 4 / 105), (4, -1 / 280))
     return sum(w * (np.roll(field, -k, axis) - np.roll(field, k, axis)) for k, w in parts) / step
 
@@ -103,8 +103,7 @@ def steps(name):
 
 def gradient(name, field):
     """
-    d field / d (its first and second horizontal axis) in the engine's own frame, from the file's
-    pixels.
+    Return d field / d (first and second horizontal axis of the engine) from the file's pixels.
     """
     (first, second), (along, down) = ENGINES[name].flat, steps(name)
     return differences(field, 1, along[first]), differences(field, 0, down[second])
@@ -113,8 +112,8 @@ def gradient(name, field):
 @pytest.fixture(scope="module")
 def frame():
     """
-    A few long waves in all directions, steep enough that every sign shows: float64, smooth on the
-    grid.
+    Return a few long waves in all directions, steep enough to show every sign: float64, smooth on
+    the grid.
     """
     modes = [
         (1, 0, 0.6, 0.3),

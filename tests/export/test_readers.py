@@ -1,7 +1,4 @@
-"""
-The readers in other languages: what they read is the water that was written, in every engine's
-frame.
-"""
+"""Readers in other languages return the water that was written, in every engine's axes."""
 
 import json
 import re
@@ -29,10 +26,7 @@ UNITS = {name: 100.0 if name == "unreal" else 1.0 for name in PROFILES}
 
 
 def bake(folder, name):
-    """
-    A small sequence of heights as a bake for one engine writes it; returns our own arrays, as they
-    were stored.
-    """
+    """Write a small sequence of heights like a bake for one engine; return the arrays as stored."""
     heights = np.random.default_rng(3).uniform(-4, 4, (FRAMES, NY, NX)).astype(np.float16)
     parts = [
         encode("bin", arrange(PROFILES[name], "height", h[..., None].astype(np.float32)))
@@ -56,7 +50,7 @@ def bake(folder, name):
 
 
 def trilinear(heights, x, y, t):
-    """Between our own samples, one axis after the other."""
+    """Return heights between samples, one axis after the other."""
     for axis, at in enumerate(((t - START) / LOOP * FRAMES, y / LY * NY, x / LX * NX)):
         low = int(np.floor(at))
         n = heights.shape[0]
@@ -152,16 +146,18 @@ def test_what_a_reader_asks_of_the_sidecar_is_there(file, tmp_path):
     code = "\n".join(line for line in source.splitlines() if not re.match(r"\s*(//|#)", line))
     if file.endswith(".cs"):
         asked = set(re.findall(r"\bs\.(\w+)", code))
-        (declared,) = re.findall(r"struct Sidecar \{(.*?)\}", code)
+        (declared,) = re.findall(r"struct Sidecar\s*\{(.*?)\}", code, re.DOTALL)
         assert re.search(r"struct Channels \{ public string R; \}", code)
         assert asked <= set(re.findall(r"\w+", declared))
     elif file.endswith(".gd"):
         asked = set(re.findall(r"s\[\"(\w+)\"\]", code))
-        asked |= set(re.findall(r"\"(\w+)\":", re.search(r"const EXPECTED := \{(.*?)\}", code)[1]))
+        expected = re.search(r"const EXPECTED := \{(.*?)\}", code, re.DOTALL)[1]
+        asked |= set(re.findall(r"\"(\w+)\":", expected))
     else:
         (unpacked,) = re.findall(r"const \{(.*?)\} = this\.s", code)
         asked = set(re.findall(r"\w+", unpacked)) | set(re.findall(r"sidecar\.(\w+)", code))
-        asked |= set(re.findall(r"(\w+):", re.search(r"const expected = \{(.*?)\}", code)[1]))
+        expected = re.search(r"const expected = \{(.*?)\}", code, re.DOTALL)[1]
+        asked |= set(re.findall(r"(\w+):", expected))
     placed = {"frames", "rows", "columns", "row_origin", "row_sign", "loop", "start", "size"}
     assert asked == placed | {"file", "schema", "dtype", "levels", "lookup", "closes", "channels"}
     assert asked <= sidecar.keys()

@@ -1,7 +1,4 @@
-"""
-Text beside an atlas for one engine: parsed as far as it is a file format, and true to the atlas and
-the map it is about.
-"""
+"""Text beside an atlas for one engine, compared with the atlas and its map."""
 
 import configparser
 import json
@@ -20,7 +17,7 @@ FRAMES, ROWS, COLUMNS = 6, 4, 8  # an atlas of 2 cells across and 3 down
 
 
 def files(engine, name="foam", **more):
-    """An atlas of one map of still water."""
+    """Return an atlas of one map of still water."""
     m, profile = MAPS[name], profile_for(engine, "exr-atlas")
     parts = [
         encode(
@@ -37,7 +34,7 @@ def files(engine, name="foam", **more):
 
 
 def page(engine, name, **more):
-    """The page of steps, and the sidecar."""
+    """Return the page of steps, and the sidecar."""
     made = files(engine, name, **more)
     return bytes(made[f"{name}.exr.{engine}.txt"]).decode(), json.loads(bytes(made[f"{name}.json"]))
 
@@ -55,7 +52,7 @@ def test_each_engine_gets_its_own_and_no_other(engine):
 
 
 def test_godot_imports_an_array_of_halves_without_mipmaps():
-    """As Godot's own ConfigFile reads it: sections and key=value."""
+    """Godot's ConfigFile reads sections and key=value."""
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(bytes(files("godot")["foam.exr.import"]).decode())
     assert dict(parser["remap"]) == {

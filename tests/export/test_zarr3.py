@@ -1,6 +1,4 @@
-"""
-Zarr chunks: read by the zarr library, and an absent or bent one is no water for either reader.
-"""
+"""Zarr chunks, read by the zarr library; a missing or damaged one is an error or NaN."""
 
 import numpy as np
 import pytest
@@ -14,7 +12,7 @@ SHAPE = (3, 6, 5, 3)
 
 @pytest.fixture
 def stored(tmp_path):
-    """A map of three frames in its folder."""
+    """Return a map of three frames in its folder."""
     maps = np.random.default_rng(5).standard_normal(SHAPE).astype(np.float32)
     for name, data in assemble(
         "zarr", (), stem="normal", shape=SHAPE, names=("x", "y", "z"), size=(40.0, 30.0), loop=6.0

@@ -1183,7 +1183,7 @@ def test_every_field_is_finite_at_the_ends_of_the_ranges(model):
 
 def test_they_feed_the_same_exporters():
     """
-    What a bake takes from a frame it takes from these: height, displacement and normal pictures,
+    A bake takes the same from these as from a frame: height, displacement and normal pictures,
     read back to half an ulp.
     """
     from fftocean.baking.scene.maps import MAPS

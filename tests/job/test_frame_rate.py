@@ -1,5 +1,6 @@
 """Number of frames from a frame rate."""
 
+import builders
 import pytest
 
 import fftocean as fo
@@ -11,7 +12,7 @@ from fftocean.job.frame_rate import with_frame_rate
     [(30.0, 16.0, 480), (24.0, 2.5, 60), (0.25, 16.0, 4), (29.97, 100.0, 2997)],
 )
 def test_frames_are_the_loop_times_the_rate(fps, loop, frames):
-    job = fo.Job.default().replaced({"ocean.loop": loop})
+    job = builders.job({"ocean.loop": loop})
     assert with_frame_rate(job, fps).frames == frames
 
 

@@ -252,6 +252,6 @@ def test_loop_cycles_refuses_more_turns_than_it_can_count():
     assert loop_cycles(1e10, 1e9) == 1591549430918953472  # the double nearest to 1e19 / 2 pi
     with pytest.raises(
         ParameterError,
-        match=r"omega must make fewer than 2\^63 turns in a loop, got 1.59155e\+20 in 1e\+09 s",
+        match=r"omega must make fewer than 2\^63 cycles in a loop, got 1.59155e\+20 in 1e\+09 s",
     ):
         loop_cycles([1.0, 1e12], 1e9)

@@ -156,7 +156,8 @@ def test_a_comb_is_too_rough():
     )
     with pytest.raises(
         ParameterError,
-        match=r"the spectrum is too rough to integrate: a part of the moment came out as 0\.\d* \+- ",
+        match=r"the spectrum is too rough to integrate: a part of the moment came out as "
+        r"0\.\d* \+- ",
     ):
         moment(s, 0)
 

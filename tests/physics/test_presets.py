@@ -131,7 +131,7 @@ def test_a_promise_holds_in_shallow_water_too():
         assert sea.depth == 10.0
     assert Sea.beaufort(6, depth=10.0).hs == pytest.approx(3.0, rel=1e-10)
     assert Sea.sea_state(5, depth=10.0).hs == pytest.approx(3.25, rel=1e-10)
-    with pytest.raises(ParameterError, match=r"waves that can be.* in 0\.5 m of water"):
+    with pytest.raises(ParameterError, match=r"waves that are possible.* in 0\.5 m of water"):
         Sea.beaufort(12, depth=0.5)
 
 

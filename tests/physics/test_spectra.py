@@ -145,7 +145,7 @@ def test_wrapping_a_deep_sea_lowers_it():
 )
 def test_impossibly_steep_seas_are_refused(make):
     with pytest.raises(
-        ParameterError, match=r"hs and tp must make waves that can be .* got 50 m with 2 s"
+        ParameterError, match=r"hs and tp must make waves that are possible .* got 50 m with 2 s"
     ):
         make(hs=50.0, tp=2.0)
     assert significant_wave_height(make(hs=0.0, tp=9.0)) == 0.0

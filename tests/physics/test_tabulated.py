@@ -8,6 +8,9 @@ import pytest
 from scipy import interpolate
 
 from fftocean.errors import ParameterError
+from fftocean.physics.panels import direction_panels
+from fftocean.physics.sea import WaveSystem
+from fftocean.physics.spectra import JONSWAP
 from fftocean.physics.spreading import TabulatedSpreading
 
 F = [0.05, 0.08, 0.1, 0.2, 0.5]
@@ -129,3 +132,23 @@ def test_it_is_a_frozen_value():
 def test_what_cannot_be_a_spreading_is_refused(changes, message):
     with pytest.raises(ParameterError, match=message):
         spreading(**changes)
+
+
+def test_a_smooth_table_of_many_directions_takes_few_panels():
+    """
+    At most four a direction: panels narrow toward a direction of the table no farther out than to
+    the next one.
+    """
+    angles = np.arange(0.0, 360.0, 5.0)
+    bell = np.cos(np.radians(angles - 7.0) / 2.0) ** 8
+    table = TabulatedSpreading(
+        frequency=[0.05, 0.1, 0.2], direction=angles.tolist(), density=[bell.tolist()] * 3
+    )
+    system = WaveSystem(spectrum=JONSWAP.from_sea_state(hs=1.0, tp=8.0), spreading=table)
+    edges = direction_panels(system, 2.0 * np.pi * np.array([0.06, 0.125])).edges
+    assert angles.size < edges.size <= 4 * angles.size
+    low, width = edges[:-1], np.diff(edges)
+    trapezoid = (
+        0.5 * width * (table(0.8, low, 0.8) + table(0.8, low + width, 0.8))
+    )  # exact between directions of the table
+    assert np.sum(trapezoid) == pytest.approx(1.0, rel=1e-12)

@@ -154,6 +154,7 @@ def test_without_matplotlib_the_extra_is_named(monkeypatch):
         plots.plot_spectrum(CROSSED)
 
 
+@pytest.mark.process
 def test_no_display_no_pyplot_and_no_matplotlib_before_it_is_needed(tmp_path):
     code = f"""
 import sys

@@ -1,7 +1,7 @@
 """
-The sea of `spectrum_files.py` in the formats of instruments and of models' text files.
+Writers of `spectrum_files.sea` in the formats of instruments and of models' text files.
 
-Each writer follows the format's own documents and shares no code with the readers.
+Each follows the format's own documents and shares no code with the readers.
 """
 
 from pathlib import Path
@@ -39,7 +39,8 @@ def write_ww3_text(
     path: Path, specified: SpecifiedSpectrum, *, points: int = 1, figures: int = 9
 ) -> Path:
     """
-    ww3_outp's transfer file: 8 frequencies and 7 other numbers a line, radians TO, per radian.
+    Write ww3_outp's transfer file: 8 frequencies and 7 other numbers a line, radians TO, per
+    radian.
     """
 
     def rows(values, per, spec):
@@ -61,7 +62,7 @@ def write_ww3_text(
 def write_swan_1d(
     path: Path, specified: SpecifiedSpectrum, *, cartesian: bool = False, energy: bool = False
 ) -> Path:
-    """VaDens or EnDens, mean direction and spread of each frequency, at two places."""
+    """Write VaDens or EnDens, mean direction and spread of each frequency, at two places."""
     c1 = fourier(specified, 1)
     mean = np.degrees(np.angle(c1)) % 360.0
     spread = np.degrees(np.sqrt(2.0 * (1.0 - np.abs(c1))))
@@ -97,7 +98,9 @@ def write_swan_1d(
 
 
 def write_spotter(path: Path, specified: SpecifiedSpectrum) -> Path:
-    """a1 .. b2 of where waves go, counter-clockwise from east; df from half way to half way."""
+    """
+    Write a1 .. b2 of directions TO, counter-clockwise from east; df reaches half way to neighbours.
+    """
     count = FREQUENCY.size
     width = np.diff(EDGES)
     middle = 0.5 * (EDGES[1:] + EDGES[:-1])
@@ -123,7 +126,7 @@ def write_spotter(path: Path, specified: SpecifiedSpectrum) -> Path:
 
 
 def write_datawell(path: Path, specified: SpecifiedSpectrum) -> Path:
-    """Density over the largest, direction, spread, skewness, kurtosis (Kuik et al. 1988)."""
+    """Write density / largest density, direction, spread, skewness, kurtosis (Kuik et al. 1988)."""
     c1, c2, s = fourier(specified, 1)[0], fourier(specified, 2)[0], undirected(specified)[0]
     mean = np.angle(c1)
     m1 = np.abs(c1)
@@ -150,7 +153,8 @@ def write_datawell(path: Path, specified: SpecifiedSpectrum) -> Path:
 
 def write_triaxys(path: Path, specified: SpecifiedSpectrum, *, directed: bool = True) -> Path:
     """
-    A table on equal frequencies, from 0 Hz: `specified` at 0.01 Hz steps, interpolated linearly.
+    Write a table on equal frequencies, from 0 Hz: `specified` at 0.01 Hz steps, interpolated
+    linearly.
     """
     f = 0.01 * np.arange(40)
     table = np.stack(
@@ -185,7 +189,7 @@ def write_triaxys(path: Path, specified: SpecifiedSpectrum, *, directed: bool = 
 
 
 def write_octopus(path: Path, specified: SpecifiedSpectrum) -> Path:
-    """Energies of bins of direction FROM and frequency, bands half way to the neighbours."""
+    """Write energies of bins of direction FROM and frequency, bands half way to the neighbours."""
     width = np.diff(EDGES)
     came = np.argsort(FROM)
     lines = [
@@ -211,7 +215,7 @@ def write_octopus(path: Path, specified: SpecifiedSpectrum) -> Path:
 
 
 def write_archive(folder: Path, specified: SpecifiedSpectrum) -> Path:
-    """NDBC's five files of a year: alpha1, alpha2 in degrees, r1 and r2 in hundredths."""
+    """Write NDBC's five files of a year: alpha1, alpha2 in degrees, r1 and r2 in hundredths."""
     c1, c2 = fourier(specified, 1), fourier(specified, 2)
     columns = {
         "w": undirected(specified),
@@ -231,7 +235,7 @@ def write_archive(folder: Path, specified: SpecifiedSpectrum) -> Path:
 
 
 def ndbc_netcdf(specified: SpecifiedSpectrum) -> "xr.Dataset":
-    """NDBC's THREDDS files, one place of latitude and longitude."""
+    """Return a dataset like NDBC's THREDDS files, with one place of latitude and longitude."""
     c1, c2 = fourier(specified, 1), fourier(specified, 2)
     dims = ("time", "frequency", "latitude", "longitude")
 
@@ -259,7 +263,8 @@ def ndbc_netcdf(specified: SpecifiedSpectrum) -> "xr.Dataset":
 
 def cdip(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """
-    CDIP's files: A1, B1, A2, B2 of directions FROM, clockwise from true north, and bandwidths.
+    Return a dataset like CDIP's: A1, B1, A2, B2 of directions FROM, clockwise from true north, and
+    bandwidths.
     """
     c1, c2 = fourier(specified, 1), fourier(specified, 2)
     dims = ("waveTime", "waveFrequency")

@@ -1,6 +1,7 @@
 """
-One sea, written in every format that is read: each writer follows the format's own documents, and
-shares no code with the readers.
+Writers of one specified sea in the formats of models and buoys.
+
+Each follows the format's own documents and shares no code with the readers.
 """
 
 import gzip
@@ -33,8 +34,9 @@ class SpecifiedSpectrum:
 
 def sea(toward: float = 90.0, width: float = 8.0) -> SpecifiedSpectrum:
     """
-    A wind sea of 0.1 Hz, cos^2s about a compass direction TOWARD; narrower below the peak, so that
-    f and theta do not separate.
+    Return a wind sea of 0.1 Hz, cos^2s about a compass direction TOWARD.
+
+    It is narrower below the peak, so that f and theta do not separate.
     """
     s = 5.0 * (FREQUENCY / 0.1) ** -5 * np.exp(-1.25 * (FREQUENCY / 0.1) ** -4)
     exponent = width * np.where(FREQUENCY < 0.1, 2.0, 0.1 / FREQUENCY)[:, None]
@@ -46,8 +48,8 @@ def sea(toward: float = 90.0, width: float = 8.0) -> SpecifiedSpectrum:
 
 def write_wavespectra(path: Path, specified: SpecifiedSpectrum) -> Path:
     """
-    efth(time, site, freq, dir) per degree, dir FROM and without attributes, as the package leaves
-    it.
+    Write efth(time, site, freq, dir) per degree, dir FROM without attributes, like the wavespectra
+    package.
     """
     came = np.argsort((TO + 180.0) % 360.0)
     data = xr.Dataset(
@@ -66,7 +68,7 @@ def write_wavespectra(path: Path, specified: SpecifiedSpectrum) -> Path:
 
 def ww3(specified: SpecifiedSpectrum) -> "xr.Dataset":
     """
-    efth(time, station, frequency, direction) per radian, direction TO and turning backwards from
+    Return efth(time, station, frequency, direction) per radian, direction TO and descending from
     north, depth 30 m.
     """
     back = np.argsort(-((TO - 90.0) % 360.0))
@@ -106,15 +108,15 @@ def ww3(specified: SpecifiedSpectrum) -> "xr.Dataset":
 
 
 def write_ww3(path: Path, specified: SpecifiedSpectrum) -> Path:
-    """netCDF 3, as WAVEWATCH III writes it by default."""
+    """Write netCDF 3, the default of WAVEWATCH III."""
     ww3(specified).to_netcdf(path, engine="scipy")
     return path
 
 
 def era5(specified: SpecifiedSpectrum, *, numbers: bool = True) -> "xr.Dataset":
     """
-    d2fd, log10 of m2/Hz/radian, NaN for nothing, direction before frequency, on a grid of 2 by 1
-    (the sea is in the second).
+    Return d2fd, log10 of m2/Hz/radian, NaN for no energy, direction before frequency, on a grid of
+    2 by 1 (the sea is in the second).
     """
     with np.errstate(divide="ignore"):
         log10 = np.log10(specified.density * 180.0 / np.pi)
@@ -149,7 +151,7 @@ def write_era5(path: Path, specified: SpecifiedSpectrum, *, numbers: bool = True
 
 def write_swan(path: Path, specified: SpecifiedSpectrum, *, cartesian: bool = False) -> Path:
     """
-    SWAN's ASCII with nine figures where SWAN has four, so that it can be compared; nautical FROM or
+    Write SWAN's ASCII with nine digits where SWAN has four, for comparison; nautical FROM or
     Cartesian TOWARD.
     """
     angles = (90.0 - TO) % 360.0 if cartesian else (TO + 180.0) % 360.0
@@ -178,7 +180,7 @@ def write_swan(path: Path, specified: SpecifiedSpectrum, *, cartesian: bool = Fa
 
 
 def write_ndbc(folder: Path, *, source: float = 270.0, r1: float = 0.9, r2: float = 0.65) -> Path:
-    """A realtime set with one direction FROM for all frequencies."""
+    """Write a realtime set with one direction FROM for all frequencies."""
     s = 5.0 * (FREQUENCY / 0.1) ** -5 * np.exp(-1.25 * (FREQUENCY / 0.1) ** -4)
     columns = {
         "data_spec": ("Sep_Freq  < spec_1 (freq_1) ... >", [f"{v:.3f}" for v in s]),
@@ -195,7 +197,7 @@ def write_ndbc(folder: Path, *, source: float = 270.0, r1: float = 0.9, r2: floa
 
 
 def packed(path: Path) -> Path:
-    """The same file as .gz."""
+    """Return the same file as .gz."""
     out = path.with_name(path.name + ".gz")
     out.write_bytes(gzip.compress(path.read_bytes(), 1))
     return out

@@ -1,4 +1,4 @@
-"""What can be wrong with a file, and what is said about it."""
+"""Errors for damaged, impossible and contradictory files."""
 
 import gzip
 import os
@@ -95,7 +95,7 @@ def test_rubbish(data, message, tmp_path):
 
 
 def require_cheap_refusal(path, message):
-    """Within 2 s of this process and 16 MiB."""
+    """Assert that a file is refused within 2 s of this process and 16 MiB."""
     tracemalloc.start()
     start = time.process_time()
     with pytest.raises(ReaderError, match=message):
@@ -332,7 +332,10 @@ def test_broken_historical_files(changes, message, tmp_path):
 
 @pytest.mark.parametrize("kind", "dijk")
 def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
-    """They look just like densities; only the name tells, and names what is missing."""
+    """
+    The values look like densities; only the name tells them apart, and the error says what is
+    missing.
+    """
     with pytest.raises(ReaderError, match=r"missing: 44004w2000\.txt"):
         readers.open(historical(tmp_path, name=f"44004{kind}2000.txt"))
 
@@ -530,7 +533,7 @@ def test_the_second_of_two_places_and_no_times(tmp_path):
 
 
 def with_attrs(data, name, **attrs):
-    """The same dataset with attributes of one variable changed; None takes one away."""
+    """Return the dataset with attributes of one variable changed; None removes one."""
     out = data.copy()
     kept = {k: v for k, v in (out[name].attrs | attrs).items() if v is not None}
     if name in out.indexes:
@@ -639,7 +642,7 @@ def test_rounding_below_zero_is_forgiven_and_counted():
     data = ww3(sea())
     tiny = 0.5e-7 * float(data.efth.max())
     for value in (-1e-21, -tiny):
-        got = readers.netcdf.tidy(with_values(data, "efth", put(value, 1, 0, 2, 3)))
+        got = readers.netcdf.to_layout(with_values(data, "efth", put(value, 1, 0, 2, 3)))
         assert got.attrs["rounded_negatives"] == 1
         assert float(got.efth.min()) == 0.0
 
@@ -676,18 +679,18 @@ def test_broken_era5(make, message, tmp_path):
 def test_era5_counts_what_was_below_its_threshold():
     """Nothing is 0 inside a spectrum, missing where all of it is."""
     data = era5(sea())
-    got = readers.netcdf.tidy(data, site=1)
+    got = readers.netcdf.to_layout(data, site=1)
     assert (
         got.attrs["below_threshold_values"] == int(np.isnan(data.d2fd.isel(latitude=1)).sum()) > 0
     )
     assert (got.attrs["masked_values"], float(got.efth.min())) == (0, 0.0)
-    land = readers.netcdf.tidy(data, site=0)
+    land = readers.netcdf.to_layout(data, site=0)
     assert land.attrs["masked_values"] == land.efth.size == int(np.isnan(land.efth).sum())
 
 
 def test_part_of_era5s_bins_keep_their_numbers():
     """Bins 5 to 20 are not taken for 1 to 16."""
-    part = readers.netcdf.tidy(era5(sea()).isel(frequencyNumber=slice(4, 20)), site=1)
+    part = readers.netcdf.to_layout(era5(sea()).isel(frequencyNumber=slice(4, 20)), site=1)
     assert part.freq.values == pytest.approx(FREQUENCY[4:20], rel=1e-12)
 
 
@@ -759,12 +762,12 @@ def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
     with pytest.raises(
         ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"
     ):
-        readers.netcdf.tidy(with_values(data, "direction", np.radians))
+        readers.netcdf.to_layout(with_values(data, "direction", np.radians))
     with pytest.raises(
         ReaderError,
         match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees",
     ):
-        readers.netcdf.tidy(with_attrs(data, "direction", units="radian"))
+        readers.netcdf.to_layout(with_attrs(data, "direction", units="radian"))
 
 
 @pytest.mark.parametrize("name", ["efth", "frequency", "direction"])

@@ -24,8 +24,8 @@ LONG_CRESTED = {"direction": 0.0, "spreading": CosinePower(s=20.0)}
 
 def moments_of(spectrum):
     """
-    Integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact for a
-    cubic.
+    Return the integrals of f^n S(f), n = 0, 1, 2, [m2 Hz^n]: Simpson's rule between corners, exact
+    for a cubic.
     """
     total = np.zeros(3)
     for a, b in pairwise(sorted(spectrum.breaks)):
@@ -36,10 +36,7 @@ def moments_of(spectrum):
 
 
 def require_own_sums(made, density, frequency, width):
-    """
-    Hs, Tm01 and Tm02, in the order in which a buoy's data sheet has them, against sums written out
-    here.
-    """
+    """Assert Hs, Tm01 and Tm02, in the order of a buoy's data sheet, against explicit sums."""
     m0, m1, m2 = (float(np.sum(density * width * frequency**n)) for n in range(3))
     got = moments_of(made.sea.systems[0].spectrum)
     close = 1e-7  # the corners are approached to 1e-9 of a step
@@ -52,7 +49,7 @@ def require_own_sums(made, density, frequency, width):
 
 
 def half_way(f):
-    """Widths of bands half way to the neighbours, the outermost as far out as in."""
+    """Return widths of bands half way to the neighbours, the outermost symmetric."""
     return np.concatenate([[f[1] - f[0]], 0.5 * (f[2:] - f[:-2]), [f[-1] - f[-2]]])
 
 
@@ -114,14 +111,14 @@ HALVED = np.concatenate([FREQUENCY[:1], 0.5 * (FREQUENCY[1:] + FREQUENCY[:-1]), 
 
 
 def young():
-    """A wind sea whose peak is near the last frequency, where half a band weighs most."""
+    """Return a wind sea with its peak near the last frequency, where half a band weighs most."""
     s = 2.0 * np.pi * JONSWAP.from_sea_state(hs=0.15, tp=2.6)(2.0 * np.pi * FREQUENCY)
     spread = np.abs(np.cos(np.radians(TO - 90.0) / 2.0)) ** 10
     return s, s[:, None] * spread / (spread.sum() * 15.0)
 
 
 def stated(how, low, high):
-    """The young sea with its bands in one of the ways in which netCDF files have them."""
+    """Return the young sea with its bands in one of the ways of netCDF files."""
     _, density = young()
     data = ww3(sea())
     back = np.argsort(-((TO - 90.0) % 360.0))
@@ -167,12 +164,12 @@ def test_widths_of_bands():
     """`df`, a tenth of each frequency: nowhere half way to the neighbours."""
     width = 0.1 * FREQUENCY
     data = stated("df", FREQUENCY - 0.5 * width, FREQUENCY + 0.5 * width)
-    for dataset in (data, readers.netcdf.tidy(data)):
+    for dataset in (data, readers.netcdf.to_layout(data)):
         require_own_sums(Realised.from_spectrum(dataset), young()[0], FREQUENCY, width)
 
 
 def test_bands_go_with_the_dataset_through_a_file(tmp_path):
-    first = readers.netcdf.tidy(stated("bounds", HALVED[:-1], HALVED[1:]))
+    first = readers.netcdf.to_layout(stated("bounds", HALVED[:-1], HALVED[1:]))
     first.to_netcdf(tmp_path / "own.nc", engine="h5netcdf")
     assert np.array_equal(readers.open(tmp_path / "own.nc").freq_bnds, first.freq_bnds)
     part = Realised.from_spectrum(first.isel(freq=slice(0, 28)))
@@ -180,7 +177,7 @@ def test_bands_go_with_the_dataset_through_a_file(tmp_path):
 
 
 def test_beside_a_missing_frequency_bands_meet_in_the_middle():
-    data = readers.netcdf.tidy(stated("bounds", HALVED[:-1], HALVED[1:]))
+    data = readers.netcdf.to_layout(stated("bounds", HALVED[:-1], HALVED[1:]))
     data.efth[0, 12] = np.nan
     made = Realised.from_spectrum(data)
     low, high = np.delete(HALVED[:-1], 12), np.delete(HALVED[1:], 12)
@@ -215,14 +212,14 @@ def test_bands_that_cannot_be_are_refused(change, message):
     edges = np.stack([HALVED[:-1], HALVED[1:]], axis=1)
     change(edges)
     with pytest.raises(ReaderError, match=f"variable edges.* {message}"):
-        readers.netcdf.tidy(stated("bounds", edges[:, 0], edges[:, 1]))
+        readers.netcdf.to_layout(stated("bounds", edges[:, 0], edges[:, 1]))
 
 
 def test_units_of_bands_are_read():
     data = stated("frequency1 and frequency2", HALVED[:-1], HALVED[1:])
     data.frequency2.attrs["units"] = "m"
     with pytest.raises(ReaderError, match="variable frequency2 must have units Hz or s-1, got 'm'"):
-        readers.netcdf.tidy(data)
+        readers.netcdf.to_layout(data)
 
 
 # --- straight lines
@@ -256,7 +253,9 @@ def test_the_energy_is_exact_whatever_the_densities(density, ratio):
 
 
 def test_a_single_band_is_a_triangle():
-    """Of three nodes: m0 is exact, Tm01 off by a third of the difference of the steps beside it."""
+    """
+    With three nodes m0 is exact, Tm01 off by a third of the difference of the steps beside it.
+    """
     density = np.zeros(30)
     density[10] = 0.1
     lines = bands.straight_lines(FREQUENCY, density, bands.between_neighbours(FREQUENCY))

@@ -1,4 +1,4 @@
-"""Cut and bent files: a dataset in our layout or a `ReaderError`, never anything else."""
+"""Damaged files give a dataset or a `ReaderError`, never another exception."""
 
 import random
 import shutil
@@ -26,8 +26,8 @@ SAMPLES = [
 @pytest.fixture(scope="module")
 def originals(tmp_path_factory):
     """
-    The samples, the buoy's cut to three records; ERA5 (packed, netCDF 3) and one more buoy set,
-    made.
+    Return a folder of samples, with the buoy's cut to three records, ERA5 (packed, netCDF 3) and
+    one more buoy set.
     """
     folder = tmp_path_factory.mktemp("originals")
     for path in DATA.iterdir():
@@ -47,7 +47,7 @@ def originals(tmp_path_factory):
 
 
 def require_dataset_or_refusal(path):
-    """Open it, and if that goes well, realise it."""
+    """Open a file; if that succeeds, make a sea of it."""
     refusal = ""
     try:
         data = readers.open(path)
@@ -76,7 +76,7 @@ def require_dataset_or_refusal(path):
 
 
 def bent(data, rng):
-    """One to thirty flipped bits, half of the time where headers are."""
+    """Return data with one to thirty flipped bits, half of the time in the header."""
     out = bytearray(data)
     for _ in range(rng.choice([1, 1, 3, 30])):
         out[rng.randrange(len(out) if rng.random() < 0.5 else min(len(out), 4000))] ^= (

@@ -1,7 +1,4 @@
-"""
-Cut and bent files of instruments and models: a dataset in our layout or a refusal that names the
-file.
-"""
+"""Damaged files of instruments and models give a dataset or an error that names the file."""
 
 import gzip
 import random

@@ -1,4 +1,4 @@
-"""The same sea, whatever the format it came in; and a sea from the west travels to +x."""
+"""One sea from every format, and a sea from the west that travels to +x."""
 
 import numpy as np
 import pytest
@@ -106,7 +106,8 @@ def test_the_same_surface_from_every_format(tmp_path):
 @pytest.mark.parametrize("name", [*WRITERS, "ndbc"])
 def test_a_sea_from_the_west_travels_to_plus_x(name, tmp_path):
     """
-    From 270 degrees, toward 90: our direction 0. Nearly all energy goes forward, hardly any back.
+    A sea from 270 degrees goes toward 90, direction 0 here. Nearly all energy goes forward, hardly
+    any back.
     """
     if name == "ndbc":
         got = readers.sea_from_spectrum(readers.open(write_ndbc(tmp_path)))

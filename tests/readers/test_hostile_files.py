@@ -1,7 +1,4 @@
-"""
-Files made to have something else read, or to fill the memory: refused within 2 s, before anything
-is read.
-"""
+"""Files made to read others or to exhaust memory, refused within 2 s before any data are read."""
 
 import gzip
 import os
@@ -20,7 +17,7 @@ from fftocean.readers import bounded_reads, classic, hdf5
 
 
 def refused(path, message):
-    """Within 2 s of processor time and 64 MiB, naming the file."""
+    """Assert that a file is refused within 2 s of processor time and 64 MiB, by name."""
     tracemalloc.start()
     try:
         start = time.process_time()
@@ -34,7 +31,7 @@ def refused(path, message):
 
 
 def write(path, put=None, extra=None, **how):
-    """An HDF5 file as netCDF-4 has it: axes, `efth` as `put` makes it, and what `extra` adds."""
+    """Write an HDF5 file like netCDF-4: axes, `efth` made by `put`, and additions by `extra`."""
     with h5py.File(path, "w", **how) as file:
         for name, values, unit in (
             ("freq", np.linspace(0.05, 0.3, 6), "Hz"),
@@ -60,7 +57,7 @@ def write(path, put=None, extra=None, **how):
 
 @pytest.fixture
 def other(tmp_path):
-    """A file of somebody else's, and a pipe, on which a reader would wait for ever."""
+    """Yield a foreign file, and a pipe, on which a reader would wait for ever."""
     (tmp_path / "secret.bin").write_bytes(bytes(range(72)))
     os.mkfifo(tmp_path / "pipe")
     write(tmp_path / "source.nc")
@@ -119,7 +116,7 @@ def test_soft_links_that_lead_in_a_circle(tmp_path):
 
 
 def test_filters_of_others(tmp_path):
-    """They are looked up among plugins, which are code."""
+    """The library looks foreign filters up among plugins, which are code."""
 
     def extra(file):
         plan = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
@@ -231,7 +228,7 @@ def test_the_header_of_a_real_file_is_sound():
 
 
 def header(*variables, records=0, dims=((b"freq", 6),)):
-    """A classic header: variables are (name, axes, type, begin)."""
+    """Return a classic header: variables are (name, axes, type, begin)."""
 
     def text(word):
         return struct.pack(">I", len(word)) + word + bytes(-len(word) % 4)

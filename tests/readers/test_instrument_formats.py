@@ -1,4 +1,4 @@
-"""The formats of instruments and of models' text: one sea in all of them, and real files."""
+"""Formats of instruments and of models' text: one sea in all of them, and real files."""
 
 import gzip
 import re
@@ -34,7 +34,10 @@ SPECIFIED = sea(toward=100.0)  # skew against the bins
 
 
 def require_moments(data, *, c2=True, rounding=1e-8, within=2e-6):
-    """E(f) to the decimals of the file, and both moments of the directions to what they leave."""
+    """
+    Assert E(f) to the decimals of the file, and both moments of the directions to the precision
+    that they allow.
+    """
     density = data.efth.values
     step = 360.0 / data.sizes["dir"]
     total = density.sum(axis=2) * step
@@ -258,14 +261,14 @@ def test_netcdf_of_buoys(make, tmp_path):
 )  # fmt: skip
 def test_netcdf_of_buoys_with_variables_that_do_not_fit(change, message):
     with pytest.raises(ReaderError, match=message):
-        readers.netcdf.tidy(change(ndbc_netcdf(SPECIFIED)))
+        readers.netcdf.to_layout(change(ndbc_netcdf(SPECIFIED)))
 
 
 def test_cdip_moments_are_checked_against_its_mean_direction():
     raw = cdip(SPECIFIED)
     turned = raw.assign(waveMeanDirection=(raw.waveMeanDirection + 180.0) % 360.0)
     with pytest.raises(ReaderError, match="waveMeanDirection must be the direction of waveA1Value"):
-        readers.netcdf.tidy(turned)
+        readers.netcdf.to_layout(turned)
 
 
 @pytest.mark.parametrize(
@@ -281,7 +284,7 @@ def test_cdip_moments_are_checked_against_its_mean_direction():
 def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
     """ww3_ounp's default packs log10 of the density + 1e-12 in short integers of 4e-4."""
     raw = ww3(SPECIFIED)
-    want = readers.netcdf.tidy(raw)
+    want = readers.netcdf.to_layout(raw)
     floor = raw.efth.where(raw.efth > 0.0, 1e-12) if not offset else raw.efth + offset
     log = (np.log(floor) / np.log(base)).assign_attrs({**raw.efth.attrs, "units": unit, **name})
     packing = {"dtype": "int16", "scale_factor": 4e-4, "_FillValue": np.int16(-32767)}
@@ -297,7 +300,7 @@ def test_a_logarithm_must_say_its_base():
     raw = ww3(SPECIFIED)
     raw.efth.attrs["long_name"] = "logarithm of the density"
     with pytest.raises(ReaderError, match="must say the base of its logarithm"):
-        readers.netcdf.tidy(raw)
+        readers.netcdf.to_layout(raw)
 
 
 # --- real files, against their own statements and an independent reader
@@ -311,14 +314,16 @@ def wavespectra():
 
 
 def unpacked(name, folder):
-    """The oracle reads some formats only unpacked."""
+    """Return a file unpacked, because wavespectra reads some formats only so."""
     path = folder / name
     path.write_bytes(gzip.decompress((DATA / (name + ".gz")).read_bytes()))
     return path
 
 
 def require_same_sea(ours, theirs, *, degrees, rel=2e-7, spread=None):
-    """Hs, mean direction and spread by the oracle's own integrals, over its own bands."""
+    """
+    Assert Hs, mean direction and spread against the integrals of wavespectra over its own bands.
+    """
     spec, want = ours.efth.spec, theirs.efth.spec
     assert spec.hs(tail=False).values.ravel() == pytest.approx(
         want.hs(tail=False).values.ravel(), rel=rel
@@ -490,7 +495,7 @@ def test_realtime_sets_are_given_by_their_folder(tmp_path):
 def test_units_of_depth_are_read():
     raw = ww3(SPECIFIED)
     raw.dpt.attrs["units"] = "km"
-    assert readers.netcdf.tidy(raw).dpt.values.tolist() == [30000.0, 30000.0]
+    assert readers.netcdf.to_layout(raw).dpt.values.tolist() == [30000.0, 30000.0]
     assert TO.size == 24
 
 

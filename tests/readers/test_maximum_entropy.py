@@ -1,4 +1,4 @@
-"""Two moments in, a positive distribution with the same two moments out."""
+"""Positive directional distributions with two given moments."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,9 @@ def moments_of(share):
 
 
 def possible_moments(count, most):
-    """Moments that some distribution has: |c1| <= most, c2 within most (1 - |c1|^2) of c1^2."""
+    """
+    Return moments that some distribution has: |c1| <= most, c2 within most (1 - |c1|^2) of c1^2.
+    """
     rng = np.random.default_rng(3)
     c1, kappa = (
         most * rng.uniform(0.0, 1.0, count) ** 0.5 * np.exp(2j * np.pi * rng.uniform(size=count))

@@ -1,6 +1,4 @@
-"""
-Whatever the wavespectra package hands out becomes a sea of the height that the package gives it.
-"""
+"""Datasets and arrays of the wavespectra package become seas of the height that it reports."""
 
 import numpy as np
 import pytest
@@ -79,7 +77,7 @@ def test_left_over_attributes_give_way(ws):
     `oned` keeps the unit of directions, `read_ncswan` radians on degrees, `read_wwm` prose as
     units.
     """
-    bare = readers.netcdf.tidy(ww3(sea())).drop_vars("freq_bnds", errors="ignore")
+    bare = readers.netcdf.to_layout(ww3(sea())).drop_vars("freq_bnds", errors="ignore")
     want = readers.Realised.from_spectrum(bare).hs_source
     for axis, unit in (
         ("dir", "radians"),
@@ -160,12 +158,12 @@ def test_clipping_in_closed_form():
 
 
 def test_zero_hertz_is_left_out_and_counted():
-    data = readers.netcdf.tidy(ww3(sea()))
+    data = readers.netcdf.to_layout(ww3(sea()))
     f = np.concatenate([[0.0], data.freq.values])
     values = np.concatenate([data.efth.values[:, :1], data.efth.values], axis=1)
     longer = xr.Dataset(
         {"efth": (("time", "freq", "dir"), values)}, {"freq": f, "dir": data.dir.values}
     )
-    got = readers.netcdf.tidy(longer)
+    got = readers.netcdf.to_layout(longer)
     assert got.attrs["zero_frequencies_left_out"] == 1
     assert got.efth.values.tolist() == data.efth.values.tolist()

@@ -19,7 +19,7 @@ xr = lazy("xarray")
 
 
 def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
-    """The layout of the wavespectra package, without any attributes."""
+    """Return the layout of the wavespectra package, without any attributes."""
     return xr.Dataset(
         {"efth": (("freq", "dir"), density)},
         {"freq": frequency, "dir": (toward + 180.0) % 360.0, **coords},
@@ -154,7 +154,7 @@ def test_a_spectrum_without_directions_asks_for_them():
 
 
 def test_one_direction_only_is_none_as_the_wavespectra_package_has_it():
-    """It reads a buoy without directions as efth with dir = [0], in m2/Hz."""
+    """The package reads a buoy without directions as efth with dir = [0], in m2/Hz."""
     total = sea().density[0].sum(axis=1) * 15.0
     data = xr.Dataset(
         {"efth": (("freq", "dir"), total[:, None])}, {"freq": FREQUENCY, "dir": [0.0]}

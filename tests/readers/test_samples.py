@@ -1,4 +1,6 @@
-"""Real files, against the wavespectra package: an independent reader of the same formats."""
+"""Real files, against the wavespectra package, an independent reader of the same formats."""
+
+import gzip
 
 import numpy as np
 import pytest
@@ -171,3 +173,18 @@ def test_the_sea_has_the_height_and_direction_that_the_oracle_reports(name):
         turn = made.sea.systems[0].direction - (270.0 - float(data.efth.spec.dm()[time]))
         assert abs((turn + 180.0) % 360.0 - 180.0) < 1e-9
         assert made.factor == pytest.approx(1.0, abs=0.01)
+
+
+TEXTS = sorted(
+    p.name for p in DATA.iterdir() if p.is_file() and p.suffix not in (".md", ".nc", ".gz")
+)
+
+
+@pytest.mark.parametrize("packed", [False, True])
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_text_file_may_begin_with_a_byte_order_mark(name, packed, tmp_path):
+    """As some editors save it; packed or not."""
+    for other in TEXTS:  # sets of files belong together
+        marked = b"\xef\xbb\xbf" + (DATA / other).read_bytes()
+        (tmp_path / other).write_bytes(gzip.compress(marked) if packed else marked)
+    assert readers.open(tmp_path / name).equals(readers.open(DATA / name))

@@ -41,7 +41,7 @@ FOCAL, HORIZON_ROW = 0.9, 0.30
 Focal length in image widths, and height of the horizon, as a share of the image's height.
 """
 FARTHEST = 30e3
-"""Distance of the last water that is drawn [m]."""
+"""Distance of the farthest water that is rendered [m]."""
 
 BUOY_DISTANCE, BUOY_ACROSS, BUOY_HEIGHT, BUOY_RADIUS = 42.0, 0.20, 4.0, 0.28
 """Spar buoy: distance [m], tangent of its bearing, height and radius [m]."""
@@ -191,7 +191,7 @@ def perspective(
     seen, between two samples by linear interpolation.
 
     Args:
-        water: what is seen.
+        water: the surface to render.
         width, height: of the image [pixels].
         place: x and y of the camera [m]; None is `trough(water)`.
         finer: samples a pixel has, one above the other.
@@ -202,12 +202,12 @@ def perspective(
     steepest = height * (1.0 - HORIZON_ROW) / focal
     nearest = max(0.3 * EYE, 0.8 * EYE / steepest - 2.0 * water.hs)
     distance = np.geomspace(nearest, FARTHEST, max(200, int(1.6 * rows)))
-    scene = _Scene(water, place or trough(water), focal, finer, taps, horizon, distance)
+    view = _View(water, place or trough(water), focal, finer, taps, horizon, distance)
     image = np.empty((height, width, 3))
 
     def draw(first: int) -> None:
         across = (np.arange(first, min(first + _STRIP, width)) + 0.5 - 0.5 * width) / focal
-        light = scene.strip(across, rows).reshape(height, finer, across.size, 3)
+        light = view.strip(across, rows).reshape(height, finer, across.size, 3)
         image[:, first : first + _STRIP] = _rolled_off(light).mean(axis=1)
 
     with ThreadPoolExecutor(min(cores(), 8)) as threads:
@@ -225,8 +225,8 @@ def trough(water: Water) -> tuple[float, float]:
     return (float(i) + 0.5) * lx / height.shape[1], (float(j) + 0.5) * ly / height.shape[0]
 
 
-class _Scene:
-    """One view of the water, drawn a strip of columns at a time."""
+class _View:
+    """One perspective view of the surface, rendered a strip of columns at a time."""
 
     def __init__(
         self,
@@ -265,7 +265,7 @@ class _Scene:
         return qx, qy, found[..., 0], found[..., 1:]
 
     def strip(self, across: Real, rows: int) -> Image:
-        """Return some columns of the picture; `across` is the tangent of each one's bearing."""
+        """Return some columns of the image; `across` is the tangent of each one's bearing."""
         distance = self.distance[:, None]
         qx, qy, z, _ = self._surface(across[None, :] * distance, distance, self.spacing)
         screen = self.horizon + self.steep * (self.eye - z) / distance
@@ -298,7 +298,7 @@ class _Scene:
     def _shaded(
         self, qx: Real, qy: Real, z: Real, far: Real, long: Real, across: Real, sky: Flags
     ) -> Image:
-        """Return the light from the water that is seen, whose undisplaced positions are given."""
+        """Return the light from the visible water, given its undisplaced positions."""
         shape = far.shape
         light = np.zeros((*shape, 3))
         wet = np.logical_not(sky)
@@ -351,7 +351,7 @@ def from_above(water: Water, width: int, height: int) -> Image:
     Return the first tile's area from high above its south, north up, with the sun in the north.
 
     Args:
-        water: what is seen.
+        water: the surface to render.
         width, height: of the image [pixels].
     """
     lx, ly = water.layers[0].size
@@ -366,7 +366,7 @@ def from_above(water: Water, width: int, height: int) -> Image:
 
 
 def _averages(water: Water, x: Real, y: Real, footprint: Real) -> tuple[Real, Real]:
-    """Return what `shade` takes of the water at undisplaced positions, and the foam there."""
+    """Return the averages that `shade` needs at undisplaced positions, and the foam there."""
     mean = _points(water.layers, x, y, footprint, SLOPES, squares=True)
     if water.ripples is not None:
         mean += _points((water.ripples,), x, y, footprint, ALL_SLOPES, squares=True)
@@ -470,14 +470,15 @@ def _dither() -> Real:
 
 def _rolled_off(light: Image) -> Image:
     """
-    Return light as a film takes it, 0..1: what is averaged over a pixel, so that edges stay smooth.
+    Return light with highlights rolled off, 0..1; averages over a pixel are taken of these values,
+    so that edges stay smooth.
     """
     result: Image = 1.0 - np.exp(-1.9 * np.maximum(light, 0.0))
     return result
 
 
 def _unrolled(exposed: Image) -> Image:
-    """Return the light that `_rolled_off` was given."""
+    """Return the inverse of `_rolled_off`."""
     result: Image = -np.log(np.maximum(1.0 - exposed, 1e-12)) / 1.9
     return result
 
@@ -507,7 +508,7 @@ def _grain() -> Layer:
 
 def _broken(coverage: Real, x: Real, y: Real, footprint: Real) -> Real:
     """
-    Return foam as patches that cover so much of the water; far away, where none is seen, evenly.
+    Return foam as patches of a given coverage; far away, where no patch is visible, as a mean.
     """
     pattern = _points((_grain(),), x, y, footprint, ONE)[:, 0]
     # so soft, and no softer than keeps the mean at the ends

@@ -69,14 +69,14 @@ class Whitecaps:
         cls, moments: Sequence[Real], step: float, foam: Foam, cover: float | None = None
     ) -> "Whitecaps":
         """
-        Return the foam that has gathered over some moments.
+        Return the foam that has accumulated over some moments.
 
         Args:
             moments: the `minimum_eigenvalue` at equal steps of time.
             step: from one to the next [s].
-            foam: how water foams.
-            cover: the share of the water that is to be covered; the threshold is found for it. None
-                keeps the threshold of `foam`.
+            foam: parameters of foam.
+            cover: share of the surface to cover; the threshold is found for it. None keeps the
+                threshold of `foam`.
         """
         if cover is not None:
             foam = calibrated(moments, step, foam, cover)
@@ -102,7 +102,7 @@ class Whitecaps:
 
 
 def calibrated(moments: Sequence[Real], step: float, foam: Foam, cover: float) -> Foam:
-    """Return foam whose threshold lets it cover a share of the water, after some moments."""
+    """Return foam with the threshold at which it covers a share after some moments."""
     stride = max(1, math.ceil(moments[0].size / _CALIBRATED))
     values = np.stack([m.ravel()[::stride] for m in moments])
     ages = step * np.arange(len(moments))[::-1, None]

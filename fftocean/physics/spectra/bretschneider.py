@@ -37,13 +37,17 @@ class Bretschneider:
 
     @classmethod
     def from_mean_period(cls, *, hs: float, t1: float) -> "Bretschneider":
-        """Sea of mean period `t1` = 2 pi m0/m1 [s]: Tp = (5/4)^(1/4) Gamma(3/4) T1 = 1.296 T1."""
+        """
+        Return the sea of mean period `t1` = 2 pi m0/m1 [s]: Tp = (5/4)^(1/4) Gamma(3/4) T1 = 1.296
+        T1.
+        """
         return cls(hs=hs, tp=PERIOD.check("t1", t1) * 1.25**0.25 * math.gamma(0.75))
 
     @classmethod
     def from_zero_crossing_period(cls, *, hs: float, tz: float) -> "Bretschneider":
         """
-        Sea of zero-crossing period `tz` = 2 pi sqrt(m0/m2) [s]: Tp = (5 pi/4)^(1/4) Tz = 1.408 Tz.
+        Return the sea of zero-crossing period `tz` = 2 pi sqrt(m0/m2) [s]: Tp = (5 pi/4)^(1/4) Tz =
+        1.408 Tz.
         """
         return cls(hs=hs, tp=PERIOD.check("tz", tz) * (1.25 * math.pi) ** 0.25)
 
@@ -53,7 +57,7 @@ class Bretschneider:
         return 2.0 * math.pi / self.tp
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return GammaSpectrum(hs=self.hs, tp=self.tp)(omega)
 
 

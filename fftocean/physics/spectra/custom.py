@@ -15,9 +15,7 @@ from fftocean.limits import (
 
 @dataclass(frozen=True, slots=True)
 class CustomSpectrum:
-    """
-    Any function of omega, named by its peak. It must return finite values >= 0 of the same shape.
-    """
+    """Any function of omega, with its peak. It must return finite values >= 0 of the same shape."""
 
     function: Callable[[Real], RealLike]  # S(omega) [m^2 s/rad]
     peak: float  # omega_p [rad/s]
@@ -30,24 +28,28 @@ class CustomSpectrum:
         keep_checked(self, peak=PEAK)
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not asked."""
+        """
+        Return S at `omega`, [m^2 s/rad]; 0 where omega <= 0, where the function is not called.
+        """
         omega = np.asarray(omega, dtype=np.float64)
-        asked = np.where(omega > 0.0, omega, self.peak)
+        where_positive = np.where(omega > 0.0, omega, self.peak)
         try:
-            values = np.asarray(self.function(asked))
+            values = np.asarray(self.function(where_positive))
         except (TypeError, ValueError):  # written for one number, with math.exp or an if
-            values = np.vectorize(self.function, otypes=[np.float64])(asked)
+            values = np.vectorize(self.function, otypes=[np.float64])(where_positive)
         if values.dtype.kind not in "iuf":
             raise ParameterError(
                 f"the custom spectrum must return real numbers, got {values!r:.60}"
             )
         if values.shape not in (omega.shape, ()):
             raise ParameterError(
-                f"the custom spectrum must return the shape it is given, {omega.shape}, got {values.shape}"
+                f"the custom spectrum must return the shape it is given, {omega.shape}, "
+                f"got {values.shape}"
             )
         bad = ~((values >= 0.0) & (values < np.inf))
         if np.any(bad):
             raise ParameterError(
-                f"the custom spectrum must be finite and at least 0 m^2 s/rad, got {values[bad].flat[0]}"
+                "the custom spectrum must be finite and at least 0 m^2 s/rad, "
+                f"got {values[bad].flat[0]}"
             )
         return np.where(omega > 0.0, values, 0.0)

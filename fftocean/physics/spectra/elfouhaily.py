@@ -83,8 +83,8 @@ class Elfouhaily:
                 / GRAVITY
             )
             raise ParameterError(
-                f"fetch must be at least {shortest:.4g} m for a wind of {self.speed:g} m/s (where U10/c_p is {YOUNGEST:g}), "
-                f"got {self.fetch:g} m"
+                f"fetch must be at least {shortest:.4g} m for a wind of {self.speed:g} m/s "
+                f"(where U10/c_p is {YOUNGEST:g}), got {self.fetch:g} m"
             )
         warn_of_short_fetch(self.speed, self.fetch)
 
@@ -101,7 +101,7 @@ class Elfouhaily:
 
     @property
     def spreading(self) -> "ElfouhailySpreading":
-        """The directions that belong to it, waves with the wind only."""
+        """The spreading that belongs to the spectrum, waves with the wind only."""
         return ElfouhailySpreading(
             friction_velocity=self.friction_velocity,
             depth=self.depth,
@@ -126,7 +126,7 @@ class Elfouhaily:
         return tuple(np.unique(angular_frequency(k, self.depth, self.surface_tension)).tolist())
 
     def curvature(self, k: RealLike) -> Real:
-        """B = k^3 F at `k` [rad/m], > 0: how saturated the waves of that length are [-]."""
+        """Return B = k^3 F at `k` [rad/m], > 0: the saturation of the waves of that length [-]."""
         omega_c, k_p, friction = (
             self.inverse_wave_age,
             self._peak_wavenumber,
@@ -161,13 +161,13 @@ class Elfouhaily:
         return b
 
     def wavenumber_density(self, k: RealLike) -> Real:
-        """F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
+        """Return F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
         k = np.maximum(np.asarray(k, dtype=np.float64), 0.03 * self._peak_wavenumber)
         f: Real = self.curvature(k) / k**3
         return f
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return per_frequency(
             self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension
         )

@@ -32,15 +32,15 @@ ENHANCEMENT = Quantity(
 
 STEEPEST = 4.0 / math.sqrt(5.0)
 """
-Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the door that
-`spectra` keeps, in other words.
+Hs omega_p^2 / g at which a Pierson-Moskowitz sea has a Phillips constant of 1: the limit of
+`base.phillips_constant`, in other words.
 """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GammaSpectrum:
     """
-    One bell: a front, a tail, and between them a peak that may be raised.
+    Generalised gamma spectrum: a front, a tail, and between them a peak that may be raised.
 
     S = (Hs^2/16) (A G / omega_p) x^-N exp(-(N/M) x^-M) gamma^r,  x = omega/omega_p,
     with r and its widths 0.07 and 0.09 as in JONSWAP, G = M (N/M)^((N-1)/M) / Gamma((N-1)/M), and A
@@ -77,13 +77,13 @@ class GammaSpectrum:
     @property
     def breaks(self) -> tuple[float, ...]:
         """
-        The scales on which the bell bends: its peak, where the width changes, and an octave each
-        way [rad/s].
+        The scales on which the spectrum bends: its peak, where the width changes, and an octave
+        each way [rad/s].
         """
         return 0.5 * self.peak, self.peak, 2.0 * self.peak
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         norm = norm_by_regression if not self.exact else norm_by_quadrature
         scale = self.hs**2 / 16.0 / self.peak * norm(self.tail, self.front, self.gamma)
         omega = np.minimum(
@@ -94,7 +94,8 @@ class GammaSpectrum:
 
 def _bell(x: Real, tail: float, front: float, gamma: float) -> Real:
     """
-    G x^-N exp(-(N/M) x^-M) gamma^r, in logarithms: N = 401 (lambda = 100) overflows otherwise.
+    Return G x^-N exp(-(N/M) x^-M) gamma^r, in logarithms: N = 401 (lambda = 100) overflows
+    otherwise.
     """
     a = (tail - 1.0) / front
     log_g = math.log(front) + a * math.log(tail / front) - math.lgamma(a)
@@ -109,7 +110,7 @@ def _bell(x: Real, tail: float, front: float, gamma: float) -> Real:
 
 @lru_cache(maxsize=1024)
 def norm_by_quadrature(tail: float, front: float, gamma: float) -> float:
-    """A = 1 / integral of the bell: exactly 1 where gamma is."""
+    """Return A = 1 / integral of the bell: exactly 1 for gamma = 1."""
     if gamma == 1.0:
         return 1.0
     return 1.0 / moment(_Shape(tail, front, gamma), 0)
@@ -117,7 +118,7 @@ def norm_by_quadrature(tail: float, front: float, gamma: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Shape:
-    """The bell as a spectrum of its own, with its peak at 1, for the quadrature."""
+    """The bell as a spectrum with its peak at 1, for the quadrature."""
 
     tail: float
     front: float
@@ -137,8 +138,8 @@ class _Shape:
 
 def norm_by_regression(tail: float, front: float, gamma: float) -> float:
     """
-    A = (1 + f1 ln^f2 gamma)/gamma, within 5 % of the quadrature up to gamma = 20  (Torsethaugen
-    1996; DNV-RP-C205 A.2).
+    Return A = (1 + f1 ln^f2 gamma)/gamma, within 5 % of the quadrature up to gamma = 20
+    (Torsethaugen 1996; DNV-RP-C205 A.2).
     """
     f1 = 4.1 * (tail - 2.0 * front**0.28 + 5.3) ** (0.96 - 1.45 * front**0.1)
     f2 = (
@@ -148,7 +149,7 @@ def norm_by_regression(tail: float, front: float, gamma: float) -> float:
 
 
 def total(parts: tuple[GammaSpectrum, ...], omega: RealLike) -> Real:
-    """The sum of the parts' S; 0 of none."""
+    """Return the sum of the parts' S; 0 of none."""
     omega = np.asarray(omega, dtype=np.float64)
     return sum((part(omega) for part in parts), np.zeros_like(omega))
 
@@ -158,11 +159,12 @@ def breaks_of(parts: tuple[GammaSpectrum, ...]) -> tuple[float, ...]:
 
 
 def require_possible(hs: float, tp: float) -> None:
-    """Refuse waves steeper than can be."""
+    """Raise if waves are steeper than possible."""
     steepness = hs * (2.0 * math.pi / tp) ** 2 / GRAVITY
     if steepness > STEEPEST:
         raise ParameterError(
-            f"hs and tp must make waves that can be (hs at most {STEEPEST / (2.0 * math.pi):.3f} of the wavelength), "
+            "hs and tp must make waves that are possible "
+            f"(hs at most {STEEPEST / (2.0 * math.pi):.3f} of the wavelength), "
             f"got {hs:g} m with {tp:g} s ({steepness / (2.0 * math.pi):.3g})"
         )
 

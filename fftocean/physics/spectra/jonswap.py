@@ -26,7 +26,7 @@ from fftocean.physics.spectra.wind import STILL_AIR, checked_wind, warn_of_short
 @dataclass(frozen=True, slots=True)
 class JONSWAP:
     """
-    A Pierson-Moskowitz sea with its peak raised by gamma^r  (Hasselmann et al. 1973).
+    Pierson-Moskowitz spectrum with its peak raised by gamma^r  (Hasselmann et al. 1973).
 
     r = exp(-(omega - omega_p)^2 / (2 sigma^2 omega_p^2)), sigma = 0.07 up to the peak and 0.09
     beyond.
@@ -42,7 +42,7 @@ class JONSWAP:
     @classmethod
     def from_wind(cls, *, speed: float, fetch: float, gamma: float = 3.3) -> "JONSWAP":
         """
-        Sea raised by a wind of `speed` (U10) [m/s] over `fetch` [m].
+        Return the sea raised by a wind of `speed` (U10) [m/s] over `fetch` [m].
 
         The laws of the JONSWAP experiment, alpha = 0.076 (U^2/gF)^0.22 and omega_p = 22
         (g^2/UF)^(1/3), let a sea grow for ever. Here it grows by them until its energy is 99 % of
@@ -71,8 +71,8 @@ class JONSWAP:
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, gamma: float = 3.3) -> "JONSWAP":
         """
-        Sea of significant wave height `hs` [m] and peak period `tp` [s], normalised exactly: 4
-        sqrt(m0) is `hs`.
+        Return the sea of significant wave height `hs` [m] and peak period `tp` [s], normalised
+        exactly: 4 sqrt(m0) is `hs`.
 
         Raises:
             ParameterError: a value out of its range, or waves too steep to be (alpha > 1).
@@ -86,7 +86,7 @@ class JONSWAP:
         )
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         x = relative(omega, self.peak)
         sigma = np.where(x <= 1.0, 0.07, 0.09)
         r = np.exp(-((x - 1.0) ** 2) / (2.0 * sigma**2))
@@ -97,7 +97,7 @@ class JONSWAP:
 
 
 def fetch_limited(speed: float, fetch: float, gamma: float) -> JONSWAP:
-    """Return the sea of `JONSWAP.from_wind`, whose arguments these are, checked."""
+    """Return the sea of `JONSWAP.from_wind`, with arguments that have been checked."""
     wind = max(speed, STILL_AIR)
     x = GRAVITY * fetch / wind**2  # dimensionless fetch
     # Dimensionless, with u = omega_p U/g and e = g^2 m0 / U^4:  e = alpha J(gamma) / u^4.
@@ -119,7 +119,7 @@ def fetch_limited(speed: float, fetch: float, gamma: float) -> JONSWAP:
 @lru_cache(maxsize=256)
 def shape_integral(gamma: float) -> float:
     """
-    J(gamma) = m0 omega_p^4 / (alpha g^2): 1/5 for gamma = 1, then growing.
+    Return J(gamma) = m0 omega_p^4 / (alpha g^2): 1/5 for gamma = 1, then growing.
 
     It is 1/5 plus the integral of what the peak adds to Pierson-Moskowitz, x^-5 exp(-5/4 x^-4)
     (gamma^r - 1): smooth on either side, and nothing (1e-17) nine sigma away. `moment` would say

@@ -58,7 +58,7 @@ class OchiHubble:
 
     @classmethod
     def most_probable(cls, *, hs: float) -> "OchiHubble":
-        """The sea most often found with `hs` [m] in the North Atlantic."""
+        """Return the most frequent sea of `hs` [m] in the North Atlantic."""
         return cls.family(hs=hs)[0]
 
     @classmethod
@@ -95,7 +95,7 @@ class OchiHubble:
 
     @property
     def peak(self) -> float:
-        """omega_p of the half that stands higher [rad/s]."""
+        """omega_p of the half with the higher peak [rad/s]."""
         return max(self._halves, key=lambda half: float(half(half.peak))).peak
 
     @property
@@ -104,7 +104,7 @@ class OchiHubble:
         return breaks_of(self._halves)
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return total(self._halves, omega)
 
 

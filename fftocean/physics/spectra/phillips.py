@@ -67,7 +67,8 @@ class Phillips:
         )
         if self.cutoff > self._longest:
             raise ParameterError(
-                f"cutoff must be at most the scale of the longest waves, {self._longest:g} m, got {self.cutoff:g} m"
+                f"cutoff must be at most the scale of the longest waves, {self._longest:g} m, "
+                f"got {self.cutoff:g} m"
             )
 
     @classmethod
@@ -81,8 +82,8 @@ class Phillips:
         surface_tension: float = 0.0,
     ) -> "Phillips":
         """
-        The same shape with A chosen so that 4 sqrt(m0) is `hs` [m]: m0 = A pi l L K1(2 l/L), which
-        is A pi L^2/2 without l.
+        Return the spectrum whose A makes 4 sqrt(m0) = `hs` [m]: m0 = A pi l L K1(2 l/L), which is A
+        pi L^2/2 without l.
 
         Raises:
             ParameterError: a value out of its range, or waves too steep to be (2 pi A > 1), as any
@@ -95,8 +96,8 @@ class Phillips:
         amplitude = (hs / 4.0) ** 2 / unit._variance if unit._variance else math.inf if hs else 0.0
         if not 2.0 * math.pi * amplitude <= 1.0:
             raise ParameterError(
-                f"hs and speed must make waves that can be (2 pi amplitude at most 1), got hs = {hs:g} m with a wind of "
-                f"{speed:g} m/s (amplitude = {amplitude:.3g})"
+                "hs and speed must make waves that are possible (2 pi amplitude at most 1), "
+                f"got hs = {hs:g} m with a wind of {speed:g} m/s (amplitude = {amplitude:.3g})"
             )
         return cls(
             speed=speed,
@@ -136,7 +137,7 @@ class Phillips:
         )
 
     def wavenumber_density(self, k: RealLike) -> Real:
-        """F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
+        """Return F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
         amplitude = self.amplitude if self.speed else 0.0
         kl = np.maximum(
             np.asarray(k, dtype=np.float64) * self._longest, 0.03
@@ -151,7 +152,7 @@ class Phillips:
         return f
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return per_frequency(
             self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension
         )

@@ -41,7 +41,8 @@ class PiersonMoskowitz:
     @classmethod
     def from_wind(cls, *, speed: float) -> "PiersonMoskowitz":
         """
-        Fully developed sea under a wind of `speed` (U10) [m/s]: omega_p = 0.877 g / (1.026 U10).
+        Return the fully developed sea under a wind of `speed` (U10) [m/s]: omega_p = 0.877 g /
+        (1.026 U10).
         """
         speed = checked_wind(speed)
         return cls(
@@ -52,14 +53,14 @@ class PiersonMoskowitz:
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float) -> "PiersonMoskowitz":
         """
-        Sea of significant wave height `hs` [m] and peak period `tp` [s]: alpha follows from m0 =
-        alpha g^2 / (5 omega_p^4).
+        Return the sea of significant wave height `hs` [m] and peak period `tp` [s]: alpha follows
+        from m0 = alpha g^2 / (5 omega_p^4).
         """
         tp = PERIOD.check("tp", tp)
         return cls(peak=2.0 * np.pi / tp, alpha=phillips_constant(hs, tp, 0.2))
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         x = relative(omega, self.peak)
         s: Real = self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4)
         return s

@@ -52,7 +52,10 @@ class TabulatedSpectrum:
     def __repr__(self) -> str:
         f = self.frequency
         depth = "" if self.depth is None else f", depth={self.depth:g}"
-        return f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
+        return (
+            f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, "
+            f"peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
+        )
 
     @property
     def peak(self) -> float:
@@ -65,7 +68,7 @@ class TabulatedSpectrum:
         return tuple(self._omega.tolist())
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return np.interp(
             np.asarray(omega, dtype=np.float64), self._omega, self._s, left=0.0, right=0.0
         )

@@ -1,4 +1,4 @@
-"""TMA spectrum of finite depth, with the Kitaigorodskii factor."""
+"""TMA spectrum of finite depth, a deep-water spectrum times the Kitaigorodskii factor."""
 
 import math
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ from fftocean.physics.water import statements
 @dataclass(frozen=True, slots=True)
 class TMA:
     """
-    A deep-water spectrum carried into water of finite depth: S = S_deep Phi  (Kitaigorodskii et al.
+    Deep-water spectrum transformed to water of finite depth: S = S_deep Phi  (Kitaigorodskii et al.
     1975; Bouws et al. 1985).
 
     Phi = tanh^2(kh) / (1 + 2kh / sinh 2kh), with the true k(omega, h): no fit, no branches.
@@ -45,14 +45,15 @@ class TMA:
         for statement in statements("depth", "spectrum", self.spectrum):
             if statement.value != math.inf:
                 raise ParameterError(
-                    f"spectrum must be one of deep water, which TMA carries into {self.depth:g} m, got {statement} of {statement.value:g} m"
+                    f"spectrum must be one of deep water, which TMA carries into {self.depth:g} m, "
+                    f"got {statement} of {statement.value:g} m"
                 )
 
     @classmethod
     def from_sea_state(cls, *, hs: float, tp: float, depth: float, gamma: float = 3.3) -> "TMA":
         """
-        Sea whose significant wave height *in water of `depth`* is `hs` [m]; `tp` [s] and `gamma`
-        are those of the deep-water JONSWAP.
+        Return the sea whose significant wave height *in water of `depth`* is `hs` [m]; `tp` [s] and
+        `gamma` are those of the deep-water JONSWAP.
 
         Raises:
             ParameterError: a value out of its range, or waves too steep to be.
@@ -83,7 +84,7 @@ class TMA:
         return getattr(self.spectrum, "breaks", ())
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return self.spectrum(omega) * kitaigorodskii(omega, self.depth)
 
     def at_waves(self, omega: RealLike, k: Real) -> Real:

@@ -31,7 +31,7 @@ FORMS = ("simplified", "full")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Torsethaugen:
     """
-    Wind sea and swell of the Norwegian shelf, from nothing but `hs` and `tp`.
+    Wind sea and swell of the Norwegian shelf, from `hs` and `tp` alone.
 
     A sea of height Hs that has stopped growing peaks at Tf = 6.6 Hs^(1/3) (fetch 370 km). A shorter
     `tp` is a wind sea with some swell under it, a longer one a swell with some wind sea on it; the
@@ -72,7 +72,7 @@ class Torsethaugen:
 
     @property
     def peak(self) -> float:
-        """omega_p of the ordered `tp` [rad/s]."""
+        """omega_p of the specified `tp` [rad/s]."""
         return 2.0 * math.pi / self.tp
 
     @property
@@ -86,14 +86,14 @@ class Torsethaugen:
         return self._systems
 
     def __call__(self, omega: RealLike, /) -> Real:
-        """S at `omega`, [m^2 s/rad]."""
+        """Return S at `omega`, [m^2 s/rad]."""
         return total(self._systems, omega)
 
 
 def _torsethaugen(
     hs: float, tp: float, full: bool, exact: bool
 ) -> tuple[GammaSpectrum, GammaSpectrum]:
-    """Share `hs` out among a primary and a secondary system."""
+    """Return the primary and the secondary system that share `hs`."""
     developed = 6.6 * hs ** (1.0 / 3.0)  # Tf [s]
     # Bulk parameters of the two forms: the tail, the front of a secondary wind sea, and what lifts
     # gamma in low seas.
@@ -129,8 +129,8 @@ def _torsethaugen(
 
 def _sea_on_swell(hs: float, second_hs: float, tail: float, front: float) -> float:
     """
-    Peak period [s] at which a wind sea of `second_hs` has the density s4 at 0.4 Hz: its tail is
-    saturated (full form only).
+    Return the peak period [s] at which a wind sea of `second_hs` has the density s4 at 0.4 Hz: its
+    tail is saturated (full form only).
     """
     saturation = max(0.01, 0.08 * (1.0 - math.exp(-hs / 3.0)))  # s4 [m^2/Hz]
     a = (tail - 1.0) / front

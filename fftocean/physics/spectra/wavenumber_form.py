@@ -20,8 +20,8 @@ def per_frequency(
     surface_tension: float,
 ) -> Real:
     """
-    S(omega) = F(k) dk/d omega; held at a ten-thousandth of the peak, where both spectra here are 0,
-    and far beyond any wave.
+    Return S(omega) = F(k) dk/d omega; omega is at least a ten-thousandth of the peak, where both
+    spectra of this form are 0, and at most 1e20 rad/s.
     """
     k = wavenumber(
         np.clip(np.asarray(omega, dtype=np.float64), 1e-4 * peak, 1e20), depth, surface_tension
@@ -31,7 +31,7 @@ def per_frequency(
 
 def scale_wind(speed: float) -> float:
     """
-    The wind [m/s] that sets the scale of a spectrum; any will do in still air, where there is no
-    energy to scale.
+    Return the wind [m/s] that sets the scale of a spectrum; any value will do in still air, where
+    there is no energy to scale.
     """
     return speed if speed >= STILL_AIR else 1.0

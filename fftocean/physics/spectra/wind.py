@@ -16,7 +16,7 @@ Below this wind [m/s] no wave is raised: far less than the 0.2 m/s that the firs
 
 
 def checked_wind(speed: float) -> float:
-    """Check a wind speed; still air is 0, and says what it means."""
+    """Return a checked wind speed; warn of still air and return 0 for it."""
     speed = WIND_SPEED.check("speed", speed)
     if speed >= STILL_AIR:
         return speed
@@ -36,13 +36,13 @@ g F/U^2 below which a sea is hardly ever meant: the JONSWAP experiment measured 
 
 
 def warn_of_short_fetch(speed: float, fetch: float) -> None:
-    """Warn of a fetch that is so short that it may be in another unit than metres."""
+    """Warn of a fetch so short that it may be in another unit than metres."""
     least = SHORTEST_FETCH * speed**2 / GRAVITY
     if fetch < least:
         warnings.warn(
             f"a fetch of {fetch:g} m is very short for a wind of {speed:g} m/s: g F/U^2 is "
-            f"{SHORTEST_FETCH * fetch / least:.3g}, and growth was measured from {SHORTEST_FETCH:g} ({least:.4g} m) on; "
-            "fetch is in metres: 200 km is 200e3",
+            f"{SHORTEST_FETCH * fetch / least:.3g}, and growth was measured from "
+            f"{SHORTEST_FETCH:g} ({least:.4g} m) on; fetch is in metres: 200 km is 200e3",
             SeaWarning,
             stacklevel=4,
         )

@@ -1,4 +1,8 @@
-"""Directional spreadings D(omega, theta), one family a file; each integrates to 1 over the circle."""
+"""
+Directional spreadings D(omega, theta), one family a file.
+
+Each of them integrates to 1 over the circle at every frequency.
+"""
 
 from fftocean.physics.spreading.base import SPREADINGS as SPREADINGS
 from fftocean.physics.spreading.base import Spreading as Spreading

@@ -14,12 +14,12 @@ from fftocean.physics.kinds import Registry
 @runtime_checkable
 class Spreading(Protocol):
     """
-    Maps omega [rad/s] and theta [rad] (from the system's direction) to D [1/rad]; `peak` is the
-    system's omega_p [rad/s].
+    Function from omega [rad/s] and theta [rad] (from the system's direction) to D [1/rad]; `peak`
+    is the system's omega_p [rad/s].
     """
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, which broadcast."""
+        """Return D at `omega` and `theta`, which broadcast."""
 
 
 SPREADINGS: Registry[Spreading] = Registry("spreading")
@@ -28,34 +28,35 @@ SPREADINGS: Registry[Spreading] = Registry("spreading")
 
 def require_spreading(name: str, value: object) -> None:
     """
-    Refuse what cannot spread waves.
+    Raise if `value` is not a spreading.
 
     Raises:
         ParameterError: not callable, a model's class where a model is wanted, or a plain function,
-            whose integral nobody has seen to.
+            whose integral is not known to be 1.
     """
     if isinstance(value, (FunctionType, BuiltinFunctionType, MethodType, partial)):
         raise ParameterError(
-            f"{name} must integrate to 1 round the circle (wrap a plain function: CustomSpreading(f)), got {value!r:.60}"
+            f"{name} must integrate to 1 round the circle (wrap a plain function: "
+            f"CustomSpreading(f)), got {value!r:.60}"
         )
     if not callable(value) or isinstance(value, type):
         raise ParameterError(f"{name} must be callable as D(omega, theta, peak), got {value!r:.60}")
 
 
 def wrapped(theta: RealLike) -> Real:
-    """The same angles in [-pi, pi]."""
+    """Return the same angles in [-pi, pi]."""
     theta = np.asarray(theta, dtype=np.float64)
     return theta - 2.0 * np.pi * np.rint(theta / (2.0 * np.pi))
 
 
 def held(omega: RealLike, peak: float) -> Real:
     """
-    Frequencies [rad/s] held at a millionth of the peak from below and far beyond any wave: no law
-    has a use for 0 or inf.
+    Return frequencies [rad/s] of at least a millionth of the peak and at most 1e50: no formula is
+    made for 0 or inf.
     """
     return np.clip(np.asarray(omega, dtype=np.float64), 1e-6 * peak, 1e50)
 
 
 def relative(omega: RealLike, peak: float) -> Real:
-    """omega/omega_p, so held."""
+    """Return omega/omega_p of frequencies limited by `held`."""
     return held(omega, peak) / peak

@@ -41,7 +41,7 @@ class Blend:
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         return (1.0 - self.weight) * self.first(omega, theta, peak) + self.weight * self.second(
             omega, theta, peak
         )

@@ -30,7 +30,7 @@ class CosineN:
         keep_checked(self, n=SPREADING_EXPONENT)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
-        """D at `theta`, [1/rad]."""
+        """Return D at `theta`, [1/rad]."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         front = np.abs(theta) < 0.5 * np.pi
         # cos^n(theta) is cos^2s(phi/2) with s = n/2 and phi = 2 theta, and d phi = 2 d theta.

@@ -19,7 +19,7 @@ class CosinePowerLaw(Protocol):
     """A spreading that is cos^2s(theta/2) at every frequency."""
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """The exponent s [-] at `omega`."""
+        """Return the exponent s [-] at `omega`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,14 +35,14 @@ class CosinePower:
         keep_checked(self, s=SPREADING_EXPONENT)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
-        """D at `theta`, [1/rad]."""
+        """Return D at `theta`, [1/rad]."""
         omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         return cosine_2s(np.float64(self.s), theta)
 
 
 def cosine_2s(s: RealLike, theta: RealLike) -> Real:
     """
-    Normalised cos^2s(theta/2) for exponents `s` [-] that may vary from point to point.
+    Return the normalised cos^2s(theta/2) for exponents `s` [-] that may vary from point to point.
 
     The ratio of Gamma functions is Pochhammer's symbol (s + 1/2)_(1/2): the difference of two
     log-gammas, each of size s ln s, would lose as many digits (nine at s = 1e6). The power is taken

@@ -17,7 +17,7 @@ class CosineSquared:
     """
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
-        """D at `theta`, [1/rad]."""
+        """Return D at `theta`, [1/rad]."""
         omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.square(np.cos(theta)), 0.0)
 

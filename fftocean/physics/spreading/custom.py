@@ -34,7 +34,8 @@ class CustomSpreading:
     def __post_init__(self) -> None:
         if not callable(self.function) or isinstance(self.function, type):
             raise ParameterError(
-                f"function must be callable as function(omega, theta, peak), got {self.function!r:.60}"
+                "function must be callable as function(omega, theta, peak), "
+                f"got {self.function!r:.60}"
             )
         if isinstance(self.breaks, str) or not isinstance(self.breaks, Sequence):
             raise ParameterError(f"breaks must be a list of angles [rad], got {self.breaks!r:.60}")
@@ -43,7 +44,7 @@ class CustomSpreading:
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         omega = held(omega, peak)
         frequency, angle = (
             np.array(a, order="C") for a in np.broadcast_arrays(omega, wrapped(theta))
@@ -54,7 +55,7 @@ class CustomSpreading:
         return density
 
     def _checked(self, omega: Real, theta: Real, peak: float) -> Real:
-        """The function, or the reason why it will not do."""
+        """Return the values of the function, or raise if they cannot be a spreading."""
         values = np.asarray(self.function(omega, theta, peak))
         if values.dtype.kind not in "iuf":
             raise ParameterError(
@@ -62,7 +63,8 @@ class CustomSpreading:
             )
         if values.shape not in (omega.shape, ()):
             raise ParameterError(
-                f"the custom spreading must return the shape it is given, {omega.shape}, got {values.shape}"
+                f"the custom spreading must return the shape it is given, {omega.shape}, "
+                f"got {values.shape}"
             )
         bad = ~((values >= 0.0) & (values < np.inf))
         if np.any(bad):

@@ -22,7 +22,7 @@ class DonelanBanner:
     """
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         beta = donelan_banner_beta(np.asarray(omega, dtype=np.float64) / peak)
         # sech^2(y) = 4 e^{-2|y|} / (1 + e^{-2|y|})^2, which cannot overflow
         decay = np.exp(-2.0 * np.abs(beta * wrapped(theta)))
@@ -31,7 +31,7 @@ class DonelanBanner:
 
 
 def donelan_banner_beta(x: Real) -> Real:
-    """beta(omega/omega_p) [-] of `DonelanBanner`."""
+    """Return beta(omega/omega_p) [-] of `DonelanBanner`."""
     below = 2.61 * np.power(np.clip(x, 0.56, 0.95), 1.3)
     near = 2.28 * np.power(np.clip(x, 0.95, 1.6), -1.3)
     above = np.power(10.0, -0.4 + 0.8393 * np.exp(-0.567 * np.log(np.square(np.maximum(x, 1.6)))))

@@ -40,7 +40,7 @@ def friction_velocity(speed: float) -> float:
 
 
 def phase_speed(k: Real) -> Real:
-    """c of deep water as the unified spectrum takes it [m/s]: slowest at k_m."""
+    """Return the phase speed c of deep water in the unified spectrum [m/s]: slowest at k_m."""
     c: Real = np.sqrt(GRAVITY / k * (1.0 + (k / SHORT_PEAK) ** 2))
     return c
 
@@ -76,7 +76,7 @@ class ElfouhailySpreading:
         check_bool("both_ways", self.both_ways)
 
     def delta(self, omega: RealLike, peak: float) -> Real:
-        """Delta [-] at `omega` [rad/s]: (D(0) - D(90 degrees)) / (D(0) + D(90 degrees))."""
+        """Return Delta [-] at `omega` [rad/s]: (D(0) - D(90 degrees)) / (D(0) + D(90 degrees))."""
         omega = np.clip(np.asarray(omega, dtype=np.float64), 1e-4 * peak, 1e20)
         c = phase_speed(wavenumber(omega, self.depth, self.surface_tension))
         c_p = phase_speed(wavenumber(peak, self.depth, self.surface_tension))
@@ -87,7 +87,7 @@ class ElfouhailySpreading:
         return delta
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         theta = wrapped(theta)
         d = (1.0 + self.delta(omega, peak) * np.cos(2.0 * theta)) / np.pi
         return 0.5 * d if self.both_ways else np.where(np.abs(theta) < 0.5 * np.pi, d, 0.0)

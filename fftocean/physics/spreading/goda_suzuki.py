@@ -16,8 +16,8 @@ from fftocean.physics.spreading.mitsuyasu import peaked_exponent
 @dataclass(frozen=True, slots=True)
 class GodaSuzuki:
     """
-    Mitsuyasu's law with its s at the peak named outright: 10 for wind waves, 25 for young swell, 75
-    for swell from far away.
+    Mitsuyasu's law with a given s at the peak: 10 for wind waves, 25 for young swell, 75 for swell
+    from far away.
 
     Source: Goda & Suzuki 1975; Goda, Random Seas and Design of Maritime Structures.
     """
@@ -28,11 +28,11 @@ class GodaSuzuki:
         keep_checked(self, s_max=SPREADING_EXPONENT)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """The exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
+        """Return the exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
         return peaked_exponent(relative(omega, peak), self.s_max)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         return cosine_2s(self.exponent(omega, peak), wrapped(theta))
 
 

@@ -35,7 +35,7 @@ class Hasselmann:
         keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """The exponent s [-] at `omega` [rad/s]."""
+        """Return the exponent s [-] at `omega` [rad/s]."""
         x = relative(omega, peak)
         mu = -2.33 - 1.45 * (self.speed * peak / GRAVITY - 1.17)
         return np.where(
@@ -45,7 +45,7 @@ class Hasselmann:
         )
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         return cosine_2s(self.exponent(omega, peak), wrapped(theta))
 
 

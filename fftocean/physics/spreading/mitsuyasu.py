@@ -39,19 +39,19 @@ class Mitsuyasu:
         keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """The exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
+        """Return the exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
         inverse_age = max(
             self.speed * peak / GRAVITY, 1e-2
         )  # a hundredth makes s_p a million already
         return peaked_exponent(relative(omega, peak), 11.5 * inverse_age**-2.5)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         return cosine_2s(self.exponent(omega, peak), wrapped(theta))
 
 
 def peaked_exponent(x: Real, s_peak: float) -> Real:
-    """s_p x^5 below the peak, s_p x^-2.5 above."""
+    """Return s_p x^5 below the peak, s_p x^-2.5 above."""
     # np.power, not **, which rounds a lone number otherwise than one in an array
     return np.minimum(
         s_peak

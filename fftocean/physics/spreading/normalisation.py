@@ -1,4 +1,4 @@
-"""Integral of a spreading function over the circle, by quadrature and by interpolation between frequencies."""
+"""Integral of a spreading function over the circle, by Gauss quadrature at each frequency."""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -85,8 +85,9 @@ def circle_integral(
     if np.any(wrong):
         i = int(np.argmax(wrong))
         raise ParameterError(
-            "the spreading must have an integral over theta that quadrature can find: more than 0, and with every kink named in "
-            f"breaks; got {coarse[i]:.12g} and {fine[i]:.12g} at omega = {probes[i]:g} rad/s"
+            "the spreading must have an integral over theta that quadrature can find: more than 0, "
+            f"and with every kink named in breaks; "
+            f"got {coarse[i]:.12g} and {fine[i]:.12g} at omega = {probes[i]:g} rad/s"
         )
     values = interpolated_integrals(function, unique, peak, breaks)
     if not np.all(values > 0.0):

@@ -26,7 +26,7 @@ from fftocean.physics.spreading.normalisation import circle_integral
 @dataclass(frozen=True, slots=True)
 class SwellElongation:
     """
-    Another spreading drawn out along the swell: D cos^2s(theta/2) with s = 16 tanh(omega_p/omega)
+    Another spreading, elongated along the swell: D cos^2s(theta/2) with s = 16 tanh(omega_p/omega)
     xi^2, brought back to integral 1.
 
     xi = 0 leaves it as it is, xi = 1 makes long parallel swells of the low frequencies. Where the
@@ -55,12 +55,12 @@ class SwellElongation:
         return tuple(getattr(self.base, "frequency_breaks", ()))
 
     def exponent_added(self, omega: RealLike, peak: float) -> Real:
-        """16 tanh(omega_p/omega) xi^2 [-] at `omega`."""
+        """Return 16 tanh(omega_p/omega) xi^2 [-] at `omega`."""
         s: Real = 16.0 * np.tanh(1.0 / relative(omega, peak)) * self.xi**2
         return s
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:
-        """D at `omega` and `theta`, [1/rad]."""
+        """Return D at `omega` and `theta`, [1/rad]."""
         if self.xi == 0.0:
             return self.base(omega, theta, peak)
         own = self._own_exponent(omega, peak)
@@ -73,18 +73,18 @@ class SwellElongation:
         return density
 
     def _own_exponent(self, omega: RealLike, peak: float) -> Real | None:
-        """The base's s where it is a power of cos(theta/2)."""
+        """Return the exponent s of the base where it is a power of cos(theta/2)."""
         if isinstance(self.base, CosinePower):
             return np.full_like(np.asarray(omega, dtype=np.float64), self.base.s)
         return self.base.exponent(omega, peak) if isinstance(self.base, CosinePowerLaw) else None
 
     def _product(self, omega: RealLike, theta: RealLike, peak: float) -> Real:
-        """D cos^2s(theta/2), not yet normed."""
+        """Return D cos^2s(theta/2), not normalised."""
         cosine = np.maximum(np.abs(np.cos(0.5 * np.asarray(theta, dtype=np.float64))), 1e-300)
-        drawn: Real = self.base(omega, theta, peak) * np.exp(
+        product: Real = self.base(omega, theta, peak) * np.exp(
             2.0 * self.exponent_added(omega, peak) * np.log(cosine)
         )
-        return drawn
+        return product
 
 
 SPREADINGS.add("swell", SwellElongation, Way(SwellElongation, base=Part("spreading"), xi=FRACTION))

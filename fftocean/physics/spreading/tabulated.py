@@ -26,8 +26,7 @@ _DENSITY = Quantity("", 0.0, LARGEST_FINITE)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TabulatedSpreading:
     """
-    Measured spreading: straight lines between the points of a table, in frequency and round the
-    circle.
+    Measured spreading: linear between the points of a table, in frequency and round the circle.
 
     Each row is normalised to integrate to 1 along its straight lines; then so does every frequency
     between two rows. A row without any energy says nothing about directions and takes the nearest
@@ -51,13 +50,15 @@ class TabulatedSpreading:
         table = _DENSITY.check_array("density", self.density, ndim=2)
         if table.shape != (f.size, angle.size):
             raise ParameterError(
-                f"density must be a table of {f.size} frequencies by {angle.size} directions, got shape {table.shape}"
+                f"density must be a table of {f.size} frequencies by {angle.size} directions, "
+                f"got shape {table.shape}"
             )
         order = np.argsort(np.mod(angle, 360.0))
         turned = np.mod(angle, 360.0)[order]
         if np.any(np.diff(turned, append=turned[0] + 360.0) <= 0.0):
             raise ParameterError(
-                f"direction must hold each angle once (0 and 360 degrees are one), got {self.direction!r:.60}"
+                "direction must hold each angle once (0 and 360 degrees are one), "
+                f"got {self.direction!r:.60}"
             )
         filled = np.flatnonzero(np.any(table > 0.0, axis=1))
         if not filled.size:
@@ -85,10 +86,13 @@ class TabulatedSpreading:
 
     def __repr__(self) -> str:
         f = self.frequency
-        return f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, {len(self.direction)} directions)"
+        return (
+            f"TabulatedSpreading({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, "
+            f"{len(self.direction)} directions)"
+        )
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
-        """D at `omega` and `theta`, which broadcast, [1/rad]."""
+        """Return D at `omega` and `theta`, which broadcast, [1/rad]."""
         f, angle = np.broadcast_arrays(
             np.asarray(omega, dtype=np.float64) / (2.0 * np.pi), np.asarray(theta, dtype=np.float64)
         )
@@ -101,7 +105,7 @@ class TabulatedSpreading:
 
 def bin_widths(directions: Real) -> Real:
     """
-    Width of each direction's bin [degrees], half way to its neighbours round the circle;
+    Return the width of each direction's bin [degrees], half way to its neighbours round the circle;
     `directions` ascend in [0, 360).
     """
     gaps = np.diff(directions, append=directions[0] + 360.0)
@@ -110,8 +114,8 @@ def bin_widths(directions: Real) -> Real:
 
 def _between(nodes: Real, x: Real) -> tuple[np.typing.NDArray[np.intp], Real]:
     """
-    The interval of `nodes` that holds x, and how far into it, from 0 to 1; the first and last hold
-    what is outside.
+    Return the interval of `nodes` that holds x, and the position within it, from 0 to 1; the first
+    and the last hold values outside.
     """
     i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
     return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)

@@ -33,7 +33,7 @@ class WrappedNormal:
         keep_checked(self, spread=SPREAD)
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
-        """D at `theta`, [1/rad]."""
+        """Return D at `theta`, [1/rad]."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         sigma = math.radians(self.spread)
         turns = math.ceil(
