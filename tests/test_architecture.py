@@ -54,7 +54,7 @@ STAIRS = [
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
-    [["plots.theme"], ["plots"], ["bench.pictures"]],
+    [["plots.theme"], ["plots"], ["bench.charts"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {

@@ -95,7 +95,7 @@ def _split(data: bytes | memoryview, layout: Layout) -> list[bytes]:
         cell = cells[i // across, :, i % across]
         frame = cell[g : g + rows, g : g + columns]
         if not np.array_equal(np.pad(frame, ((g, g), (g, g), (0, 0)), mode="wrap"), cell):
-            raise IntegrityError(f"frame {i} of an atlas must repeat itself around its edges")
+            raise IntegrityError(f"frame {i} of an atlas must be repeated around its edges")
         parts.append(frame.astype("<f2").tobytes())
     return parts
 

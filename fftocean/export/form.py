@@ -146,7 +146,9 @@ def require_shape(shape: tuple[int, int, int] | None, name: str) -> tuple[int, i
         ParameterError: it is None.
     """
     if shape is None:
-        raise ParameterError(f"format {name} does not say what shape its frames have: give it")
+        raise ParameterError(
+            f"format {name} does not store the shape of its frames: shape is required"
+        )
     return shape
 
 

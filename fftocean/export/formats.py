@@ -282,7 +282,7 @@ def payloads(
     require(name, shape, levels, gutter=gutter)
     container = FORMATS[name].container
     if container is None:
-        raise ParameterError(f"format {name} has a file a frame, and no container")
+        raise ParameterError(f"format {name} has one file a frame and no container")
     if data is None:
         raise IntegrityError("the file of all frames is missing")
     return container.split(data, Layout(*shape, levels, gutter))

@@ -118,7 +118,9 @@ def unpack(
                 f"got {len(data)} bytes"
             )
         if bytes(data[found[9] : found[9] + found[10]]) != _descriptor():
-            raise IntegrityError("a KTX2 file of ours must describe its texels as four half floats")
+            raise IntegrityError(
+                "a KTX2 file of a bake must describe its texels as four half floats"
+            )
     except struct.error as error:
         raise IntegrityError(f"a KTX2 file is cut: {error}") from None
     return [

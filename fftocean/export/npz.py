@@ -45,7 +45,7 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
             (member,) = file.infolist()
             if member.filename != MEMBER or member.compress_type != zipfile.ZIP_STORED:
                 raise IntegrityError(
-                    f"an NPZ file of ours must hold {MEMBER}, stored, got {member.filename:.60}"
+                    f"an NPZ file of a bake must hold {MEMBER}, stored, got {member.filename:.60}"
                 )
             content = file.read(member)  # verifies its checksum
         pixels = np.lib.format.read_array(io.BytesIO(content), allow_pickle=False)

@@ -59,18 +59,18 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
         chunks = _chunks(data)
         if [name for name, _ in chunks] != [b"IHDR", b"IDAT", b"IEND"]:
             raise IntegrityError(
-                "a PNG of ours must have chunks IHDR, IDAT, IEND, "
+                "a PNG file of a bake must have chunks IHDR, IDAT, IEND, "
                 f"got {b', '.join(n for n, _ in chunks)!r:.100}"
             )
         columns, rows, depth, colour, *rest = struct.unpack(">IIBBBBB", chunks[0][1])
         found = (rows, columns, {kind: count for count, kind in COLOUR.items()}.get(colour, 0))
         if depth != 16 or any(rest) or not found[2]:
             raise IntegrityError(
-                f"a PNG of ours must be 16 bit gray or RGB, not interlaced, got {depth} bit, "
-                f"colour type {colour}"
+                "a PNG file of a bake must be 16 bit gray or RGB, not interlaced, "
+                f"got {depth} bit, colour type {colour}"
             )
         if shape is not None and found != tuple(shape):
-            raise IntegrityError(f"a PNG picture must have shape {tuple(shape)}, got {found}")
+            raise IntegrityError(f"a PNG image must have shape {tuple(shape)}, got {found}")
         width = 2 * columns * found[2]
         unpacker = zlib.decompressobj()
         filtered = np.frombuffer(
@@ -78,12 +78,13 @@ def read(data: bytes, shape: tuple[int, int, int] | None = None) -> npt.NDArray[
         ).reshape(rows, 1 + width)
         if not unpacker.eof or np.any(filtered[:, 0] != UP):
             raise IntegrityError(
-                "a PNG of ours must hold differences from the row above, and end where they end"
+                "a PNG file of a bake must hold differences from the row above "
+                "and nothing after them"
             )
         lines: npt.NDArray[Any] = np.add.accumulate(filtered[:, 1:], axis=0, dtype=np.uint8)
         return np.ascontiguousarray(lines).view(">u2").reshape(found).astype(np.uint16)
     except (struct.error, zlib.error, ValueError) as error:
-        raise IntegrityError(f"a PNG picture cannot be read: {error}") from None
+        raise IntegrityError(f"a PNG image cannot be read: {error}") from None
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
@@ -105,7 +106,7 @@ def _chunks(data: bytes) -> list[tuple[bytes, bytes]]:
         size, name = struct.unpack_from(">I4s", data, at)
         content = data[at + 8 : at + 8 + size]
         if _chunk(name, content) != data[at : at + 12 + size]:
-            raise IntegrityError(f"chunk {name!r} of a PNG file is cut or bent")
+            raise IntegrityError(f"chunk {name!r} of a PNG file is cut or damaged")
         found.append((name, content))
         at += 12 + size
     return found

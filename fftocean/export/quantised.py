@@ -29,7 +29,7 @@ def limits(
     """
     if lo is None or hi is None:
         raise ParameterError(
-            "a scaled format needs the range of the whole sequence: give lo and hi"
+            "a scaled format needs the range of the whole sequence: lo and hi are required"
         )
     low, high = (
         np.broadcast_to(np.asarray(lo, float), channels),

@@ -168,7 +168,9 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     if np.any(bad):
         raise ReaderError(f"{where} must be between -360 and 720 degrees, got {d[bad][0]}")
     if np.ptp(d) > 360.0:
-        raise ReaderError(f"{where} must span at most one turn, got {d.min()} to {d.max()} degrees")
+        raise ReaderError(
+            f"{where} must span at most 360 degrees, got {d.min()} to {d.max()} degrees"
+        )
     turned = np.mod(np.round(d, 6), 360.0)  # a float32 axis of 0.1 degree steps is good to 3e-5
     order = np.argsort(turned, kind="stable")
     same = np.diff(turned[order]) <= 1e-4
@@ -180,8 +182,8 @@ def directions(where: str, values: RealLike) -> tuple[Real, Integer]:
     span = 360.0 - float(np.max(np.diff(turned[order], append=turned[order][0] + 360.0)))
     if span <= 2.0 * np.pi + 1e-3:
         raise ReaderError(
-            f"{where} must be in degrees, as it says, but spans {span:.4g} in {d.size} steps: "
-            "is it in radians?"
+            f"{where} must be in degrees, as its unit says, but spans {span:.4g} in {d.size} "
+            "steps: is it in radians?"
         )
     return turned[order], order
 

@@ -73,7 +73,9 @@ def read(path: Path, *, bins: int) -> "Dataset":
             )
         table.append(numbers)
         if len(table) > dataset_layout.MAX_VALUES // bins:
-            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
+            raise ReaderError(
+                f"{where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+            )
     if len(table) < 2:
         raise ReaderError(f"{path.name} must hold at least 2 frequencies, got {len(table)}")
     hs, largest = header[1] / 100.0, header[3]

@@ -64,7 +64,7 @@ def require_sound(name: str, stream: IO[bytes]) -> list[str]:
         The names of variables of the root group that are not numbers, which need not be read.
 
     Raises:
-        ReaderError: data, links or filters that lie outside the file; a heap that does not add up;
+        ReaderError: data, links or filters that lie outside the file; a heap with wrong sizes;
             too many objects; or a variable, a chunk or an attribute of absurd size.
     """
     size = stream.seek(0, io.SEEK_END)
@@ -119,7 +119,7 @@ def require_sound_heaps(name: str, data: bytes | mmap.mmap) -> int:
             here += step
         if not sound:
             raise ReaderError(
-                f"{name} must be sound HDF5, but its heap at byte {at} does not add up"
+                f"{name} must be intact HDF5, but its heap at byte {at} has wrong sizes"
             )
         at = data.find(_HEAP, at + 16)
     return longest

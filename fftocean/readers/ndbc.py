@@ -239,7 +239,7 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
     realtime = any(c.word in match[3] for c in _KINDS.values())
     if realtime and column.word not in match[3]:
         held = next(c.word for c in _KINDS.values() if c.word in match[3])
-        raise ReaderError(f"{where} must announce {column.word}, got {held}{hint}")
+        raise ReaderError(f"{where} must name {column.word}, got {held}{hint}")
     skip = date_fields + ("Sep_Freq" in match[3])
     head = None if realtime else [bounded_reads.number(where, token) for token in match[3].split()]
     records: dict[int, Real] = {}
@@ -262,7 +262,9 @@ def _table(path: Path, column: _Column, hint: str = "") -> _Table:
         repeated += seconds in records
         records.setdefault(seconds, numbers)
         if len(records) * len(f) > dataset_layout.MAX_VALUES:
-            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
+            raise ReaderError(
+                f"{where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+            )
     if not records:
         raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
     times = sorted(records)

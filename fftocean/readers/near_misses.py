@@ -51,7 +51,7 @@ _KNOWN: Final[tuple[tuple[Callable[[Head], bool], str], ...]] = (
     (_begins(b"MATLAB 5.0"), "is a MATLAB file; save the spectra as netCDF and open that"),
     (
         _begins(b"%PDF", b"\x89PNG", b"\xff\xd8\xff"),
-        "is a document or a picture; the numbers are needed",
+        "is a document or an image; the numbers are needed",
     ),
     (
         _within(r"(?i)^\s*<(!doctype html|html|\?xml)"),

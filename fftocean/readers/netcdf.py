@@ -146,7 +146,8 @@ def _broken(name: str) -> Iterator[None]:
         if any(word in str(error) for word in ("xarray", "h5netcdf", "h5py")):
             raise dataset_layout.not_installed(error) from error
         raise ReaderError(
-            f"{name} cannot be read as netCDF without a package that is not here: {error!s:.200}"
+            f"{name} cannot be read as netCDF without a package that is not installed: "
+            f"{error!s:.200}"
         ) from error
     except Exception as error:
         raise ReaderError(
@@ -487,8 +488,8 @@ def _direction(
         if unit is not None and unit.is_(rad=1) and unit.scale == 1.0:
             if turn > 4.0 * np.pi + 1e-3:
                 raise ReaderError(
-                    f"{where} must be in radians, as it says, but reaches {turn:.4g}: is it in "
-                    "degrees?"
+                    f"{where} must be in radians, as its unit says, but reaches {turn:.4g}: "
+                    "is it in degrees?"
                 )
             values = np.degrees(values)
         elif unit is None or not unit.is_(rad=1):
@@ -531,14 +532,14 @@ def _goes_to(where: str, attrs: Mapping[str, Any], family: _Family) -> bool:
             said[False] = f"{key} {text!r:.60}"
     if len(said) == 2:
         raise ReaderError(
-            f"{where} must say one way, where waves come from or where they go to, "
+            f"{where} must state one sense, where waves come from or where they go to, "
             f"got {said[False]} and {said[True]}"
         )
     if said:
         return next(iter(said))
     if family.goes_to is None:
         raise ReaderError(
-            f"{where} must say whether waves come from there or go there (standard_name "
+            f"{where} must state whether waves come from there or go there (standard_name "
             "sea_surface_wave_from_direction or _to_direction)"
         )
     return family.goes_to
@@ -659,7 +660,7 @@ def _logarithm(where: str, attrs: Mapping[str, Any]) -> units.Unit | None:
     if words & {"ten", "10", "log10", "lg", "decadic", "common"}:
         return units.Unit(base=10.0)
     raise ReaderError(
-        f"{where} must say the base of its logarithm (in units: 'log10(m2 s rad-1)'), "
+        f"{where} must state the base of its logarithm (in units: 'log10(m2 s rad-1)'), "
         f"got {said!r:.80}"
     )
 
@@ -701,7 +702,7 @@ def _times(
             f"'days since 1990-01-01', got {times.dtype}"
         )
     if np.any(np.isnat(times)):
-        raise ReaderError(f"{source}: variable {name} must be a time everywhere, got a missing one")
+        raise ReaderError(f"{source}: variable {name} must have no missing times")
     return np.atleast_1d(times)
 
 

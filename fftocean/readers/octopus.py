@@ -93,7 +93,9 @@ def read(path: Path) -> "Dataset":
     nf, nd, times = rows.count("nfreqs"), rows.count("ndir"), rows.count("nrecs")
     lat, lon, depth = (rows.number(key) for key in ("Latitude", "Longitude", "Depth"))
     if nf * nd * times > dataset_layout.MAX_VALUES:
-        raise ReaderError(f"{path.name}: more values than fit ({dataset_layout.MAX_VALUES})")
+        raise ReaderError(
+            f"{path.name} must have at most {dataset_layout.MAX_VALUES} values, got more"
+        )
     seconds: list[np.datetime64] = []
     tables: list[Real] = []
     heights: list[float] = []

@@ -90,8 +90,8 @@ class Realised:
         if "efth" in spectrum:
             if direction is not None or spreading is not None:
                 raise ParameterError(
-                    f"a spectrum with directions takes no others, got direction={direction!r}, "
-                    f"spreading={spreading!r}"
+                    "a spectrum with directions must be given without others, "
+                    f"got direction={direction!r}, spreading={spreading!r}"
                 )
             compass, density = _whole_circle(
                 np.asarray(spectrum["dir"].values), np.asarray(spectrum["efth"].values[0]), notes

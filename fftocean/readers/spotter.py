@@ -177,7 +177,9 @@ def _records(path: Path, bins: int) -> tuple[dict[str, list[int]], dict[str, Rea
             ]
         )
         if len(records) * count * bins > dataset_layout.MAX_VALUES:
-            raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
+            raise ReaderError(
+                f"{where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+            )
     if not records:
         raise ReaderError(f"{path.name} must hold at least one record after its header, got none")
     table, made, at = np.array(records), {}, 0

@@ -147,7 +147,9 @@ def read(path: Path, *, site: int) -> "Dataset":
             if place == site:
                 blocks.append(block)
         if len(blocks) * shape[0] * shape[1] > dataset_layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
+            raise ReaderError(
+                f"{lines.where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+            )
     if not blocks:
         raise ReaderError(
             f"{lines.name} must hold at least one spectrum after its header, got none"

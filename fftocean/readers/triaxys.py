@@ -59,7 +59,9 @@ def read(path: Path) -> "Dataset":
             if len(table) > nf:
                 raise ReaderError(f"{where} must be the end, after {nf} rows, got more")
             if len(table) * len(table[0]) > dataset_layout.MAX_VALUES:
-                raise ReaderError(f"{where}: more values than fit ({dataset_layout.MAX_VALUES})")
+                raise ReaderError(
+                    f"{where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+                )
             if len(table[-1]) != len(table[0]):
                 raise ReaderError(
                     f"{where} must hold {len(table[0])} numbers, got {len(table[-1])}"

@@ -193,5 +193,5 @@ def _factor(tokens: list[tuple[str, str]], at: int) -> tuple[Unit, int]:
         power *= int(tokens[at][1])
         at += 1
     if abs(power) > LARGEST_POWER:
-        raise ValueError("a power that no unit has")
+        raise ValueError("a power out of range")
     return Unit(unit.scale**power, {n: p * power for n, p in unit.powers.items() if power}), at

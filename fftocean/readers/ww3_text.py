@@ -149,7 +149,9 @@ def read(path: Path, *, site: int) -> "Dataset":
             depths.append(numbers[2])
             tables.append(block.reshape(nd, nf).T)
         if len(tables) * nf * nd > dataset_layout.MAX_VALUES:
-            raise ReaderError(f"{lines.where}: more values than fit ({dataset_layout.MAX_VALUES})")
+            raise ReaderError(
+                f"{lines.where} must have at most {dataset_layout.MAX_VALUES} values, got more"
+            )
         line = lines.maybe()
     if place is None:
         raise ReaderError(f"{path.name} must hold at least one time after its header, got none")

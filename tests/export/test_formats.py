@@ -450,9 +450,9 @@ def test_names_and_shapes_that_no_format_has():
         ParameterError, match="format exr holds 1 to 1 mip levels of 2 rows of 2, got 2"
     ):
         encode("exr", np.zeros((2, 2, 1)), levels=[np.zeros((1, 1, 1))])
-    with pytest.raises(ParameterError, match="format bin does not say what shape"):
+    with pytest.raises(ParameterError, match="format bin does not store the shape"):
         decode("bin", encode("bin", np.zeros((2, 2, 1))))
-    with pytest.raises(ParameterError, match="a file a frame, and no container"):
+    with pytest.raises(ParameterError, match="one file a frame and no container"):
         payloads("exr", b"", shape=(1, 2, 2, 1))
 
 

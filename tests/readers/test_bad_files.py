@@ -166,7 +166,7 @@ def test_a_heap_on_which_the_hdf5_library_would_walk_for_ever(tmp_path):
         wrong = bytearray(data)
         wrong[at] ^= 0x81
         (tmp_path / "bent.nc").write_bytes(wrong)
-        with pytest.raises(ReaderError, match=f"heap at byte {heap} does not add up"):
+        with pytest.raises(ReaderError, match=f"heap at byte {heap} has wrong sizes"):
             readers.open(tmp_path / "bent.nc")
 
 
@@ -350,7 +350,7 @@ def test_historical_directions_are_not_taken_for_densities(kind, tmp_path):
         ("swdir", "270.0 (0.0", "370.0 (0.0",
          "12345.swdir: line 2: alpha1 must be between 0 and 360 degrees, got 370.0"),
         ("swdir2", "(0.035", "(0.036", "12345.swdir2 must have the frequencies of 12345.data_spec"),
-        ("swr1", "r1_1", "alpha1_1", "12345.swr1: line 1 must announce r1_1, got alpha1_1"),
+        ("swr1", "r1_1", "alpha1_1", "12345.swr1: line 1 must name r1_1, got alpha1_1"),
         ("swr1", "2020 01 01 00 40", "2020 01 01 01 40", "records of the same times, got none"),
         ("data_spec", "(0.035)", "(0.035", "line 2 must hold pairs like"),
         ("data_spec", "(0.035)", "", "line 2 must hold pairs like"),
@@ -575,11 +575,11 @@ def put(value, *index):
         (lambda d: with_attrs(d, "direction", units=None), "variable direction must have units"),
         (lambda d: with_values(d, "direction", np.radians), "is it in radians"),
         (lambda d: with_attrs(d, "direction", standard_name=None, long_name=None),
-         "must say whether waves come from there or go there"),
+         "must state whether waves come from there or go there"),
         (lambda d: with_attrs(d, "direction", standard_name="sea_surface_wave_from_direction"),
-         "must say one way"),
+         "must state one sense"),
         (lambda d: with_attrs(d, "direction", long_name="direction the waves come from"),
-         "must say one way"),
+         "must state one sense"),
         (lambda d: with_attrs(d, "direction", standard_name="wind_to_direction"),
          "must be a wave direction, got standard_name 'wind_to"),
         (lambda d: with_values(d, "direction", put(97.5, 1)),
@@ -748,7 +748,7 @@ def test_radians_under_swans_degrees(keyword, count, tmp_path):
         if refused:
             with pytest.raises(
                 ReaderError,
-                match=rf"a\.spec: {keyword} must be in degrees, as it says, but spans .* "
+                match=rf"a\.spec: {keyword} must be in degrees, as its unit says, but spans .* "
                 r"is it in radians\?",
             ):
                 readers.open(tmp_path / "a.spec")
@@ -760,12 +760,14 @@ def test_radians_under_swans_degrees(keyword, count, tmp_path):
 def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
     data = ww3(sea()).isel(direction=slice(0, 24, 24 // count))
     with pytest.raises(
-        ReaderError, match=r"variable direction must be in degrees, as it says, .* is it in radians"
+        ReaderError,
+        match=r"variable direction must be in degrees, as its unit says, .* is it in radians",
     ):
         readers.netcdf.to_layout(with_values(data, "direction", np.radians))
     with pytest.raises(
         ReaderError,
-        match=r"variable direction must be in radians, as it says, but reaches .* is it in degrees",
+        match=r"variable direction must be in radians, as its unit says, but reaches .* "
+        r"is it in degrees",
     ):
         readers.netcdf.to_layout(with_attrs(data, "direction", units="radian"))
 

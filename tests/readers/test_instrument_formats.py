@@ -299,7 +299,7 @@ def test_wavewatch_netcdf_of_logarithms(unit, base, offset, name, tmp_path):
 def test_a_logarithm_must_say_its_base():
     raw = ww3(SPECIFIED)
     raw.efth.attrs["long_name"] = "logarithm of the density"
-    with pytest.raises(ReaderError, match="must say the base of its logarithm"):
+    with pytest.raises(ReaderError, match="must state the base of its logarithm"):
         readers.netcdf.to_layout(raw)
 
 

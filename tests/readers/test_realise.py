@@ -148,7 +148,7 @@ def test_a_spectrum_without_directions_asks_for_them():
     assert made.systems[0].direction == 30.0
     assert made.systems[0].spreading == CosinePower(s=8.0)
     with pytest.raises(
-        ParameterError, match=r"takes no others, got direction=30\.0, spreading=None"
+        ParameterError, match=r"must be given without others, got direction=30\.0, spreading=None"
     ):
         sea_from_spectrum(by_hand(sea().density[0]), direction=30.0)
 
