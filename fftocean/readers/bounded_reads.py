@@ -107,7 +107,7 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
 
 
 def _after_mark(stream: IO[bytes]) -> IO[bytes]:
-    """Return a stream at its first byte, or behind the byte-order mark that some editors put there."""
+    """Return a stream at its first byte, or after a byte-order mark, which some editors add."""
     if stream.read(len(codecs.BOM_UTF8)) != codecs.BOM_UTF8:
         stream.seek(0)
     return stream
