@@ -28,7 +28,7 @@ import script
 
 import fftocean as fo
 from fftocean import host, kernels
-from fftocean.bench.pictures import bars, sheet
+from fftocean.bench.charts import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
 from fftocean.plots.theme import BLUE

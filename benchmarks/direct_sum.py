@@ -20,9 +20,9 @@ from pathlib import Path
 import numpy as np
 import script
 
+from fftocean.bench.charts import COLOURS, Line, curves, plain, sheet
 from fftocean.bench.contenders import DirectSum, Fast, require_same_water
 from fftocean.bench.fits import PowerLaw, cost, crossover, n_log_n, power_law, square
-from fftocean.bench.pictures import COLOURS, Line, curves, plain, sheet
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Entry, Pair, Reading, Result, race
 from fftocean.fields import EIGHT

@@ -25,8 +25,8 @@ import script
 
 from fftocean import host
 from fftocean.bench import machine
+from fftocean.bench.charts import COLOURS, Line, bars, curves, duration, plain, sheet
 from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
-from fftocean.bench.pictures import COLOURS, Line, bars, curves, duration, plain, sheet
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
 from fftocean.errors import ParameterError

@@ -17,8 +17,8 @@ from pathlib import Path
 import fresh
 import script
 
+from fftocean.bench.charts import bars, plain, sheet
 from fftocean.bench.contenders import FULL
-from fftocean.bench.pictures import bars, plain, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
 from fftocean.errors import ParameterError

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from fftocean.bench.pictures import plain
+from fftocean.bench.charts import plain
 from fftocean.bench.results import Condition, Reading, Result, read
 
 HERE = Path(__file__).resolve().parent

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import script
 
+from fftocean.bench.charts import Line, curves, sheet
 from fftocean.bench.contenders import Fast
 from fftocean.bench.fits import power_law
-from fftocean.bench.pictures import Line, curves, sheet
 from fftocean.bench.quick import ocean
 from fftocean.bench.results import Entry, Reading, Result, race
 from fftocean.plots.theme import BLUE, VERMILION

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from fftocean.bench import machine
-from fftocean.bench.pictures import plain
+from fftocean.bench.charts import plain
 from fftocean.bench.results import Reading, Result, answer
 from fftocean.errors import FFTOceanError
 

@@ -19,8 +19,8 @@ import fresh
 import numpy as np
 import script
 
+from fftocean.bench.charts import bars, duration, sheet
 from fftocean.bench.contenders import FULL
-from fftocean.bench.pictures import bars, duration, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
 from fftocean.plots.theme import BLUE

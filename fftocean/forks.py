@@ -13,7 +13,7 @@ import contextlib
 import os
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Protocol
 
 PATIENCE = 30.0
@@ -43,11 +43,17 @@ class _Gate:
 _gate = _Gate()
 _guarded: list[Lock] = []
 _taken: list[Lock] = []
+_renewals: list[Callable[[], None]] = []
 
 
 def guard(lock: Lock) -> None:
     """Make each fork take a lock of a library, so that it is free in the child."""
     _guarded.append(lock)
+
+
+def in_child(renew: Callable[[], None]) -> None:
+    """Call a function in each forked child, to replace locks whose threads do not exist there."""
+    _renewals.append(renew)
 
 
 @contextlib.contextmanager
@@ -97,6 +103,8 @@ def _in_child() -> None:
     while _taken:
         _taken.pop().release()
     _gate = _Gate()  # the child has no other thread
+    for renew in _renewals:
+        renew()
 
 
 if hasattr(os, "register_at_fork"):

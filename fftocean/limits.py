@@ -48,6 +48,8 @@ class Quantity:
                 return "finite"
             least = "positive" if self.low == SMALLEST_POSITIVE else f"at least {self.low:g}{unit}"
             return f"{least} and finite"
+        if math.isinf(self.low):
+            return "of any size"
         if math.isinf(self.high):
             return f"at least {self.low:g}{unit} (inf is allowed)"
         return f"between {self.low:g} and {self.high:g}{unit}"
@@ -96,19 +98,26 @@ class Quantity:
         Raises:
             ParameterError: a rule is broken; the message names the entry, the rule and the value.
         """
+        form = {
+            None: "numbers",
+            0: "a number",
+            1: "a list of numbers",
+            2: "a table of numbers",
+        }.get(ndim, f"a {ndim}-dimensional array of numbers")
+        if ndim and not hasattr(values, "__array__") and not _is_list(values):
+            raise ParameterError(f"{name} must be {form} {self.rule}, got {_with_type(values)}")
         array = self._converted(name, values, most, missing)
         if ndim is not None and array.ndim != ndim:
-            form = {0: "a number", 1: "a list of numbers", 2: "a table of numbers"}.get(
-                ndim, f"a {ndim}-dimensional array of numbers"
+            raise ParameterError(
+                f"{name} must be {form} {self.rule}, got {values!r:.60} of shape {array.shape}"
             )
-            shape = f" of shape {array.shape}" if array.ndim else ""
-            raise ParameterError(f"{name} must be {form} {self.rule}, got {values!r:.60}{shape}")
         if array.size < least or (most is not None and array.size > most):
             size = str(array.size) if most is None or array.size <= most else "more"
             limit = f"at least {least}" if most is None else f"{least} to {most}"
             raise ParameterError(f"{name} must be {limit} numbers, got {size}")
-        good = (array >= self.low) & (array <= self.high)
-        if missing:
+        anything = missing and self.low == -math.inf and self.high == math.inf
+        good = anything or (array >= self.low) & (array <= self.high)
+        if missing and not anything:
             good |= np.isnan(array)
         if not np.all(good):
             place = tuple(int(i) for i in np.argwhere(~good)[0])
@@ -159,7 +168,7 @@ class Quantity:
         """Return the checked numbers in lists nested like `values`."""
         if isinstance(values, np.ndarray) and values.ndim:  # a row of a list of arrays
             return self._converted(name, values, most, missing).tolist()
-        if not isinstance(values, Iterable) or isinstance(values, (str, bytes, np.ndarray, dict)):
+        if not _is_list(values):
             if missing and isinstance(values, numbers.Real) and math.isnan(values):
                 return math.nan
             return self.check(name, values)
@@ -190,6 +199,11 @@ class Count(Quantity):
         return int(value)
 
     check_whole = check  # the name of earlier versions
+
+
+def _is_list(values: Any) -> bool:
+    """Return True for an iterable of entries; a text and a dictionary are none."""
+    return isinstance(values, Iterable) and not isinstance(values, (str, bytes, dict, np.ndarray))
 
 
 def _with_type(value: Any) -> str:
@@ -243,6 +257,7 @@ SURFACE_TENSION = Quantity("N/m", 0.0, 1.0)
 SIZE = Quantity("m", 1e-3, 1e7)
 LOOP = Quantity("s", 1e-2, 1e9)
 TIME = Quantity("s", -1e12, 1e12)
+COORDINATE = Quantity("", -math.inf, math.inf)
 CHOPPINESS = Quantity("", 0.0, 10.0)
 LENGTH = Quantity("m", -1e4, 1e4)
 ANGLE = Quantity("rad", -1e6, 1e6)

@@ -17,7 +17,7 @@ from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
-from fftocean.forks import no_fork
+from fftocean.forks import in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
@@ -41,8 +41,7 @@ def _renew() -> None:
     _after_fork = threading.Lock()
 
 
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_renew)
+in_child(_renew)
 
 
 class Ocean:

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Real, RealLike
-from fftocean.errors import ParameterError
+from fftocean.limits import COORDINATE
 
 
 def as_coordinates(name: str, values: RealLike) -> Real:
@@ -16,19 +16,7 @@ def as_coordinates(name: str, values: RealLike) -> Real:
     Raises:
         ParameterError: values that are not numbers, or rows of unequal length.
     """
-    try:
-        array = (
-            np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan)
-            if np.ma.isMaskedArray(values)
-            else np.asarray(values)
-        )
-    except ValueError:
-        raise ParameterError(
-            f"{name} must be numbers in a regular array, got {values!r:.60}"
-        ) from None
-    if array.dtype.kind not in "iuf":
-        raise ParameterError(f"{name} must be numbers, got {values!r:.60} ({array.dtype})")
-    return array.astype(np.float64, copy=False)
+    return COORDINATE.check_array(name, values, missing=True)
 
 
 def group_by_time(

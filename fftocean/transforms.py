@@ -8,7 +8,6 @@ without 1/n, on one thread.
 import ctypes
 import importlib
 import importlib.metadata
-import os
 import sys
 import threading
 import weakref
@@ -53,8 +52,7 @@ def _renew_locks() -> None:
     _planner, _importing = threading.RLock(), threading.Lock()
 
 
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_renew_locks)
+forks.in_child(_renew_locks)
 
 
 class InverseRows(Protocol):
@@ -289,3 +287,14 @@ def _pyfftw() -> ModuleType | None:
         finally:
             if hide:
                 sys.modules.pop("dask.array", None)
+
+
+def loaded(backend: str) -> Any:
+    """
+    Return the library behind a backend, or None where it is not installed.
+
+    It is a `ctypes.CDLL` for "mkl", and a module for "pyfftw" and "scipy".
+    """
+    if backend == "mkl":
+        return _mkl()
+    return _pyfftw() if backend == "pyfftw" else importlib.import_module("scipy.fft")

@@ -49,7 +49,7 @@ class Window:
         size: of the window [m], or (size_x, size_y); None is the largest tile's.
         x, y: its south-west corner in the world [m].
         shortest: waves shorter than this are left out [m]. 0 keeps all: values at points are right,
-            and a picture of them is aliased where its samples are farther apart than half the
+            and an image of them is aliased where its samples are farther apart than half the
             shortest wave.
 
     Raises:

@@ -54,7 +54,7 @@ STAIRS = [
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics"]],
     [["realised_spectrum"], ["measured_dispersion"]],
-    [["plots.theme"], ["plots"], ["bench.pictures"]],
+    [["plots.theme"], ["plots"], ["bench.charts"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {
@@ -607,7 +607,8 @@ def test_a_forged_breach_is_caught(module, source, says):
         ),
         (
             "physics.spectra.tma",
-            "from fftocean.physics.spectra.jonswap import JONSWAP\nfrom .jonswap import fetch_limited",
+            "from fftocean.physics.spectra.jonswap import JONSWAP\n"
+            "from .jonswap import fetch_limited",
         ),
         ("__main__", "from fftocean.cli import main"),
         ("limits", "from fftocean.errors import ParameterError"),

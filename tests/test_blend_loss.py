@@ -1,6 +1,4 @@
-"""
-Blending loss: the closed form on one wave, frames blended in earnest, and the rate that is enough.
-"""
+"""Blending loss: the closed form on one wave, blended frames of a sea, and the sufficient rate."""
 
 import json
 import math

@@ -21,8 +21,8 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "cascades.md"
 TILES = [
     (64, 96.0),
     (60, 30.0),
-    # 1.5 m and 0.5 m from sample to sample: places 1.5 m apart are samples of both; 96 is no multiple
-    # of 30
+    # 1.5 m and 0.5 m between samples: places 1.5 m apart are samples of both; 96 is no
+    # multiple of 30
 ]
 LOOP, FRAMES = 12.0, 72
 
@@ -111,9 +111,17 @@ def baked(tmp_path_factory):
     """The sea in four engines' frames, and its cascade in double precision."""
     made = {}
     job = fo.Job.default().replaced(
-        {"ocean.loop": LOOP, "ocean.choppiness": 1.2, "ocean.seed": 5, "bake.frames": FRAMES, "bake.format": "exr-float",
-         "bake.pictures": [], "sea.wind.speed": 9.0, "sea.wind.direction": 40.0}
-    )  # fmt: skip
+        {
+            "ocean.loop": LOOP,
+            "ocean.choppiness": 1.2,
+            "ocean.seed": 5,
+            "bake.frames": FRAMES,
+            "bake.format": "exr-float",
+            "bake.pictures": [],
+            "sea.wind.speed": 9.0,
+            "sea.wind.direction": 40.0,
+        }
+    )
     for engine in ENGINES:
         made[engine] = tmp_path_factory.mktemp(engine) / "sea"
         some = None if engine == "godot" else "7:8"
@@ -168,9 +176,21 @@ def run(folder, engine, j, x, y, **known):
         return Vector(p[0] / unit / size[0] + 0.5 / n[0], v if points_up == (north > 0) else -v)
 
     names = {
-        "p": p, "place": place, "TILES": len(listed["tiles"]), "texture": sampler(row0_v), "normalize": normalize, "length": length,
-        "vec2": Vector, "vec3": Vector, "exp": np.exp, "max": np.maximum, "foam": 0.0, "dt": LOOP / FRAMES, **listed["foam"], **known,
-    }  # fmt: skip
+        "p": p,
+        "place": place,
+        "TILES": len(listed["tiles"]),
+        "texture": sampler(row0_v),
+        "normalize": normalize,
+        "length": length,
+        "vec2": Vector,
+        "vec3": Vector,
+        "exp": np.exp,
+        "max": np.maximum,
+        "foam": 0.0,
+        "dt": LOOP / FRAMES,
+        **listed["foam"],
+        **known,
+    }
     for name in ("displacement", "derivative", "stretch"):
         names[name] = [files_of(folder, i, name, j) for i in range(len(TILES))]
     exec(recipe(), names)

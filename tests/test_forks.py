@@ -143,3 +143,14 @@ def test_a_child_makes_oceans_though_other_threads_were_making_some():
         [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=300, check=False
     )
     assert ran.stdout.strip() == str([0] * 20), ran.stderr[-2000:]
+
+
+def test_locks_are_renewed_in_the_child_only(monkeypatch):
+    """A lock that the parent holds while it forks is free in the child, and still held here."""
+    holder = {"lock": threading.Lock()}
+    monkeypatch.setattr(forks, "_renewals", [])
+    forks.in_child(lambda: holder.update(lock=threading.Lock()))
+    held = holder["lock"]
+    with held:
+        assert forked(lambda: 0 if holder["lock"].acquire(timeout=1.0) else 1) == 0
+        assert holder["lock"] is held

@@ -1,4 +1,4 @@
-"""What the machine says of itself, and what it does not."""
+"""Cores and processor of the machine."""
 
 import os
 

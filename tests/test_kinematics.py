@@ -300,7 +300,7 @@ def test_sources_and_filter():
             {},
             "start from rest",
         ),
-        ((ocean, "x", 0.0, 0.0, 0.0), {}, "x must be numbers"),
+        ((ocean, "x", 0.0, 0.0, 0.0), {}, "x must be a number"),
         ((ocean, [1.0, 2.0], [1.0, 2.0, 3.0], 0.0, 0.0), {}, "broadcast"),
         ((ocean, 0.0, 0.0, 0.0, 1e13), {}, "t must"),
         ((ocean, 0.0, 0.0, 0.0, 0.0), {"threads": 0}, "threads"),

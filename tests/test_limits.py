@@ -120,6 +120,7 @@ def test_rules_in_words():
     assert Quantity("m", 0.0, largest).rule == "at least 0 m and finite"
     assert Quantity("m", smallest, largest).rule == "positive and finite"
     assert Quantity("m", -largest, largest).rule == "finite"
+    assert limits.COORDINATE.rule == "of any size"
 
 
 def test_a_long_value_is_cut_short():
@@ -259,16 +260,22 @@ def test_missing_values_pass_where_they_may():
     for values in ([1.0, math.nan], np.array([1.0, math.nan])):
         array = limits.FETCH.check_array("x", values, missing=True)
         assert np.array_equal(array, [1.0, math.nan], equal_nan=True)
+    coordinates = [[math.nan, math.inf], [-math.inf, 1e308]]
+    array = limits.COORDINATE.check_array("x", np.array(coordinates), missing=True)
+    assert np.array_equal(array, coordinates, equal_nan=True)
     assert refusal([math.nan, 0.0], missing=True) == "x[1] must be between 1 and 5e+07 m, got 0.0"
 
 
 def test_the_number_of_dimensions_is_held():
     list_of, table_of = "x must be a list of numbers", "x must be a table of numbers"
-    assert refusal(3.0, ndim=1) == f"{list_of} between 1 and 5e+07 m, got 3.0"
+    assert refusal(3.0, ndim=1) == f"{list_of} between 1 and 5e+07 m, got 3.0 (float)"
     assert (
         refusal([[3.0]], ndim=1) == f"{list_of} between 1 and 5e+07 m, got [[3.0]] of shape (1, 1)"
     )
     assert refusal([3.0], ndim=2) == f"{table_of} between 1 and 5e+07 m, got [3.0] of shape (1,)"
+    assert refusal("rough", ndim=1) == f"{list_of} between 1 and 5e+07 m, got 'rough' (str)"
+    assert refusal(None, ndim=2) == f"{table_of} between 1 and 5e+07 m, got None (NoneType)"
+    assert refusal(np.array(3.0), ndim=1).endswith("got array(3.) of shape ()")
     assert limits.FETCH.check_array("x", [[3.0]], ndim=2).shape == (1, 1)
 
 

@@ -367,7 +367,7 @@ BAD = [math.nan, math.inf, -math.inf, -1, 0, "5", True, None, 1e308, 1e-308]
 
 
 def tried(make):
-    """What was made, or why it was refused."""
+    """Return the result and "", or None and the message of the error."""
     try:
         return make(), ""
     except fo.ParameterError as error:
@@ -696,8 +696,7 @@ def test_frames_that_were_begun_before_a_fork_go_on_in_the_child():
 @pytest.mark.process
 def test_a_thread_that_outlives_the_main_one_goes_on(threads):
     """
-    When Python is on its way out, no new work can be handed to a pool: it is done where it is asked
-    for.
+    While the interpreter shuts down a pool takes no new work: the calling thread does it itself.
     """
     script = f"""
 import threading

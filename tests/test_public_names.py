@@ -2,7 +2,10 @@
 
 import ast
 import inspect
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -129,3 +132,19 @@ def public_members(name):
 @pytest.mark.parametrize("name", [n for n in fo.__all__ if inspect.isclass(getattr(fo, n))])
 def test_public_methods_and_properties_have_docstrings(name):
     assert [member for member, doc in public_members(name) if not doc] == []
+
+
+@pytest.mark.process
+def test_importing_the_package_loads_no_heavy_library():
+    """Public names are imported on first use."""
+    heavy = {"numba", "pyfftw", "OpenEXR", "scipy", "numpy", "matplotlib", "xarray"}
+    program = f"import sys, fftocean; print(sorted({heavy} & set(sys.modules)))"
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=True,
+    )
+    assert done.stdout == "[]\n"

@@ -585,9 +585,9 @@ def test_a_forked_child_can_ask_too():
             ),
             "above 0",
         ),
-        (lambda: fo.Query(ocean()).at("a", 0.0, 0.0), "x must be numbers"),
-        (lambda: fo.Query(ocean()).at(1.0, 1j, 0.0), "y must be numbers"),
-        (lambda: fo.Query(ocean()).at(1.0, None, 0.0), "y must be numbers"),
+        (lambda: fo.Query(ocean()).at("a", 0.0, 0.0), "x must be a number"),
+        (lambda: fo.Query(ocean()).at(1.0, 1j, 0.0), "y must be a number"),
+        (lambda: fo.Query(ocean()).at(1.0, None, 0.0), "y must be a number"),
         (lambda: fo.Query(ocean()).at([1.0, 2.0], [1.0, 2.0, 3.0], 0.0), "broadcast"),
         (lambda: fo.Query(ocean()).at(1.0, 2.0, 1e13), "t must"),
         (lambda: fo.Query(ocean()).at(1.0, 2.0, 0.0, ("height",)), "a field must be one of"),
@@ -636,7 +636,7 @@ def test_what_is_masked_is_not_asked_for():
 @pytest.mark.parametrize(
     ("arguments", "rule"),
     [
-        (([[1], [1, 2]], 1, 0), "x must be numbers"),
+        (([[1], [1, 2]], 1, 0), "x must be numbers in a regular array"),
         ((1, 1, 0, 5), "fields must be"),
         ((1, 1, 0, (["heights"],)), "fields must be"),
     ],

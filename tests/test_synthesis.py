@@ -104,7 +104,7 @@ def test_waves_nearly_along_an_axis_do_not_spoil_the_derivatives_along_the_other
 
 
 def test_weights_are_powers_of_two():
-    """Which round nothing."""
+    """Powers of two round nothing."""
     weights = fo.Ocean(SEA, n=16, size=100.0)._synthesis._weights
     assert all(math.log2(weight).is_integer() for weight in weights.values())
 
@@ -178,8 +178,8 @@ def test_what_a_narrow_block_leaves_behind_is_harmless():
     assert np.all(np.isfinite(workspace.second.result))
 
 
-def test_whoever_is_interrupted_waits_for_the_others():
-    """When one thread's work raises, the lock must not be given back while another still writes."""
+def test_an_interrupted_thread_waits_for_the_others():
+    """If one thread raises, the lock must stay taken while another still writes."""
     synthesis = fo.Ocean(SEA, n=256, size=100.0, threads=2)._synthesis
     first = synthesis._workspaces[0]
     still_at_it, begun = [], threading.Event()

@@ -14,11 +14,15 @@ METAPHORS = re.compile(
     r"""\b(
         crews? | ledgers? | seats? | seated | desks? | astern | borne\s+out | bears?\s+out
         | hirelings? | hire[sd]? | dismiss(es|ed)? | corridors? | whoever | how-manieth
-        | squeezes? | squeezed
+        | squeezes? | squeezed | doors?
+        | (?:this|that|one|another|whose|each|other)\s+rooms?
     )\b""",
     re.VERBOSE | re.IGNORECASE,
 )
 """Words that stand for something else than they say."""
+
+IN_NAMES = re.compile(r"\b(claims?|rooms?|hands?|guests?)\b", re.IGNORECASE)
+"""Words that are plain English in a sentence, and are metaphors in a name."""
 
 PARTS = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
 
@@ -42,6 +46,7 @@ def metaphors(source):
             text = token.string
         elif token.type == tokenize.NAME:
             text = " ".join(PARTS.findall(token.string))
+            found += [(token.start[0], match.group()) for match in IN_NAMES.finditer(text)]
         else:
             continue
         found += [(token.start[0], match.group()) for match in METAPHORS.finditer(text)]
@@ -98,6 +103,8 @@ def test_captions_are_one_sentence_without_a_question():
         ("class CrewList:\n    pass\n", ["Crew"]),
         ("'''What the disk bears out.'''\n", ["bears out"]),
         ("message = 'a seat'\n", []),
+        ("import foam as foam_room  # by hand\n", ["room"]),
+        ("# room for one more; of this room\n", ["this room"]),
         ("# higher, hired, crewman, transept, desktop\n", ["hired"]),
     ],
 )

@@ -46,7 +46,7 @@ from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
 from fftocean.statistics import measure
 
-SMALL = 2e7
+SERIAL_SAMPLES = 2e7
 """
 Samples of all frames and maps that one process writes in the time in which others would start.
 """
@@ -270,7 +270,7 @@ def choose_workers(executor: str, workers: int | None, scene: Scene, todo: int) 
     count = max(1, min(workers or cores(), todo, int(min(most, 1024))))
     if executor == "auto":
         samples = float(grid.nx * grid.ny) * todo * len(scene.job.maps)
-        executor = "processes" if count > 1 and samples > SMALL else "serial"
+        executor = "processes" if count > 1 and samples > SERIAL_SAMPLES else "serial"
     return executor, 1 if executor == "serial" else count
 
 

@@ -22,7 +22,7 @@ from fftocean.files import write_whole
 def with_recorded_ranges(plan: Plan, log: RunLog) -> Plan:
     """Return the plan with the ranges that an earlier run recorded."""
     found = log.recorded("ranges")
-    return _with(plan, found[-1]) if found else plan
+    return _with_ranges(plan, found[-1]) if found else plan
 
 
 def needs_ranges(plan: Plan, scene: Scene) -> bool:
@@ -38,10 +38,14 @@ def survey(executor: Executor, plan: Plan, scene: Scene, log: RunLog) -> Plan:
     """
     if "foam" in scene.job.maps:
         _foam(executor, plan, scene, log)
-    return _with(plan, _ranges(executor, plan, scene, log)) if needs_ranges(plan, scene) else plan
+    return (
+        _with_ranges(plan, _ranges(executor, plan, scene, log))
+        if needs_ranges(plan, scene)
+        else plan
+    )
 
 
-def _with(plan: Plan, ranges: Mapping[str, Sequence[float]]) -> Plan:
+def _with_ranges(plan: Plan, ranges: Mapping[str, Sequence[float]]) -> Plan:
     return replace(plan, ranges={name: (low, high) for name, (low, high) in ranges.items()})
 
 

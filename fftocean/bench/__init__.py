@@ -1,6 +1,7 @@
 """
-What a frame costs, measured: the machine, contenders that take turns, fits, pictures. `fftocean
-bench` and `benchmarks/` run on it.
+Benchmarks of frames.
+
+`fftocean bench` and the scripts in `benchmarks/` are built on this package.
 """
 
 from fftocean.bench.command import main as main

@@ -1,4 +1,4 @@
-"""`fftocean bench`: measure for two minutes, show a table, draw one picture."""
+"""Command `fftocean bench`."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,34 +23,33 @@ def main(
     status: "Console | None" = None,
 ) -> int:
     """
-    Run the two-minute version and show it.
+    Run the quick benchmark, and print its table.
 
     Args:
-        console: where the table goes.
-        seconds: about how long to measure [s].
+        console: for the table.
+        seconds: approximate duration [s].
         sizes: samples a side of the frames; None for 128 to 1024.
-        picture: a .png, .svg or .pdf to write, or None; without matplotlib there is none, and a
-            line that says so.
+        picture: a .png, .svg or .pdf plot to write, or None; without matplotlib a line is printed
+            instead.
         json: a file for every reading with its quartiles, or None.
-        status: where a progress bar goes while it measures; None for none.
+        status: for a progress bar; None for no bar.
 
     Returns:
         The exit code, 0.
 
     Raises:
-        ParameterError: a value out of range, or a suffix that is no picture's.
+        ParameterError: a value out of range, or an unknown suffix of the plot.
         OutputError: a file could not be written.
     """
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-    from fftocean.bench import quick, shown
-    from fftocean.bench.pictures import SUFFIXES
+    from fftocean.bench import quick, quick_report
+    from fftocean.bench.charts import SUFFIXES
 
-    if (
-        picture is not None and picture.suffix.lower() not in SUFFIXES
-    ):  # before two minutes have gone by
+    # checked before the measurement, which takes minutes
+    if picture is not None and picture.suffix.lower() not in SUFFIXES:
         raise ParameterError(
-            f"a picture's name must end in {', '.join(SUFFIXES)}, got {picture.name!r:.80}"
+            f"the name of a plot must end in {', '.join(SUFFIXES)}, got {picture.name!r:.80}"
         )
     columns = (TextColumn("measuring {task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=status, disable=status is None, transient=True) as bar:
@@ -58,17 +57,17 @@ def main(
         result = quick.quick(
             seconds=seconds,
             sizes=quick.SIZES if sizes is None else sizes,
-            progress=lambda what, share: bar.update(task, description=what, completed=share),
+            progress=lambda part, share: bar.update(task, description=part, completed=share),
         )
-    console.print(shown.table(result))
+    console.print(quick_report.table(result))
     if json is not None:
         result.write(json)
-        console.print(f"every reading: {json}", highlight=False, markup=False)
+        console.print(f"all readings: {json}", highlight=False, markup=False)
     if picture is not None:
         try:
-            shown.picture(result, picture)
+            quick_report.draw(result, picture)
         except ParameterError as error:
-            console.print(f"no picture: {error}", highlight=False, markup=False)
+            console.print(f"no plot: {error}", highlight=False, markup=False)
         else:
-            console.print(f"look at {picture}", highlight=False, markup=False)
+            console.print(f"plot: {picture}", highlight=False, markup=False)
     return 0

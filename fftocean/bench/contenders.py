@@ -1,40 +1,38 @@
 """
-The same water by other means: what a frame costs is measured against these.
+Other implementations of the same frame, for comparison.
 
-Each takes an ocean and returns a function of nothing that makes the ocean's next frame, at other
-times in each call. What it makes is compared with the ocean's own frame before anything is timed
-(`same_water`): a contender that computes something else is no contender. None of them shares a line
-with the fast path.
+Each is made from an ocean, and computes the ocean's next frame when called, at another time in each
+call. Before anything is timed its fields are compared with those of the ocean (`same_water`). None
+of them shares code with the fast path.
 """
 
 import ctypes
 import itertools
 import math
-import sys
 import timeit
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import metadata
-from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
 
+from fftocean import transforms
 from fftocean.arrays import Complex, Real
 from fftocean.errors import ParameterError
 from fftocean.gerstner import compiled
 from fftocean.ocean import Ocean
 
 FULL = ("height", "displace_x", "displace_y", "normal", "jacobian")
-"""A full frame: what a renderer needs. It takes eight real transforms' worth of work."""
+"""The fields of a full frame, as a renderer needs them: the work of eight real transforms."""
 
-T0 = 3.7  # [s], at which waters are compared
+T0 = 3.7  # [s], at which fields are compared
 
 
 class Contender(Protocol):
     """
-    Makes one frame a call, each at a later time; `at` makes the frame of a given time and returns
-    its fields by name.
+    An implementation that computes one frame a call, each at a later time.
+
+    `at` returns the fields at a given time by name.
     """
 
     def __call__(self) -> object: ...
@@ -42,12 +40,12 @@ class Contender(Protocol):
 
 
 def times() -> Iterator[float]:
-    """Times that never repeat, so that nothing can be kept from one frame to the next [s]."""
+    """Yield times that never repeat, so that no frame can be reused [s]."""
     return (T0 + 0.04 * i for i in itertools.count())
 
 
 class Fast:
-    """The ocean itself, into the arrays of the frame before."""
+    """The ocean itself, which writes into the arrays of its last frame."""
 
     def __init__(self, ocean: Ocean, fields: Sequence[str] = FULL) -> None:
         self._ocean, self._fields, self._times = ocean, tuple(fields), times()
@@ -63,8 +61,9 @@ class Fast:
 
 class Textbook:
     """
-    NumPy as tutorials write it: eight complex128 `ifft2` of filtered spectra, then normals and
-    Jacobian, all in arrays of n x n.
+    NumPy as in tutorials.
+
+    Eight complex128 `ifft2` of filtered spectra, then normals and Jacobian, in arrays of n x n.
     """
 
     def __init__(self, ocean: Ocean) -> None:
@@ -104,15 +103,16 @@ class Textbook:
         }
 
     def transforms(self) -> Callable[[], object]:
-        """Only its eight `np.fft.ifft2`: what no rewriting of the lines around them could save."""
+        """Return a function that runs only the eight `np.fft.ifft2`."""
         spectra = [f * self._h0 for f in self._filters]
         return lambda: [np.fft.ifft2(s) for s in spectra]
 
 
 class Careful:
     """
-    NumPy and SciPy as one writes them with care: half spectra in complex64, `scipy.fft.irfft2`,
-    cross product by components.
+    NumPy and SciPy, carefully optimised.
+
+    Half spectra in complex64, `scipy.fft.irfft2`, and the cross product by components.
     """
 
     def __init__(self, ocean: Ocean) -> None:
@@ -140,9 +140,8 @@ class Careful:
     def at(self, t: float) -> Mapping[str, Real]:
         from scipy import fft
 
-        angle = np.remainder(self._omega * t, 2 * np.pi).astype(
-            np.float32
-        )  # reduced in float64, cast once
+        # reduced in float64, cast once
+        angle = np.remainder(self._omega * t, 2 * np.pi).astype(np.float32)
         phase = np.cos(angle) - 1j * np.sin(angle)
         h = self._h0 * phase + self._mirrored * np.conj(phase)
         height, dx, dy, sx, sy, xx, xy, yy = (
@@ -168,11 +167,10 @@ class Careful:
 
 class DirectSum:
     """
-    Every wave at every point, compiled, float64, one thread: the eight linear fields, at some
-    points of the grid or at all.
+    The sum of every wave at every point: compiled, float64, one thread.
 
-    `share` is the part of the grid's points that one call sums: its cost is exactly proportional to
-    them.
+    It computes the eight linear fields at some or all points of the grid. `share` is the fraction
+    of the points that one call sums; its cost is proportional to it.
     """
 
     def __init__(self, ocean: Ocean, points: int | None = None) -> None:
@@ -191,7 +189,7 @@ class DirectSum:
 
 
 class _Waves:
-    """An ocean's waves, listed once: making the list is no part of the sum."""
+    """An ocean's waves, listed once, so that the list is not made in timed calls."""
 
     def __init__(self, ocean: Ocean) -> None:
         self.choppiness, self.depth, self._modes = ocean.choppiness, ocean.depth, ocean.modes()
@@ -202,8 +200,9 @@ class _Waves:
 
 def spectrum(ocean: Ocean) -> tuple[Complex, Complex, Real, Real, Real, Real]:
     """
-    Return the h0 of an ocean as textbooks have it, made from the list of its waves: arrays (ny, nx)
-    in FFT order.
+    Return the h0 of an ocean as in textbooks, from the list of its waves.
+
+    All arrays are (ny, nx) in FFT order.
 
     Returns:
         h0, conj(h0(-k)), omega [rad/s], kx, ky [rad/m], and 1 / (k tanh kh) [m], which is 0 at k =
@@ -228,10 +227,14 @@ def spectrum(ocean: Ocean) -> tuple[Complex, Complex, Real, Real, Real, Real]:
 
 def same_water(ocean: Ocean, contender: Contender, t: float = T0) -> float:
     """
-    Return how far a contender's fields are from the ocean's own at time t, at worst, relative to
-    each field's largest value.
+    Return the largest error of a contender's fields, relative to each field's largest value.
 
-    A contender that makes only some points, the first of the grid, is compared there.
+    A contender that computes only the first points of the grid is compared there.
+
+    Args:
+        ocean: the reference.
+        contender: the implementation to compare.
+        t: the time [s].
     """
     theirs = contender.at(t)
     ours = ocean.frame(t, tuple(theirs))
@@ -240,10 +243,9 @@ def same_water(ocean: Ocean, contender: Contender, t: float = T0) -> float:
         own = ours[name].astype(np.float64)
         largest = float(np.max(np.abs(own))) or 1.0
         other = np.asarray(field, dtype=np.float64)
-        apart = (
-            own - other if other.shape == own.shape else own.ravel()[: other.size] - other.ravel()
-        )
-        worst = max(worst, float(np.max(np.abs(apart))) / largest)
+        if other.shape != own.shape:
+            own, other = own.ravel()[: other.size], other.ravel()
+        worst = max(worst, float(np.max(np.abs(own - other))) / largest)
     return worst
 
 
@@ -251,32 +253,32 @@ def require_same_water(
     ocean: Ocean, contenders: Mapping[str, Contender], *, within: float
 ) -> float:
     """
-    Return how far the contenders are from the ocean at worst.
+    Return the largest relative error of the contenders.
 
     Raises:
-        AssertionError: one of them shows other water; what it costs would mean nothing.
+        AssertionError: the error of a contender exceeds `within`, so its cost would mean nothing.
     """
-    apart = {name: same_water(ocean, contender) for name, contender in contenders.items()}
-    for name, figure in apart.items():
-        if not figure <= within:
+    errors = {name: same_water(ocean, contender) for name, contender in contenders.items()}
+    for name, error in errors.items():
+        if not error <= within:
             raise AssertionError(
-                f"{name} shows other water: {figure:.1e} of the largest value apart, {within:.0e} allowed"
+                f"{name} computes other fields: error {error:.1e} of the largest value, "
+                f"{within:.0e} allowed"
             )
-    return max(apart.values(), default=0.0)
+    return max(errors.values(), default=0.0)
 
 
-# --- the floor: bare transforms of the same library
+# --- the lower bound: bare transforms of the same library
 
 
 @dataclass(frozen=True, slots=True)
 class Floor:
     """
-    Eight bare real transforms of n x n by one library, and one copy of what they make: no water,
-    only the work under it.
+    A lower bound of a frame's cost: bare real transforms of n x n, and one copy of the result.
     """
 
     library: str
-    how: str  # "all at once" or "one by one": whichever turned out faster here
+    how: str  # "all at once" or "one by one": the faster on this machine
     run: Callable[[], object]
     spectra: Complex  # (count, n, n // 2 + 1); the transforms overwrite it
     fields: Real  # (count, n, n)
@@ -293,16 +295,21 @@ def floor(n: int, library: str, count: int = 8) -> Floor:
     Plan `count` inverse real transforms of n x n, float32, on one thread, with FFTW_MEASURE where
     the library plans.
 
-    They are planned all at once and one by one, and the faster way is kept. The buffers hold zeros,
-    on which arithmetic takes as long as on anything; what a transform leaves in its input would
-    grow without end.
+    They are planned all at once and one by one, and the faster plan is kept. The buffers hold
+    zeros, on which arithmetic takes as long as on other numbers: transforms overwrite their input,
+    whose values would grow without bound.
 
     Raises:
         ParameterError: an unknown library, or one that is not installed.
     """
     if library not in _PLANNERS:
         raise ParameterError(f"library must be one of {', '.join(_PLANNERS)}, got {library!r}")
-    plan = _PLANNERS[library]()
+    module = transforms.loaded(library)
+    if module is None:
+        raise ParameterError(
+            f"library {library!r} must be installed (pip install {library}), and is not"
+        )
+    plan = _PLANNERS[library](module)
     spectra = _aligned((count, n, n // 2 + 1), np.complex64)
     fields, copied = (_aligned((count, n, n), np.float32) for _ in range(2))
     singles = [plan(spectra[i : i + 1], fields[i : i + 1]) for i in range(count)]
@@ -312,29 +319,29 @@ def floor(n: int, library: str, count: int = 8) -> Floor:
             run()
 
     ways = {"all at once": plan(spectra, fields), "one by one": one_by_one}
-    spectra[:] = 0.0  # measuring scribbles over it
+    spectra[:] = 0.0  # planning overwrites them
     how = min(ways, key=lambda name: min(timeit.repeat(ways[name], number=1, repeat=5)))
     return Floor(library, how, ways[how], spectra, fields, copied)
 
 
 Planner = Callable[[Complex, Real], Callable[[], object]]
-"""Plans inverse real transforms of (count, n, n // 2 + 1) to (count, n, n), without 1/n^2."""
+"""A function that plans transforms of (count, n, n // 2 + 1) to (count, n, n), without 1/n^2."""
 
 
 def _aligned(shape: tuple[int, ...], dtype: Any) -> Any:
-    """Zeros that start at a multiple of 64 bytes, and that are really there."""
+    """Return zeros that start at a multiple of 64 bytes, in pages that are already mapped."""
     size = math.prod(shape) * np.dtype(dtype).itemsize
     raw = np.empty(size + 64, dtype=np.uint8)
-    raw.fill(0)  # else the first transform would pay for the pages
+    raw.fill(0)  # otherwise the first transform would map the pages
     start = -raw.ctypes.data % 64
     return raw[start : start + size].view(dtype).reshape(shape)
 
 
-def _with_scipy() -> Planner:
-    from scipy import fft
+def _with_scipy(fft: Any) -> Planner:
+    """Return a planner that uses `scipy.fft`."""
 
     def plan(spectra: Complex, fields: Real) -> Callable[[], object]:
-        def run() -> None:  # SciPy returns a new array each time: that is its way
+        def run() -> None:  # SciPy always returns a new array
             fields[:] = fft.irfft2(spectra, s=fields.shape[1:], norm="forward", workers=1)
 
         return run
@@ -342,13 +349,8 @@ def _with_scipy() -> Planner:
     return plan
 
 
-def _with_pyfftw() -> Planner:
-    try:
-        import pyfftw
-    except ImportError as error:
-        raise ParameterError(
-            f"library 'pyfftw' must be installed (pip install pyfftw): {error}"
-        ) from None
+def _with_pyfftw(pyfftw: Any) -> Planner:
+    """Return a planner that uses FFTW through pyfftw."""
     flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")
 
     def plan(spectra: Complex, fields: Real) -> Callable[[], object]:
@@ -361,77 +363,35 @@ def _with_pyfftw() -> Planner:
     return plan
 
 
-def _with_mkl() -> Planner:
-    library = _mkl()
+def _with_mkl(mkl: Any) -> Planner:
+    """Return a planner that uses MKL's FFTW3 interface on one thread."""
+    integer, pointer = ctypes.c_int, ctypes.c_void_p
+    mkl.MKL_Set_Num_Threads_Local(1)
+    many, execute = mkl.fftwf_plan_many_dft_c2r, mkl.fftwf_execute
+    many.restype = pointer
+    many.argtypes = [
+        *(integer, pointer, integer),  # rank, n, howmany
+        *(pointer, pointer, integer, integer),  # in, inembed, istride, idist
+        *(pointer, pointer, integer, integer),  # out, onembed, ostride, odist
+        ctypes.c_uint,  # FFTW_MEASURE is 0; MKL ignores the planning effort
+    ]
 
     def plan(spectra: Complex, fields: Real) -> Callable[[], object]:
         count, n, half = spectra.shape
         source, target = spectra.ctypes.data, fields.ctypes.data
         shape = (ctypes.c_int * 2)(n, n)
-        made = library.fftwf_plan_many_dft_c2r(
-            2, shape, count, source, None, 1, n * half, target, None, 1, n * n, 0
-        )
+        made = many(2, shape, count, source, None, 1, n * half, target, None, 1, n * n, 0)
         if not made:
             raise ParameterError(f"MKL has no plan for {count} transforms of {n} x {n}")
-        return lambda: library.fftwf_execute(made)
+        # no `argtypes`: `fftwf_execute` belongs to the library that oceans use, too
+        handle = ctypes.c_void_p(made)
+        return lambda: execute(handle)
 
     return plan
 
 
-def _mkl() -> Any:
-    """
-    MKL's FFTW3 interface, on one thread.
-
-    Raises:
-        ParameterError: it is not installed.
-    """
-    for path in mkl_candidates():
-        try:
-            library = ctypes.CDLL(str(path))
-        except OSError:
-            continue
-        if hasattr(library, "MKL_Set_Threading_Layer"):
-            library.MKL_Set_Threading_Layer(
-                1
-            )  # sequential; without effect where somebody was here before
-        if hasattr(library, "MKL_Set_Num_Threads_Local"):
-            library.MKL_Set_Num_Threads_Local(1)
-        integer, pointer = ctypes.c_int, ctypes.c_void_p
-        library.fftwf_plan_many_dft_c2r.restype = pointer
-        library.fftwf_plan_many_dft_c2r.argtypes = [
-            *(integer, pointer, integer),  # rank, n, howmany
-            *(pointer, pointer, integer, integer),  # in, inembed, istride, idist
-            *(pointer, pointer, integer, integer),  # out, onembed, ostride, odist
-            ctypes.c_uint,  # FFTW_MEASURE is 0; MKL has its plans ready and heeds no effort
-        ]
-        library.fftwf_execute.restype = None
-        library.fftwf_execute.argtypes = [pointer]
-        return library
-    raise ParameterError("library 'mkl' must be installed (pip install mkl), and is not")
-
-
-_PLANNERS: dict[str, Callable[[], Planner]] = {
+_PLANNERS: dict[str, Callable[[Any], Planner]] = {
     "pyfftw": _with_pyfftw,
     "mkl": _with_mkl,
     "scipy": _with_scipy,
 }
-
-
-def mkl_candidates() -> list[Path]:
-    """
-    Where MKL's runtime library may lie: where its wheel says, then where environments keep their
-    libraries.
-    """
-    found: list[Path] = []
-    try:
-        files = metadata.files("mkl") or []
-        found += [
-            Path(str(file.locate()))
-            for file in files
-            if file.name.startswith(("libmkl_rt", "mkl_rt"))
-        ]
-    except metadata.PackageNotFoundError:
-        pass
-    for folder, pattern in (("lib", "libmkl_rt*"), ("Library/bin", "mkl_rt*.dll")):
-        found += sorted(Path(sys.prefix, folder).glob(pattern))
-    return list(dict.fromkeys(path.resolve() for path in found if path.exists()))

@@ -1,7 +1,4 @@
-"""
-Which law a cost follows: its exponent with the standard error, what it costs to call at all, and
-where two costs cross.
-"""
+"""Laws fitted to costs, and the size at which two costs cross."""
 
 import math
 from collections.abc import Callable
@@ -28,8 +25,7 @@ class PowerLaw:
 @dataclass(frozen=True, slots=True)
 class Cost:
     """
-    y = overhead + factor law(N): what a call costs before it does anything, and what each unit of
-    work adds.
+    y = overhead + factor law(N): a constant cost of each call, and the cost of its work.
     """
 
     overhead: float
@@ -47,22 +43,21 @@ class Cost:
 @dataclass(frozen=True, slots=True)
 class Crossing:
     """
-    Where one cost undercuts another for good: between two measured sizes, and at a point between
-    them.
+    The size from which one cost stays below another, between two measured sizes.
     """
 
-    below: float  # the largest size at which it is still the dearer one
-    above: float  # the next: from here on it is the cheaper one
-    at: float  # by a straight line between the logarithms
+    below: float  # the largest size at which it still costs more
+    above: float  # the next size: from here on it costs less
+    at: float  # by linear interpolation of the logarithms
 
 
 def n_log_n(count: Real) -> Real:
-    """N log2 N: the work of a fast Fourier transform of N points."""
+    """Return N log2 N: the work of a fast Fourier transform of N points."""
     return np.asarray(count * np.log2(count))
 
 
 def square(count: Real) -> Real:
-    """N^2: the work of summing N waves at N points."""
+    """Return N^2: the work of summing N waves at N points."""
     return np.asarray(count * count)
 
 
@@ -76,10 +71,10 @@ def power_law(x: RealLike, y: RealLike) -> PowerLaw:
     u, v = (np.log(_positive(values)) for values in (x, y))
     if u.size != v.size or u.size < 3 or np.ptp(u) == 0.0:
         raise ValueError(f"a power law needs at least three points of different x, got {u.size}")
-    apart = u - u.mean()
-    exponent = float(apart @ v / (apart @ apart))
-    rest = v - v.mean() - exponent * apart
-    error = math.sqrt(float(rest @ rest) / (u.size - 2) / float(apart @ apart))
+    centred = u - u.mean()
+    exponent = float(centred @ v / (centred @ centred))
+    rest = v - v.mean() - exponent * centred
+    error = math.sqrt(float(rest @ rest) / (u.size - 2) / float(centred @ centred))
     return PowerLaw(math.exp(float(v.mean() - exponent * u.mean())), exponent, error, int(u.size))
 
 
@@ -101,21 +96,23 @@ def cost(work: RealLike, y: RealLike, law: Callable[[Real], Real]) -> Cost:
 
 def crossover(sizes: RealLike, challenger: RealLike, champion: RealLike) -> Crossing | None:
     """
-    Find from which size on the challenger costs less than the champion, at every larger size
-    measured; None if it never does.
+    Return the size from which the challenger costs less than the champion; None if there is none.
 
-    Where it is the cheaper one from the first size on, `below` and `at` are that size.
+    It costs less at every larger size measured. If it costs less at all sizes, `below` and `at` are
+    the first.
 
     Args:
-        sizes: in rising order.
-        challenger, champion: what each costs at these sizes, > 0.
+        sizes: ascending.
+        challenger, champion: costs at these sizes, > 0.
+
+    Raises:
+        ValueError: sizes that do not ascend, or a cost that is not positive.
     """
     n = np.asarray(sizes, dtype=np.float64)
-    lead = np.log(
-        _positive(champion) / _positive(challenger)
-    )  # > 0 where the challenger costs less
+    # > 0 where the challenger costs less
+    lead = np.log(_positive(champion) / _positive(challenger))
     if n.ndim != 1 or n.size != lead.size or np.any(np.diff(n) <= 0.0):
-        raise ValueError("sizes must rise, one for each cost")
+        raise ValueError("sizes must be ascending, one for each cost")
     if n.size == 0 or lead[-1] <= 0.0:
         return None
     behind = np.flatnonzero(lead <= 0.0)
@@ -127,16 +124,18 @@ def crossover(sizes: RealLike, challenger: RealLike, champion: RealLike) -> Cros
 
 
 def _positive(values: RealLike) -> Real:
+    """Return an array, every entry of which is positive and finite."""
     array = np.atleast_1d(np.asarray(values, dtype=np.float64))
     if not np.all((array > 0.0) & np.isfinite(array)):
-        raise ValueError(f"only what is positive and finite has a logarithm, got {array!r:.80}")
+        raise ValueError(f"values must be positive and finite, got {array!r:.80}")
     return array
 
 
 def _not_negative(columns: Real) -> tuple[float, float]:
     """
-    The (a, b) >= 0 for which columns @ (a, b) comes nearest to 1: of the two unknowns, one may have
-    to be 0.
+    Return the (a, b) >= 0 for which columns @ (a, b) is closest to 1, by least squares.
+
+    If the unconstrained solution has a negative entry, one of the two is 0.
     """
     ones = np.ones(columns.shape[0])
     a, b = (float(v) for v in np.linalg.lstsq(columns, ones, rcond=None)[0])

@@ -1,4 +1,4 @@
-"""On what a time was measured: the processor, the memory, the versions, and how busy it all was."""
+"""Description of the machine on which times are measured."""
 
 import contextlib
 import os
@@ -16,7 +16,7 @@ PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyFFTW", "mkl", "matplotlib"
 
 
 def describe() -> dict[str, Any]:
-    """Say what machine this is, as plain data: strings, numbers, lists and dicts of them."""
+    """Return the machine as plain data: strings, numbers, lists and dicts of them."""
     return {
         "cpu": host.processor(),
         "instructions": instructions(),
@@ -34,7 +34,7 @@ def describe() -> dict[str, Any]:
 
 def moment() -> dict[str, Any]:
     """
-    Say how busy the machine is now: the load is that of the last minute, this measurement included.
+    Return the time and the load of the machine in the last minute, this measurement included.
     """
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else None
     return {
@@ -44,7 +44,7 @@ def moment() -> dict[str, Any]:
 
 
 def instructions() -> list[str]:
-    """The vector instructions that matter to an FFT."""
+    """Return the vector instructions that matter to an FFT."""
     for line in host.read_system_file("/proc/cpuinfo").splitlines():
         if line.startswith(("flags", "Features")):
             flags = set(line.partition(":")[2].split())
@@ -57,7 +57,7 @@ def instructions() -> list[str]:
 
 
 def caches() -> dict[str, str]:
-    """The data caches that core 0 sees, by level, with how many cores share each."""
+    """Return the data caches of core 0 by level, with the number of cores that share each."""
     found = {}
     for folder in sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
         kind, level, size = (
@@ -70,14 +70,14 @@ def caches() -> dict[str, str]:
 
 
 def memory() -> float:
-    """Bytes of memory in the machine; 0 if unknown."""
+    """Return the memory of the machine [bytes]; 0 if unknown."""
     if hasattr(os, "sysconf") and {"SC_PHYS_PAGES", "SC_PAGE_SIZE"} <= os.sysconf_names.keys():
         return float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
     return 0.0
 
 
 def versions() -> dict[str, str]:
-    """The versions of what does the work, of those that are installed."""
+    """Return the versions of the packages that are installed."""
     found = {}
     for package in PACKAGES:
         with contextlib.suppress(metadata.PackageNotFoundError):
@@ -87,7 +87,7 @@ def versions() -> dict[str, str]:
 
 def fft_libraries() -> dict[str, str]:
     """
-    The FFT libraries that an ocean can use here, the default first, with what they call themselves.
+    Return the names and versions of the FFT libraries installed, by backend, the default first.
     """
     return {
         backend: name
@@ -98,20 +98,22 @@ def fft_libraries() -> dict[str, str]:
 
 def backends() -> tuple[str, ...]:
     """
-    The FFT libraries that an ocean can use here, the default first, by the names that it knows them
-    by.
+    Return the FFT backends installed, the default first.
     """
     return tuple(fft_libraries())
 
 
 def one_line(machine: dict[str, Any]) -> str:
-    """The machine in one line, for the foot of a picture."""
+    """Return the machine in one line, for the foot of a plot."""
     libraries = ", ".join(machine["fft_libraries"].values())
-    return f"{machine['cpu']}, {machine['usable_cores']} cores; {machine['python']}, NumPy {machine['packages']['numpy']}; {libraries}"
+    return (
+        f"{machine['cpu']}, {machine['usable_cores']} cores; {machine['python']}, "
+        f"NumPy {machine['packages']['numpy']}; {libraries}"
+    )
 
 
 def _count(ranges: str) -> int:
-    """How many a list such as "0-3,8" names."""
+    """Return the number of entries of a list such as "0-3,8"."""
     total = 0
     for first, last in re.findall(r"(\d+)(?:-(\d+))?", ranges):
         total += int(last or first) - int(first) + 1

@@ -1,11 +1,9 @@
-"""
-The two-minute version: what a frame costs on this machine, how much faster than the usual ways that
-is, and what two threads help.
-"""
+"""Quick benchmark of frames, in about two minutes."""
 
 import time
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -23,17 +21,17 @@ from fftocean.physics.sea import Sea
 SIZES = (128, 256, 512, 1024)
 DIRECT_SIZES = (4, 6, 8, 10, 12, 16, 24, 32, 48, 64, 128)
 SECONDS = Quantity("s", 0.0, 86400.0)
-ASKS = "What does a frame of water cost here, and what would it cost by other means?"
-# waves x points that one call of the direct sum may take, about half a second; beyond, it sums a
-# part of the points
+ASKS = "What does a frame cost on this machine, and by other methods?"
+# the largest number of waves x points in one call of the direct sum, about half a second; beyond
+# this only some of the points are summed
 DIRECT_CALL = 2.5e7
-# of the largest value: float32 has 1e-7, a transform's rounding grows it tenfold, normals more;
-# another sea is apart by 1
+# of the largest value: float32 has 1e-7, the rounding of a transform ten times that, normals more;
+# the difference from another sea is 1
 WITHIN = 1e-5
 
 
 def sea() -> Sea:
-    """The sea of all benchmarks: a fresh breeze over 100 km, deep."""
+    """Return the sea of all benchmarks: a fresh breeze over 100 km, in deep water."""
     return Sea.from_wind(speed=10.0, fetch=100e3)
 
 
@@ -46,7 +44,7 @@ def ocean(
     planning: str = "measure",
     threads: int = 1,
 ) -> Ocean:
-    """The tile of all benchmarks, n x n."""
+    """Return the tile of all benchmarks, n x n."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SeaWarning)
         return Ocean(
@@ -69,14 +67,14 @@ def quick(
     progress: Callable[[str, float], object] | None = None,
 ) -> Result:
     """
-    Measure for about `seconds`; the least that can be told takes some ten, of which most is the
-    largest size.
+    Measure for about `seconds`; the shortest run takes about ten.
 
     Args:
-        seconds: how long, compiling and planning included [s].
+        seconds: the duration, compilation and planning included [s].
         sizes: samples a side of the frames.
-        direct_sizes: samples a side at which the direct sum is timed, in rising order.
-        progress: called with what is being done and the share of the time that is over, 0 to 1.
+        direct_sizes: samples a side at which the direct sum is timed, ascending.
+        progress: called with the name of the current part and the elapsed share of the time, 0
+            to 1.
 
     Raises:
         ParameterError: a value out of range.
@@ -85,19 +83,21 @@ def quick(
     for n in (*sizes, *direct_sizes):
         SAMPLES.check("n", n)
     if not sizes or len(direct_sizes) < 2 or list(direct_sizes) != sorted(set(direct_sizes)):
-        raise ParameterError("sizes must be at least one, and direct_sizes at least two, rising")
+        raise ParameterError(
+            "sizes must be at least one, and direct_sizes at least two, strictly ascending"
+        )
     before, start = machine.moment(), time.perf_counter()
 
-    def say(what: str) -> None:
+    def say(part: str) -> None:
         if progress:
-            progress(what, min(1.0, (time.perf_counter() - start) / max(seconds, 1e-9)))
+            progress(part, min(1.0, (time.perf_counter() - start) / max(seconds, 1e-9)))
 
     readings: list[Reading] = []
     shares = len(sizes) + 1.0  # of the time: one for each size, one for the direct sum
     for i, n in enumerate(sizes):
         say(f"frames of {n} x {n}")
         left = seconds * (i + 1) / shares - (time.perf_counter() - start)
-        readings += frames(n, max(0.0, left), lambda: say(f"frames of {n} x {n}"))  # noqa: B023 - called in this round only
+        readings += frames(n, max(0.0, left), partial(say, f"frames of {n} x {n}"))
     for i, n in enumerate(direct_sizes):
         say(f"the direct sum at {n} x {n}")
         left = (seconds - (time.perf_counter() - start)) / (len(direct_sizes) - i)
@@ -115,7 +115,7 @@ def quick(
 
 
 def frames(n: int, seconds: float, tick: Callable[[], object]) -> list[Reading]:
-    """Time full frames against the textbook's and the careful way, then one thread against two."""
+    """Time full frames against the textbook and careful contenders, then one thread against two."""
     own = ocean(n)
     at: dict[str, Condition] = {"n": n, "backend": own.backend, "dtype": "float32", "threads": 1}
     fast, textbook, careful = Fast(own), Textbook(own), Careful(own)
@@ -140,8 +140,9 @@ def frames(n: int, seconds: float, tick: Callable[[], object]) -> list[Reading]:
 
 def direct(n: int, seconds: float) -> list[Reading]:
     """
-    Time the eight linear fields by FFT against summing all waves at all points, or at as many as
-    can be waited for.
+    Time the eight linear fields by FFT against the direct sum.
+
+    For many waves and points the direct sum is timed at some of the points, and scaled.
     """
     own = ocean(n)
     waves = max(1, own.modes().kx.size)
@@ -163,8 +164,10 @@ def direct(n: int, seconds: float) -> list[Reading]:
 
 def crossing(readings: Sequence[Reading]) -> Reading | None:
     """
-    From which n on the FFT costs less than the direct sum, of readings by `direct`; None if it
-    never does.
+    Return the n from which the FFT costs less than the direct sum; None if there is none.
+
+    Args:
+        readings: of `direct`.
     """
     ratios = sorted((r for r in readings if r.what == "direct sum / FFT"), key=lambda r: r.at["n"])
     if len(ratios) < 2:

@@ -1,7 +1,4 @@
-"""
-What was measured, as a file that explains itself: the question, the machine, the settings, and
-every reading with its spread.
-"""
+"""Results of benchmarks: the question, the machine, the settings and every reading."""
 
 import json
 import math
@@ -25,7 +22,7 @@ Condition = str | int | float | bool
 @dataclass(frozen=True, slots=True)
 class Reading:
     """
-    One measured quantity: its median with quartiles, by which clock, and under which conditions.
+    One measured quantity: its median with quartiles, the clock, and the conditions.
     """
 
     what: str
@@ -34,7 +31,7 @@ class Reading:
     low: float
     high: float
     count: int
-    clock: str = ""  # "cpu", "wall", or "" for what no clock shows
+    clock: str = ""  # "cpu", "wall", or "" for quantities that are not times
     at: Mapping[str, Condition] = field(
         default_factory=dict
     )  # n, backend, dtype, threads, fields, ...
@@ -47,7 +44,8 @@ class Reading:
             )
         if self.count < 1 or self.unit not in UNITS or self.clock not in CLOCKS:
             raise ReaderError(
-                f"{self.what}: count, unit or clock is none of ours, got {self.count}, {self.unit!r}, {self.clock!r}"
+                f"{self.what}: count, unit or clock is unknown, got {self.count}, "
+                f"{self.unit!r}, {self.clock!r}"
             )
 
     @classmethod
@@ -61,24 +59,24 @@ class Reading:
         scale: float = 1.0,
         clock: str = "",
     ) -> "Reading":
-        """A reading from a summary, each of its numbers times `scale`."""
+        """Return a reading from a summary, each of its numbers times `scale`."""
         return cls(what, unit, scale * s.median, scale * s.low, scale * s.high, s.count, clock, at)
 
     @classmethod
     def single(
         cls, what: str, unit: str, value: float, at: Mapping[str, Condition], *, clock: str = ""
     ) -> "Reading":
-        """A reading without spread: counted, reckoned, or measured once."""
+        """Return a reading without spread: counted, computed, or measured once."""
         return cls(what, unit, float(value), float(value), float(value), 1, clock, at)
 
     def scaled(self, factor: float) -> "Reading":
-        """The same, each of its numbers times a factor: what a part cost, for the whole."""
+        """Return the reading times a factor, which extends the cost of a part to the whole."""
         return replace(
             self, median=factor * self.median, low=factor * self.low, high=factor * self.high
         )
 
     def plain(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """Return the values as they are stored in JSON."""
         spread = {"median": self.median, "quartiles": [self.low, self.high], "count": self.count}
         return {"what": self.what, **self.at, "unit": self.unit, **spread, "clock": self.clock}
 
@@ -87,12 +85,12 @@ class Reading:
 class Result:
     """The answer to one question."""
 
-    question: str  # the name of the file that asks it
-    asks: str  # in words
+    question: str  # the name of the script
+    asks: str  # the question in words
     readings: tuple[Reading, ...]
     settings: Mapping[str, Any]
     machine: Mapping[str, Any]
-    before: Mapping[str, Any]  # when, and how busy the machine was
+    before: Mapping[str, Any]  # the time and load before; `after` likewise
     after: Mapping[str, Any]
 
     def find(self, what: str, *, clock: str | None = None, **at: Condition) -> Reading:
@@ -108,12 +106,12 @@ class Result:
         return found[0]
 
     def all(self, what: str, *, clock: str | None = None, **at: Condition) -> list[Reading]:
-        """Every reading of that name, by that clock where one is named, under these conditions."""
+        """Return all readings of that name, by that clock if given, under these conditions."""
         named = (r for r in self.readings if r.what == what and clock in (None, r.clock))
         return [r for r in named if all(r.at.get(key) == value for key, value in at.items())]
 
     def plain(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """Return the values as they are stored in JSON."""
         return {
             "schema": SCHEMA,
             "question": self.question,
@@ -137,7 +135,7 @@ class Result:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Entry:
-    """A contender: what it makes, how, and under which conditions."""
+    """A contender: its name, its function, and its conditions."""
 
     what: str
     run: Callable[[], object]
@@ -161,8 +159,17 @@ def race(
     tick: Callable[[], object] | None = None,
 ) -> list[Reading]:
     """
-    Let contenders take turns: the milliseconds of each, and the ratios of pairs, round by round,
-    under the fast one's conditions.
+    Time contenders alternately.
+
+    Args:
+        entries: the contenders.
+        pairs: whose ratios are taken round by round, under the conditions of the fast one.
+        clock: "cpu" or "wall".
+        seconds: the approximate duration [s].
+        tick: called after each round.
+
+    Returns:
+        A reading of each entry [ms], of each pair, and of wall time over CPU time.
     """
     names = {entry: str(i) for i, entry in enumerate(entries)}
     rounds = alternate({names[entry]: entry.run for entry in entries}, seconds=seconds, tick=tick)
@@ -173,7 +180,7 @@ def race(
     for pair in pairs:
         ratio = rounds.ratio(names[pair.slow], names[pair.fast], clock)
         readings.append(Reading.of(pair.what, "x", ratio, pair.fast.at, clock=clock))
-    if clock == "cpu":  # 1 where the work had its core to itself, more where others took it away
+    if clock == "cpu":  # 1 if no other process used the core
         first = names[entries[0]]
         readings.append(
             Reading.of(BUSY, "x", summary(rounds.wall[first] / rounds.cpu[first]), entries[0].at)
@@ -188,7 +195,7 @@ def answer(
     settings: Mapping[str, Any],
     before: Mapping[str, Any],
 ) -> Result:
-    """Put readings together with the machine that they were taken on."""
+    """Return readings together with a description of the machine."""
     return Result(
         question,
         asks,
@@ -202,10 +209,10 @@ def answer(
 
 def read(path: Path) -> Result:
     """
-    Read a result back.
+    Read a result from a file.
 
     Raises:
-        ReaderError: the file is not there, or is not one of ours.
+        ReaderError: the file does not exist, or is not a result.
     """
     try:
         tree = json.loads(path.read_text(encoding="utf-8"))
@@ -216,10 +223,10 @@ def read(path: Path) -> Result:
 
 def parse(tree: Any, source: str = "result") -> Result:
     """
-    Take plain data for a result, and look at every part of it.
+    Return a result from plain data, every part of which is checked.
 
     Raises:
-        ReaderError: a part is missing, too many, or not of its kind.
+        ReaderError: a part is missing, unknown, or of another type.
     """
     if not isinstance(tree, dict) or tree.get("schema") != SCHEMA:
         raise ReaderError(f"{source} must be a result of schema {SCHEMA}")
@@ -238,7 +245,7 @@ def parse(tree: Any, source: str = "result") -> Result:
                 f"{source}: {key} must be a {kind.__name__}, got {tree.get(key)!r:.40}"
             )
     if extra := sorted(tree.keys() - kinds.keys() - {"schema"}):
-        raise ReaderError(f"{source}: nothing is known of {', '.join(extra)}")
+        raise ReaderError(f"{source}: unknown keys {', '.join(extra)}")
     readings = tuple(
         _reading(row, f"{source}: readings[{i}]") for i, row in enumerate(tree["readings"])
     )
@@ -246,6 +253,7 @@ def parse(tree: Any, source: str = "result") -> Result:
 
 
 def _reading(row: Any, source: str) -> Reading:
+    """Return a reading from a row of JSON, every value of which is checked."""
     try:
         rest = dict(row)
         what, unit, median, count, clock = (
@@ -259,7 +267,7 @@ def _reading(row: Any, source: str) -> Reading:
             or type(count) is not int
             or not all(isinstance(v, str | int | float) for v in rest.values())
         ):
-            raise TypeError("a value of another kind")
+            raise TypeError("a value of another type")
         return Reading(what, unit, float(median), float(low), float(high), count, clock, rest)
     except (KeyError, TypeError, ValueError) as error:  # a ReaderError is a ValueError
         raise ReaderError(f"{source} is no reading: {error!s:.120}") from None

@@ -1,9 +1,9 @@
 """
-Who is faster, and by how much: contenders that take turns, and ratios taken turn by turn.
+Alternating measurements of time.
 
-A machine is never the same for two seconds: clocks rise and sink, others come and go. So the
-contenders run in turn, each ratio is taken between two that ran side by side, and what is reported
-is the median of these ratios with its quartiles, not a ratio of best times.
+The speed of a machine changes from second to second, with its clock and its other processes.
+Contenders therefore run alternately, ratios are taken within each round, and the result is the
+median of these ratios with its quartiles, rather than a ratio of best times.
 """
 
 import time
@@ -17,19 +17,19 @@ from fftocean.arrays import Real
 
 Clock = Literal["cpu", "wall"]
 """
-`cpu`: the time of all threads of this process, which others cannot lengthen much. `wall`: what a
-clock on the wall shows.
+`cpu`: the time of all threads of this process, which other processes hardly affect. `wall`: elapsed
+time.
 """
 
-# [s] that one sample takes at least: far above the clocks' own 1e-6, and several frames of what
-# fits the cache
+# [s], the shortest sample: far above the clocks' resolution of 1e-6, and several frames of a tile
+# that fits the cache
 SAMPLE = 5e-3
-ROUNDS = 3  # at least
+ROUNDS = 3  # the smallest number of rounds
 
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """A median with its quartiles, and of how many."""
+    """The median and quartiles of samples, and their number."""
 
     median: float
     low: float  # a quarter of the samples lie below
@@ -40,29 +40,30 @@ class Summary:
 @dataclass(frozen=True, slots=True)
 class Rounds:
     """
-    The samples of contenders that took turns: seconds a call, (rounds,) for each, of both clocks;
-    entry i of all is from round i.
+    The samples of contenders that ran alternately.
+
+    Each array holds seconds a call, (rounds,); entry i of all arrays is from round i.
     """
 
     cpu: Mapping[str, Real]
     wall: Mapping[str, Real]
 
     def of(self, name: str, clock: Clock) -> Real:
-        """The samples of one contender [s]."""
+        """Return the samples of one contender [s]."""
         return (self.cpu if clock == "cpu" else self.wall)[name]
 
     def seconds(self, name: str, clock: Clock) -> Summary:
-        """Sum up one contender [s]."""
+        """Return the summary of one contender [s]."""
         return summary(self.of(name, clock))
 
     def ratio(self, slow: str, fast: str, clock: Clock) -> Summary:
-        """How many times as long `slow` takes as `fast`, round by round [-]."""
+        """Return the summary of the ratios of `slow` to `fast`, round by round [-]."""
         return summary(self.of(slow, clock) / self.of(fast, clock))
 
 
 def summary(samples: Sequence[float] | Real) -> Summary:
     """
-    Sum samples up by their median and quartiles (linear between the order statistics).
+    Return the median and quartiles of samples (linear between the order statistics).
 
     Raises:
         ValueError: no samples, or one that is not finite.
@@ -84,27 +85,26 @@ def alternate(
     tick: Callable[[], object] | None = None,
 ) -> Rounds:
     """
-    Time contenders in turn, warmed up, for about `seconds`.
+    Time contenders alternately for about `seconds`, after a warm-up.
 
-    Each first runs twice untimed: once to compile and plan, once to see how many calls make a
-    sample. Every other round goes backwards, so that nobody always inherits the same neighbour's
-    cache.
+    Each first runs twice untimed: once to compile and plan, once to find the number of calls in a
+    sample. Every other round runs in reverse, so that no contender always finds the same cache.
 
     Args:
-        contenders: what to call, by name.
-        seconds: when to stop, once there are `least` rounds.
-        least, most: rounds.
+        contenders: functions to call, by name.
+        seconds: the time after which to stop, once there are `least` rounds [s].
+        least, most: limits of the number of rounds.
         sample: shorter calls are repeated until a sample takes this long [s].
-        tick: called after each round, to show that something goes on.
+        tick: called after each round, to show progress.
     """
     calls = {name: _calls_a_sample(run, sample) for name, run in contenders.items()}
     cpu: dict[str, list[float]] = {name: [] for name in contenders}
     wall: dict[str, list[float]] = {name: [] for name in contenders}
     end = time.perf_counter() + seconds
-    order = list(contenders)
+    sequence = list(contenders)
     done = 0
     while done < most and (done < least or time.perf_counter() < end):
-        for name in order:
+        for name in sequence:
             run, repeats = contenders[name], range(calls[name])
             c, w = time.process_time(), time.perf_counter()
             for _ in repeats:
@@ -112,7 +112,7 @@ def alternate(
             w, c = time.perf_counter() - w, time.process_time() - c
             cpu[name].append(c / calls[name])
             wall[name].append(w / calls[name])
-        order.reverse()
+        sequence.reverse()
         done += 1
         if tick:
             tick()
@@ -124,8 +124,9 @@ def alternate(
 
 def _calls_a_sample(run: Callable[[], object], sample: float) -> int:
     """
-    Warm up, and count how many calls fill a sample [s]. A call that takes a quarter of a second
-    needs no second one to be warm.
+    Warm up, and return the number of calls that fill a sample [s].
+
+    A call that takes a quarter of a second is not repeated to warm up.
     """
     once = _seconds(run)
     if once < 0.25:
@@ -134,6 +135,7 @@ def _calls_a_sample(run: Callable[[], object], sample: float) -> int:
 
 
 def _seconds(run: Callable[[], object]) -> float:
+    """Return the elapsed time of one call [s]."""
     start = time.perf_counter()
     run()
     return time.perf_counter() - start

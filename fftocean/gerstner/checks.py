@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.arrays import Real, RealLike
+from fftocean.arrays import Real
 from fftocean.errors import ParameterError
 from fftocean.limits import Count, Quantity
 
@@ -64,25 +64,6 @@ def check_columns(**given: tuple[Any, Quantity]) -> dict[str, tuple[float, ...]]
 def set_columns(model: Any, given: dict[str, tuple[Any, Quantity]]) -> None:
     for name, column in check_columns(**given).items():
         object.__setattr__(model, name, column)
-
-
-def check_array(name: str, values: RealLike, quantity: Quantity) -> Real:
-    """
-    Return values as a float64 array.
-
-    Raises:
-        ParameterError: an entry is no number in range.
-    """
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ParameterError(
-            f"{name} must be numbers {quantity.rule}, got {values!r:.60}"
-        ) from error
-    good = (array >= quantity.low) & (array <= quantity.high)
-    if not np.all(good):
-        raise ParameterError(f"{name} must be {quantity.rule}, got {array[~good].flat[0]}")
-    return array
 
 
 def pair(name: str, value: Any) -> tuple[Any, Any]:

@@ -32,7 +32,7 @@ class TrochoidalWaves:
 
     A finite `loop` makes the surface repeat after that time: every omega becomes the nearest whole
     multiple of 2 pi/loop, which is off by at most pi/loop; waves that would stand still are sped up
-    to one turn a loop.
+    to one cycle a loop.
 
     Each of kx, kz, a and phi is one number for all waves or a list of one for each.
 

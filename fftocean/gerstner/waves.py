@@ -16,7 +16,6 @@ from fftocean.gerstner.checks import (
     FREQUENCY,
     POSITION,
     SHARPNESS,
-    check_array,
     check_columns,
     check_tau,
     pair,
@@ -210,7 +209,7 @@ class Waves:
 
         Both are 0 before t = 0. Without a ramp they are 1 and 0.
         """
-        t = check_array("t", t, TIME)
+        t = TIME.check_array("t", t)
         if self.tau == 0.0:
             return np.ones_like(t), np.zeros_like(t)
         age = np.maximum(t, 0.0) / self.tau
@@ -231,9 +230,9 @@ class Waves:
         above.
         """
         x0, y0, t = np.broadcast_arrays(
-            check_array("x0", x0, POSITION),
-            check_array("y0", y0, POSITION),
-            check_array("t", t, TIME),
+            POSITION.check_array("x0", x0),
+            POSITION.check_array("y0", y0),
+            TIME.check_array("t", t),
         )
         grow, grow_rate = self.ramp(t)
         height, dx, dy, sx, sy, xx, xy, yy, height_rate, dx_rate, dy_rate = np.zeros(

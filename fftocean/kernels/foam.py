@@ -1,4 +1,4 @@
-"""One time step of foam: decay, and the foam of crests that break."""
+"""One time step of foam: decay, and growth where water breaks."""
 
 import numpy as np
 
@@ -19,11 +19,11 @@ def advance(
     state: Real,
 ) -> None:
     """
-    Advance state to decay state + sum over i of weights[i] max(threshold - lambda(u_i), 0).
+    Advance state to decay state + sum over i of weights[i] max(threshold - eigenvalue(u_i), 0).
 
-    lambda is the smallest eigenvalue of the deformation gradient: a cubic through four values,
-    evaluated at times u_i from `now` to `then` as the sum of cubic[i] times the four. So a crest
-    that breaks between two times is not missed.
+    The smallest eigenvalue of the deformation gradient is a cubic through the four given times, and
+    u_i are times from `now` to `then`: eigenvalue(u_i) is the sum of cubic[i] times the four. So a
+    crest that breaks between two steps is not missed.
     """
     for j in range(state.shape[0]):
         a, b, c, d, f = before[j], now[j], then[j], after[j], state[j]

@@ -107,7 +107,7 @@ def unpacked(path: Path) -> Iterator[IO[bytes]]:
 
 
 def _after_mark(stream: IO[bytes]) -> IO[bytes]:
-    """Return a stream at its first byte, or after a byte-order mark, which some editors add."""
+    """Return a stream at its first byte, after a byte-order mark if it has one."""
     if stream.read(len(codecs.BOM_UTF8)) != codecs.BOM_UTF8:
         stream.seek(0)
     return stream

@@ -1,6 +1,5 @@
 """
-A bake under the hammer: killed at random moments and resumed; then flipped, cut, bereft of files
-and mixed up, in every format.
+Random faults in bakes of every format: kills, flipped bits, cut, missing and exchanged files.
 
     python tests/baking/hammer.py --kills 50 --flips 200 --cuts 20 --deletions 20 --swaps 10
 
@@ -47,17 +46,17 @@ def tree(folder):
     }
 
 
-def command(order, folder):
+def command(sea_job, folder):
     """A bake as a process of its own, with two workers."""
     flags = [
         "--n",
-        order.settings["ocean.n"],
+        sea_job.settings["ocean.n"],
         "--frames",
-        order.frames,
+        sea_job.frames,
         "--maps",
-        ",".join(order.maps),
+        ",".join(sea_job.maps),
         "--format",
-        order.format,
+        sea_job.format,
     ]
     words = ["bake", "-o", folder, *flags, "--executor", "processes", "--workers", 2, "--quiet"]
     return [sys.executable, "-m", "fftocean", *map(str, words)]
@@ -72,28 +71,28 @@ def environment():
     }
 
 
-def undisturbed(order, folder):
+def undisturbed(sea_job, folder):
     """A bake left alone, and how long it took as a process."""
     start = time.monotonic()
-    subprocess.run(command(order, folder), env=environment(), check=True, capture_output=True)
+    subprocess.run(command(sea_job, folder), env=environment(), check=True, capture_output=True)
     return tree(folder), time.monotonic() - start
 
 
-def kills(order, place, count, chance, number=signal.SIGKILL):
+def kills(sea_job, place, count, chance, number=signal.SIGKILL):
     """
     Kill a bake at random moments, each time another one, until it is done; `count` kills in all,
     over several bakes.
 
     Returns (kills, bakes, false "complete", bakes whose bytes differ in the end, exit codes).
     """
-    expected, seconds = undisturbed(order, place / "undisturbed")
+    expected, seconds = undisturbed(sea_job, place / "undisturbed")
     done, bakes, false, different, codes = 0, 0, 0, 0, set()
     while done < count:
         folder = place / f"killed-{bakes}"
         bakes += 1
         for _ in range(4):  # times that one bake is killed
             process = subprocess.Popen(
-                command(order, folder),
+                command(sea_job, folder),
                 env=environment(),
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
@@ -112,21 +111,21 @@ def kills(order, place, count, chance, number=signal.SIGKILL):
             )
             if done == count:
                 break
-        subprocess.run(command(order, folder), env=environment(), check=True, capture_output=True)
+        subprocess.run(command(sea_job, folder), env=environment(), check=True, capture_output=True)
         different += tree(folder) != expected
         shutil.rmtree(folder)
     return done, bakes, false, different, codes
 
 
-def faults(order, place, counts, chance):
+def faults(sea_job, place, counts, chance):
     """
     Do every kind of damage to a bake, one at a time, see whether `check` names the file, and mend
     it.
 
     Returns {kind: (done, named, mended)}.
     """
-    folder = place / order.format
-    fo.bake(order, folder, executor="serial")
+    folder = place / sea_job.format
+    fo.bake(sea_job, folder, executor="serial")
     expected = tree(folder)
     assert not check(folder), check(folder)
     figures = {}
@@ -194,10 +193,10 @@ def main(arguments=None):
     with tempfile.TemporaryDirectory() as place:
         if options.kills:
             for name, share in (("exr", 0.6), ("ktx2", 0.4)):
-                order = job(name, options.n, options.frames)
+                sea_job = job(name, options.n, options.frames)
                 count = round(share * options.kills)
                 done, bakes, false, different, _ = kills(
-                    order, Path(place) / f"kills-{name}", count, chance
+                    sea_job, Path(place) / f"kills-{name}", count, chance
                 )
                 same = f"{bakes - different} of {bakes} with the same bytes"
                 print(

@@ -1,6 +1,5 @@
 """
-A bake is a folder that can be trusted: whole files or none, the manifest last, nothing outside, the
-same bytes again.
+Bakes: complete files or none, the manifest last, nothing outside the folder, the same bytes again.
 """
 
 import dataclasses
@@ -120,11 +119,11 @@ def whole(tmp_path_factory):
         "bake__frames": 3,
         "bake__maps": ["displacement", "normal", "jacobian", "height"],
     }
-    order = job(**settings, sea__depth=5.0, ocean__choppiness=1.3)
+    sea_job = job(**settings, sea__depth=5.0, ocean__choppiness=1.3)
     with pytest.MonkeyPatch.context() as patch:
         for name, value in SMALL_PICTURE.items():
             patch.setattr(preview, name, value)
-        return order, folder, fo.bake(order, folder)
+        return sea_job, folder, fo.bake(sea_job, folder)
 
 
 def test_the_manifest_is_strict_json_and_what_bake_returns(whole):
@@ -157,13 +156,13 @@ def test_checksums_are_those_of_the_files(whole):
         assert hashlib.sha256((folder / entry["path"]).read_bytes()).hexdigest() == entry["sha256"]
 
 
-def test_pictures_are_the_fields_of_the_ocean(whole):
+def test_maps_are_the_fields_of_the_ocean(whole):
     """
     To the half: each channel of each map against the ocean's own frame at that moment, displacement
     times choppiness.
     """
-    order, folder, manifest = whole
-    ocean = order.ocean()
+    sea_job, folder, manifest = whole
+    ocean = sea_job.ocean()
     for j, row in enumerate(manifest["frames"]):
         frame = ocean.loop_frame(j, 3, ("height", "displace_x", "displace_y", "normal", "jacobian"))
         assert (row["frame"], row["t"]) == (j, 16.0 * j / 3)
@@ -199,8 +198,8 @@ def test_ranges_hold_for_every_stored_pixel_of_the_sequence(whole):
 
 def test_extremes_bound_the_water(whole):
     """Of the unrounded frames: for culling, and to know whether the surface folds."""
-    order, _, manifest = whole
-    ocean, most = order.ocean(), manifest["extremes"]
+    sea_job, _, manifest = whole
+    ocean, most = sea_job.ocean(), manifest["extremes"]
     frames = [
         ocean.loop_frame(j, 3, ("height", "displace_x", "displace_y", "jacobian")) for j in range(3)
     ]
@@ -216,8 +215,8 @@ def test_extremes_bound_the_water(whole):
 
 def test_the_last_frame_leads_to_the_first(whole):
     """Frame F is frame 0, to the bit, and is not stored."""
-    order, folder, manifest = whole
-    after = order.ocean().loop_frame(3, 3, ("height",)).height
+    sea_job, folder, manifest = whole
+    after = sea_job.ocean().loop_frame(3, 3, ("height",)).height
     first, _, _ = exr.decode(
         (folder / manifest["frames"][0]["files"]["height"]["path"]).read_bytes()
     )
@@ -226,13 +225,13 @@ def test_the_last_frame_leads_to_the_first(whole):
 
 
 def test_the_manifest_has_the_specified_and_the_realised_statistics(whole):
-    order, _, manifest = whole
-    assert manifest["job"] == order.describe()
+    sea_job, _, manifest = whole
+    assert manifest["job"] == sea_job.describe()
     assert manifest["units"]["sea.wind.speed"] == "m/s"
     assert manifest["ocean"]["n"] == [12, 7]
     assert manifest["ocean"]["size"] == [60.0, 35.0]
     assert manifest["ocean"]["depth"] == 5.0
-    measured = fo.measure(order.ocean())
+    measured = fo.measure(sea_job.ocean())
     assert manifest["statistics"]["hs"] == measured.hs
     assert manifest["statistics"]["ordered"]["hs"] == measured.specified.hs
     assert manifest["statistics"]["loop"]["period"] == 16.0
@@ -244,7 +243,7 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
     The whole folder, picture and manifest too: no clock, no process number, no order of hashing
     gets in.
     """
-    order, folder, _ = whole
+    sea_job, folder, _ = whole
     text = (
         "sea.depth = 5.0\n[sea.wind]\nspeed = 7.0\nfetch = 35e3\ndirection = 25.0\n[ocean]\nn "
         "= [12, 7]\nsize = [60, 35]\nseed = 1\n"
@@ -254,7 +253,7 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
         "'jacobian', 'height']\n"
     )
     (tmp_path / "job.toml").write_text(text)
-    assert fo.Job.read(tmp_path / "job.toml").settings == order.settings
+    assert fo.Job.read(tmp_path / "job.toml").settings == sea_job.settings
     program = (
         "import sys; from fftocean import cli; from fftocean.baking.previews import sheets as "
         "preview; "
@@ -281,7 +280,7 @@ def environment(**more):
 
 
 @pytest.mark.usefixtures("small_picture")
-def test_pictures_are_drawn_on_request_and_listed(tmp_path, monkeypatch):
+def test_previews_are_made_on_request_and_listed(tmp_path, monkeypatch):
     """Each opens as what its name says; nothing is drawn that nobody asked for."""
     monkeypatch.setattr(baker, "measure", lambda _: some_statistics())
     names = {
@@ -328,13 +327,13 @@ def test_pictures_are_drawn_on_request_and_listed(tmp_path, monkeypatch):
     ids=str,
 )
 def test_jobs_of_all_kinds_bake(changes, tmp_path):
-    order = job(**changes)
-    shape = order.ocean().grid.shape
-    manifest = fo.bake(order, tmp_path / "out")
-    assert list(manifest["maps"]) == list(order.maps)
-    assert len(manifest["frames"]) == order.frames
+    sea_job = job(**changes)
+    shape = sea_job.ocean().grid.shape
+    manifest = fo.bake(sea_job, tmp_path / "out")
+    assert list(manifest["maps"]) == list(sea_job.maps)
+    assert len(manifest["frames"]) == sea_job.frames
     for row in manifest["frames"]:
-        assert list(row["files"]) == list(order.maps)
+        assert list(row["files"]) == list(sea_job.maps)
         for entry in row["files"].values():
             for channel in exr.decode((tmp_path / "out" / entry["path"]).read_bytes()):
                 assert np.all(np.isfinite(channel))
@@ -343,7 +342,7 @@ def test_jobs_of_all_kinds_bake(changes, tmp_path):
 
 
 @pytest.mark.usefixtures("quick")
-def test_the_order_and_choice_of_maps_does_not_change_a_picture(tmp_path):
+def test_the_order_and_choice_of_maps_does_not_change_a_map(tmp_path):
     fo.bake(job(bake__maps=["height", "displacement", "normal", "jacobian"]), tmp_path / "all")
     fo.bake(job(bake__maps=["jacobian", "displacement"]), tmp_path / "some")
     everything, some = tree(tmp_path / "all"), tree(tmp_path / "some")
@@ -517,7 +516,7 @@ def test_overwrite_removes_what_the_manifest_or_the_job_lists(tmp_path, form, le
 @pytest.mark.parametrize(
     "name", ["height/9999.exr", "jacobian/0000.exr", "spectrum.png", "height.ktx2", "foam/0001.npz"]
 )
-def test_overwrite_leaves_what_no_bake_claims(tmp_path, name):
+def test_overwrite_leaves_what_no_bake_lists(tmp_path, name):
     """
     A frame beyond the job's, another map, another format, a picture that it has not: somebody's
     own, and nothing is touched.
@@ -896,8 +895,8 @@ def test_a_limit_on_the_size_of_files_is_an_output_error(tmp_path):
     EFBIG.
     """
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    order = job(ocean__n=64)
-    order.ocean()  # whatever is to be compiled and cached is
+    sea_job = job(ocean__n=64)
+    sea_job.ocean()  # whatever is to be compiled and cached is
     try:
         resource.setrlimit(
             resource.RLIMIT_FSIZE, (4000, hard)
@@ -905,7 +904,7 @@ def test_a_limit_on_the_size_of_files_is_an_output_error(tmp_path):
         with pytest.raises(
             OutputError, match=r"height/0000\.exr could not be written: File too large"
         ):
-            fo.bake(order, tmp_path / "out")
+            fo.bake(sea_job, tmp_path / "out")
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     assert list(made(tmp_path / "out")) == ["job.json"]

@@ -1,6 +1,5 @@
 """
-A cascade as one bake: its tiles are the cascade's own, and every promise of a bake holds for the
-folder around them.
+Bakes of cascades: tiles that are the cascade's own, in a folder with every guarantee of a bake.
 """
 
 import hashlib
@@ -408,7 +407,7 @@ DAMAGES = {
 
 
 @pytest.mark.parametrize("name", DAMAGES)
-def test_every_damage_is_found_and_mended_to_the_same_bytes(made, copy, name):
+def test_every_damage_is_found_and_repaired_to_the_same_bytes(made, copy, name):
     damage, expected = DAMAGES[name]
     damage(copy)
     assert told(copy) == expected

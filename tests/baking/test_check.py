@@ -1,7 +1,4 @@
-"""
-`check` names every fault and nothing else; `repair` mends it to the same bytes. What is damaged
-here is damaged by hand.
-"""
+"""Check and repair: every damage is named and nothing else, and repaired to the same bytes."""
 
 import dataclasses
 import hashlib
@@ -235,7 +232,7 @@ def test_a_flipped_bit_in_a_container_is_named_with_its_frame(baked, tmp_path):
         assert found[0].detail == "it holds displacement of frame 1"
 
 
-def test_a_frame_of_another_map_is_told(exr):
+def test_a_frame_of_another_map_is_reported(exr):
     (exr / "height/0003.exr").write_bytes((exr / "displacement/0004.exr").read_bytes())
     (found,) = check(exr)
     assert found == Finding(
@@ -244,7 +241,7 @@ def test_a_frame_of_another_map_is_told(exr):
     assert str(found) == "swapped: height/0003.exr, frame 3: it holds displacement of frame 4"
 
 
-def test_bytes_at_the_end_are_told(exr):
+def test_bytes_at_the_end_are_reported(exr):
     with (exr / "height/0003.exr").open("ab") as file:
         file.write(b"\0")
     (found,) = check(exr)
@@ -411,7 +408,7 @@ def test_a_manifest_that_no_bake_wrote_is_named_and_leads_nowhere(
     assert all(".." not in path.parts and exr in path.parents for path in opened)
 
 
-def test_a_whole_manifest_of_another_bake_is_told(exr, tmp_path):
+def test_a_whole_manifest_of_another_bake_is_reported(exr, tmp_path):
     """Each file on its own is whole."""
     fo.bake(
         job(ocean__seed=9, bake__maps=["height", "displacement", "normal", "foam"]),
@@ -538,7 +535,7 @@ def test_repair_writes_the_bad_frames_again_and_no_others(baked, name, tmp_path)
 
 @pytest.mark.parametrize("path", ["manifest.json", "job.json", "tiling.png"])
 @pytest.mark.parametrize("how", ["bent", "gone"])
-def test_repair_mends_what_stands_beside_the_frames(exr, path, how):
+def test_repair_repairs_what_stands_beside_the_frames(exr, path, how):
     expected = tree(exr)
     data = bytearray(expected[path])
     data[len(data) // 2] ^= 1

@@ -1,7 +1,4 @@
-"""
-The same bytes, whoever does the work: one process, several, a cluster, and whatever becomes of them
-meanwhile.
-"""
+"""Executors: the same bytes from one process, several, or a cluster, even when workers die."""
 
 import contextlib
 import os
@@ -399,11 +396,11 @@ def plan_of(folder, token, **changes):
     """Return a plan as a bake makes it."""
     from fftocean.baking.folder.identity import header_of
 
-    order = job(bake__maps=["height"], **changes)
+    sea_job = job(bake__maps=["height"], **changes)
     header = header_of(
-        order, frames=range(order.frames), downsample=1, backend=order.ocean().backend
+        sea_job, frames=range(sea_job.frames), downsample=1, backend=sea_job.ocean().backend
     )
-    return Plan(order, 1, header, tuple(range(order.frames)), str(folder), token)
+    return Plan(sea_job, 1, header, tuple(range(sea_job.frames)), str(folder), token)
 
 
 def test_a_task_may_be_done_again_by_anybody(tmp_path):

@@ -1,6 +1,6 @@
 """
-What can go wrong around a bake: it is killed, the disk is full, the folder is read-only, two want
-it, what it was made of has changed.
+Faults around a bake: it is killed, the disk is full, the folder is read-only or in use, or an input
+has changed.
 
 Never a false "complete", never a byte outside the folder; and the same command afterwards gives
 what an undisturbed bake gives. `hammer.py`, beside this file, does the same by the hundred.
@@ -67,11 +67,11 @@ def environment(**more):
     return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
 
 
-def frames_written(order, folder, **how):
+def frames_written(sea_job, folder, **how):
     """Bake, and tell which frames were written for it."""
     again = []
     fo.bake(
-        order,
+        sea_job,
         folder,
         listen=lambda e: again.append(e["frame"]) if e["event"] == "frame" else None,
         **how,
@@ -103,8 +103,8 @@ def test_stopped_after_any_write_it_goes_on_to_the_same_bytes(name, tmp_path, mo
 
     A flush follows every write, and no line of the journal or name in the folder comes without one.
     """
-    order = job(ocean__n=8, bake__format=name, bake__maps=FORMATS[name], bake__frames=2)
-    fo.bake(order, tmp_path / "calm")
+    sea_job = job(ocean__n=8, bake__format=name, bake__maps=FORMATS[name], bake__frames=2)
+    fo.bake(sea_job, tmp_path / "calm")
     expected = tree(tmp_path / "calm")
     real, out, n = os.fsync, tmp_path / "out", 0
     while n < 200:
@@ -120,7 +120,7 @@ def test_stopped_after_any_write_it_goes_on_to_the_same_bytes(name, tmp_path, mo
         with monkeypatch.context() as patch:
             patch.setattr(os, "fsync", fsync)
             try:
-                fo.bake(order, out)
+                fo.bake(sea_job, out)
                 break
             except Stopped:
                 pass
@@ -128,23 +128,25 @@ def test_stopped_after_any_write_it_goes_on_to_the_same_bytes(name, tmp_path, mo
         assert "manifest.json" not in left
         kept = [
             entry["row"]["frame"]
-            for entry in entries_of(out / ".work/journal", identity(order))
+            for entry in entries_of(out / ".work/journal", identity(sea_job))
             if "row" in entry
         ]
-        assert frames_written(order, out) == sorted(set(range(2)) - set(kept))
+        assert frames_written(sea_job, out) == sorted(set(range(2)) - set(kept))
         assert tree(out) == expected
         shutil.rmtree(out)
     assert n >= 8
     assert tree(out) == expected
 
 
-def identity(order):
+def identity(sea_job):
     """Return the SHA-256 of the header of a job's bake."""
     from fftocean.baking.folder.identity import header_of
     from fftocean.baking.folder.plan import identity_of
 
     return identity_of(
-        header_of(order, frames=range(order.frames), downsample=1, backend=order.ocean().backend)
+        header_of(
+            sea_job, frames=range(sea_job.frames), downsample=1, backend=sea_job.ocean().backend
+        )
     )
 
 
@@ -187,10 +189,10 @@ def test_a_finished_bake_is_not_written_again(tmp_path):
 
 @pytest.mark.parametrize("name", ["bin", "ktx2", "png16", "zarr"])
 def test_a_finished_bake_of_any_format_is_not_written_again(name, tmp_path):
-    order = job(bake__format=name, bake__maps=["height"])
-    fo.bake(order, tmp_path)
+    sea_job = job(bake__format=name, bake__maps=["height"])
+    fo.bake(sea_job, tmp_path)
     expected = tree(tmp_path)
-    assert frames_written(order, tmp_path) == []
+    assert frames_written(sea_job, tmp_path) == []
     assert tree(tmp_path) == expected
 
 
@@ -303,7 +305,7 @@ cd "$1/out" && find . -type f && find . -name '*.tmp' | sed 's/^/left /'
 @pytest.mark.parametrize("executor", ["serial", "processes"])
 def test_a_full_disk_is_an_output_error_and_nothing_is_done(tmp_path, executor):
     """
-    A real one of 48 kB, in a name space of its own; where none can be had, `test_baker.py` has the
+    A real one of 48 kB, in a name space of its own; where none can be had, `test_bake.py` has the
     n-th write fail.
     """
     command = ["unshare", "-rm", "sh", "-c", FULL, "sh", str(tmp_path), sys.executable, executor]
@@ -332,20 +334,20 @@ def test_a_worker_s_full_disk_is_that_of_the_bake(tmp_path):
     The kernel's limit on the size of files, which workers inherit: exit 4, the file named, no frame
     marked as done.
     """
-    order = job(ocean__n=64, bake__maps=["height"])
+    sea_job = job(ocean__n=64, bake__maps=["height"])
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     try:
         resource.setrlimit(resource.RLIMIT_FSIZE, (6000, limits[1]))
         with pytest.raises(
             OutputError, match=r"out/height/000\d\.exr could not be written: File too large"
         ) as caught:
-            fo.bake(order, tmp_path / "out", executor="processes", workers=2)
+            fo.bake(sea_job, tmp_path / "out", executor="processes", workers=2)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert caught.value.exit_code == 4
-    assert entries_of(tmp_path / "out/.work/journal", identity(order)) == []
+    assert entries_of(tmp_path / "out/.work/journal", identity(sea_job)) == []
     assert not list(tmp_path.rglob("*.tmp"))
-    assert frames_written(order, tmp_path / "out") == list(range(6))
+    assert frames_written(sea_job, tmp_path / "out") == list(range(6))
 
 
 @pytest.mark.parametrize("error", [errno.EIO, errno.ENOSPC])
@@ -411,7 +413,7 @@ def test_links_lead_nowhere(tmp_path, name, overwrite):
         (outside / path).parent.mkdir(parents=True, exist_ok=True)
         (outside / path).write_text("precious")
     before = tree(outside)
-    order = job(bake__format=name, bake__maps=["height"])
+    sea_job = job(bake__format=name, bake__maps=["height"])
     for place in (
         "height",
         ".work",
@@ -429,7 +431,7 @@ def test_links_lead_nowhere(tmp_path, name, overwrite):
             outside / "journal" if place.endswith(("journal", ".lock")) else outside
         )
         with contextlib.suppress(OutputError):  # refused, or replaced
-            fo.bake(order, out, overwrite=overwrite)
+            fo.bake(sea_job, out, overwrite=overwrite)
         assert tree(outside) == before, place
         shutil.rmtree(out)
 
@@ -453,7 +455,7 @@ def measured(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["41010.data_spec", "41010.swdir"])
-def test_a_measured_file_that_changed_is_told(measured, name):
+def test_a_measured_file_that_changed_is_reported(measured, name):
     """The spectrum, or the directions beside it: its checksum is part of what the bake is."""
     folder = measured.parent / "out"
     fo.bake(fo.Job.read(measured), folder)
@@ -470,7 +472,7 @@ def test_a_measured_file_that_changed_is_told(measured, name):
         fo.bake(fo.Job.read(measured), folder)
 
 
-def test_a_measured_bake_is_mended_by_its_job(measured):
+def test_a_measured_bake_is_repaired_by_its_job(measured):
     """The folder does not hold the measured file, so it has to be told where that is."""
     from fftocean.baking.repair import repair
 
@@ -528,23 +530,23 @@ def test_another_library_is_another_bake(tmp_path, key, monkeypatch):
 def test_nothing_of_another_format_or_part_is_left_by_overwrite(tmp_path):
     """Every format over every other: what is left is what a fresh bake has."""
     for name in ("zarr", "exr-atlas", "bin", "png16", "ktx2", "r16", "exr"):
-        order = job(
+        sea_job = job(
             bake__format=name,
             bake__maps=["height"],
             bake__engine="godot" if name == "exr-atlas" else "canonical",
         )
-        fo.bake(order, tmp_path / "out", overwrite=True)
-        fo.bake(order, tmp_path / name)
+        fo.bake(sea_job, tmp_path / "out", overwrite=True)
+        fo.bake(sea_job, tmp_path / name)
         assert tree(tmp_path / "out") == tree(tmp_path / name)
         assert check(tmp_path / "out") == ()
 
 
 def test_a_scaled_map_has_one_range_for_the_whole_loop(tmp_path):
     """Whichever part of it is baked: parts from several bakes fit together."""
-    order = job(bake__format="png16", bake__maps=["height", "normal"])
+    sea_job = job(bake__format="png16", bake__maps=["height", "normal"])
     whole, part = (
-        fo.bake(order, tmp_path / "whole"),
-        fo.bake(order, tmp_path / "part", frames="4:6"),
+        fo.bake(sea_job, tmp_path / "whole"),
+        fo.bake(sea_job, tmp_path / "part", frames="4:6"),
     )
     for name in ("height", "normal"):
         assert part["maps"][name]["scaled"] == whole["maps"][name]["scaled"]

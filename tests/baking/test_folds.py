@@ -1,4 +1,4 @@
-"""Folds and the water's properties in what a bake says of itself: manifest, check, info."""
+"""Folds and water properties in the manifest and on the command line."""
 
 import math
 from pathlib import Path
@@ -23,9 +23,9 @@ def test_folds_are_in_the_manifest_and_in_what_the_command_line_says(lookup, tmp
     Over all frames, by the eigenvalues of the ocean's own stretches; the check notes them and finds
     nothing wrong.
     """
-    order = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
-    extremes = fo.bake(order, tmp_path / "out")["extremes"]
-    ocean = order.ocean()
+    sea_job = job(**{"ocean.choppiness": 6.0, "bake.lookup": lookup})
+    extremes = fo.bake(sea_job, tmp_path / "out")["extremes"]
+    ocean = sea_job.ocean()
     frames = [ocean.loop_frame(j, 3) for j in range(3)]
     gradients = np.stack(
         [[f.stretch_xx, f.stretch_xy, f.stretch_xy, f.stretch_yy] for f in frames], axis=-1

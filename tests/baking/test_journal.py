@@ -1,7 +1,4 @@
-"""
-The journal: a line is whole and as it was written, or as if it had never been; nothing is said
-before it is on the disk.
-"""
+"""The journal: damaged lines are ignored, and each line is flushed to the disk."""
 
 import errno
 import os
@@ -82,7 +79,7 @@ def test_any_flipped_bit_costs_its_line_and_no_other(path):
             assert len(ENTRIES) - 2 <= len(read) < len(ENTRIES) or bit // 8 == first - 1
 
 
-def test_a_journal_goes_on_without_what_was_bent(path):
+def test_a_journal_goes_on_without_what_was_damaged(path):
     """Written anew with what is known, so that a half line at the end does not spoil the next."""
     path.write_bytes(path.read_bytes()[:-20])
     with Journal(path, CLAIM, entries_of(path, CLAIM)) as book:

@@ -1,7 +1,4 @@
-"""
-What is loaded is what was baked: every format, every engine, in our own frame; and only if it still
-is what was written.
-"""
+"""Loading of bakes: the same arrays from every format and engine, and damaged files refused."""
 
 import shutil
 
@@ -42,13 +39,13 @@ def quick(monkeypatch):
     monkeypatch.setattr(preview, "tiling", lambda *_: b"picture")
 
 
-def truth(order, name, j):
+def truth(sea_job, name, j):
     """
     A map of a frame from the ocean itself, float64: what it is, without the room that makes
     pictures.
     """
-    f = order.ocean().loop_frame(j, order.frames, (*FIELDS, "normal", "jacobian"))
-    c = order.settings["ocean.choppiness"]
+    f = sea_job.ocean().loop_frame(j, sea_job.frames, (*FIELDS, "normal", "jacobian"))
+    c = sea_job.settings["ocean.choppiness"]
     channels = {
         "height": [f.height],
         "displacement": [c * f.displace_x, c * f.displace_y, f.height],
@@ -83,8 +80,8 @@ def test_every_format_gives_back_what_was_put_in(name, tmp_path):
         )
         if len(MAPS[m].names) in FORMATS[name].channels
     ]
-    order = job(bake__format=name, bake__maps=held)
-    manifest = fo.bake(order, tmp_path)
+    sea_job = job(bake__format=name, bake__maps=held)
+    manifest = fo.bake(sea_job, tmp_path)
     loaded = load(tmp_path)
     assert tuple(loaded.maps) == tuple(held)
     assert loaded.times == pytest.approx(16.0 * np.arange(FRAMES) / FRAMES)
@@ -93,7 +90,7 @@ def test_every_format_gives_back_what_was_put_in(name, tmp_path):
         assert loaded[m].dtype == np.float32
         assert loaded[m].shape == (FRAMES, N[1], N[0], len(MAPS[m].names))
         for j in range(FRAMES):
-            expected = truth(order, m, j)
+            expected = truth(sea_job, m, j)
             low, high = manifest["maps"][m].get("scaled", {"low": 0.0, "high": 0.0}).values()
             step = (
                 (high - low) / 65535.0
@@ -109,11 +106,11 @@ def test_every_format_gives_back_what_was_put_in(name, tmp_path):
 def test_every_engine_s_frame_is_turned_back(engine, tmp_path):
     """Centimetres and back cost a rounding each way."""
     held = ["height", "displacement", "normal", "derivative", "velocity"]
-    order = job(bake__engine=engine, bake__format="npz", bake__maps=held)
-    fo.bake(order, tmp_path)
+    sea_job = job(bake__engine=engine, bake__format="npz", bake__maps=held)
+    fo.bake(sea_job, tmp_path)
     loaded = load(tmp_path)
     for m in held:
-        expected = truth(order, m, 3)
+        expected = truth(sea_job, m, 3)
         assert np.allclose(
             loaded[m][3], expected, rtol=3 * 2.0**-23, atol=4e-7 * np.abs(expected).max()
         )

@@ -1,4 +1,4 @@
-"""One bake a folder: two never at once, and nobody is kept out by the dead."""
+"""The lock on a folder: never two bakes at once, and stale locks never block."""
 
 import errno
 import json
@@ -54,7 +54,7 @@ def test_a_held_folder_is_refused_at_once_and_names_its_holder(tmp_path, holder)
         assert caught.value.exit_code == 6
 
 
-def test_a_lock_dies_with_its_holder(tmp_path, holder):
+def test_a_lock_ends_with_its_process(tmp_path, holder):
     """kill -9 leaves the file, which keeps nobody out."""
     holder.send_signal(signal.SIGKILL)
     holder.wait()
@@ -65,7 +65,7 @@ def test_a_lock_dies_with_its_holder(tmp_path, holder):
     assert not (tmp_path / LOCK_FILE).exists()
 
 
-def test_a_holder_that_is_on_its_way_out_is_waited_for(tmp_path, holder, monkeypatch):
+def test_a_process_that_is_ending_is_waited_for(tmp_path, holder, monkeypatch):
     monkeypatch.setattr(lock, "PATIENCE", 600.0)
     threading.Timer(0.3, holder.kill).start()
     with locked(tmp_path):
@@ -129,7 +129,7 @@ def test_a_file_that_lost_its_name_is_no_lock(tmp_path, monkeypatch):
     assert len(calls) == 2
 
 
-def test_whoever_has_the_descriptor_holds_it_too(tmp_path, monkeypatch):
+def test_a_process_with_the_descriptor_holds_it_too(tmp_path, monkeypatch):
     """A worker that outlives a bake that was killed keeps the folder until it is gone itself."""
     worker = (
         f"subprocess.Popen([sys.executable, '-c', {WORKER!r}, sys.argv[1]], "
@@ -153,7 +153,7 @@ def test_whoever_has_the_descriptor_holds_it_too(tmp_path, monkeypatch):
         require_free(tmp_path)
 
 
-def test_a_token_tells_one_hold_from_the_next(tmp_path):
+def test_a_token_differs_from_lock_to_lock(tmp_path):
     """For workers elsewhere: they go on for as long as their bake has the folder, and no longer."""
     with locked(tmp_path) as first:
         require_held(tmp_path, first.token)

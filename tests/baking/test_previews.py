@@ -1,7 +1,4 @@
-"""
-The pictures of a bake: those that are asked for, listed with their checksums; a missing library is
-named before anything is done.
-"""
+"""Previews of a bake: those of the job, listed with checksums; a missing package is named first."""
 
 import hashlib
 import importlib.util
@@ -16,7 +13,7 @@ JOB = builders.job({"ocean.n": 16, "bake.frames": 2, "bake.maps": ["height"]})
 ALL = ["sheet", "animation", "tiling", "spectrum"]
 
 
-def test_every_picture_that_is_asked_for_is_there_and_listed(tmp_path):
+def test_every_preview_of_the_job_exists_and_listed(tmp_path):
     manifest = fo.bake(JOB.replaced({"bake.pictures": ALL}), tmp_path / "sea", executor="serial")
     for key, name in zip(
         ("preview", "animation", "tiling", "spectrum"), layout.PREVIEW_FILES, strict=True

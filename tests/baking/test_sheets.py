@@ -1,4 +1,4 @@
-"""Pictures beside a bake: they open, show the sea that was baked, and are the same every time."""
+"""Preview images: they open, show the baked sea, and have the same bytes every time."""
 
 import io
 import itertools
@@ -124,7 +124,7 @@ def test_the_frames_shown_are_spread_over_the_loop(frames, rows, monkeypatch):
     ],
     ids=str,
 )
-def test_any_ocean_has_a_picture(changes):
+def test_any_ocean_has_a_preview(changes):
     """
     Nothing overflows or divides by zero on the way, which the suite would turn into an error, and
     all of it can be seen.
@@ -296,7 +296,7 @@ def test_a_cascade_is_drawn_as_the_sum_of_its_tiles():
 
 
 @pytest.mark.usefixtures("small")
-def test_a_cascade_has_all_pictures():
+def test_a_cascade_has_all_previews():
     sea = fo.Sea.from_wind(speed=12.0, fetch=100e3)
     both = fo.Cascade(sea, [(32, 200.0), (32, 31.0)], seed=3, loop=16.0)
     sheet = pixels(preview.contact_sheet(both, 4, "two tiles"))
@@ -355,7 +355,7 @@ def test_the_threshold_is_found_for_a_cover(cover):
     assert np.mean(caps.coverage) == pytest.approx(cover, rel=0.05)  # all points were looked at
 
 
-def test_foam_of_pictures_is_the_foam_of_the_library():
+def test_foam_of_previews_is_the_foam_of_the_library():
     """Of the default sea at frame 0 of a loop, against `Foam.loop`, in steps of 0.25 s."""
     sea = ocean(ocean__n=64, ocean__loop=16.0)
     foam = fo.Foam(threshold=0.8)
@@ -392,7 +392,7 @@ def test_whitecaps_of_a_wind():
     assert whitecaps.whitecap_cover(60.0) == whitecaps.whitecap_cover(20.0) < 0.12
 
 
-def test_the_developed_picture_is_srgb():
+def test_the_developed_image_is_srgb():
     """
     Black is 0, much light is 255; a grey that lies between two levels is dithered between them.
     """

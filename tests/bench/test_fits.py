@@ -46,13 +46,13 @@ def test_the_standard_error_covers_the_truth_as_often_as_it_should():
     )  # three standard deviations of a binomial
 
 
-def test_the_laws_are_what_they_are_called():
+def test_laws_have_their_closed_form():
     assert n_log_n(np.array([2.0, 8.0, 1024.0])).tolist() == [2.0, 24.0, 10240.0]
     assert square(np.array([3.0, 16.0])).tolist() == [9.0, 256.0]
 
 
 @pytest.mark.parametrize("law", [n_log_n, square])
-def test_overhead_and_factor_are_told_apart(law):
+def test_overhead_and_factor_are_separated(law):
     work = SIZES**2
     fit = cost(work, 1e-4 + 3e-8 * law(work), law)
     assert (fit.overhead, fit.factor) == pytest.approx((1e-4, 3e-8), rel=1e-9)
@@ -82,14 +82,14 @@ def test_neither_overhead_nor_factor_is_ever_negative():
 
 
 @pytest.mark.parametrize("bad", [[1.0, 2.0, 0.0], [1.0, 2.0, -1.0], [1.0, np.nan, 2.0]])
-def test_what_has_no_logarithm_is_refused(bad):
+def test_values_that_are_not_positive_are_refused(bad):
     with pytest.raises(ValueError, match="positive and finite"):
         power_law([1.0, 2.0, 3.0], bad)
     with pytest.raises(ValueError, match="positive and finite"):
         crossover([1.0, 2.0, 3.0], [1.0, 1.0, 1.0], bad)
 
 
-def test_two_points_are_no_law():
+def test_two_points_are_refused():
     with pytest.raises(ValueError, match="at least three points"):
         power_law([1.0, 2.0], [1.0, 2.0])
     with pytest.raises(ValueError, match="at least three points"):
@@ -123,6 +123,6 @@ def test_no_crossing_is_none_and_an_early_one_the_first_size():
     assert (cross.below, cross.above, cross.at) == (4.0, 4.0, 4.0)
 
 
-def test_sizes_must_rise():
-    with pytest.raises(ValueError, match="sizes must rise"):
+def test_sizes_must_ascend():
+    with pytest.raises(ValueError, match="sizes must be ascending"):
         crossover([4, 4, 8], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0])

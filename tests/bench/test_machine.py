@@ -1,4 +1,4 @@
-"""What is said of the machine: all of it plain data, and true where another source can tell."""
+"""The description of the machine as plain data, against other sources."""
 
 import json
 import platform
@@ -24,11 +24,11 @@ def test_the_machine_is_described_in_plain_data():
     assert "scipy" in said["fft_libraries"]
 
 
-def test_the_default_is_what_an_ocean_takes():
+def test_the_default_backend_is_that_of_an_ocean():
     assert machine.describe()["fft_default"] == fo.Ocean.from_modes([], n=4, size=1.0).backend
 
 
-def test_every_library_that_is_named_makes_a_frame():
+def test_every_listed_backend_computes_a_frame():
     for name in machine.backends():
         assert fo.Ocean.from_modes([(1, 0, 1.0, 0.0)], n=8, size=10.0, backend=name).backend == name
 
@@ -37,7 +37,7 @@ def test_memory_is_more_than_what_is_free():
     assert 0.0 < available_memory() < machine.memory()
 
 
-def test_the_moment_says_when_and_how_busy():
+def test_a_moment_has_time_and_load():
     said = machine.moment()
     assert set(said) == {"utc", "load"}
     assert said["load"] is None or said["load"] >= 0.0

@@ -1,7 +1,4 @@
-"""
-The two-minute version, in two seconds: that it says what it measured. No figure of this machine is
-asserted.
-"""
+"""The quick benchmark in two seconds; no figure of this machine is asserted."""
 
 import io
 import re
@@ -9,7 +6,7 @@ import re
 import pytest
 from rich.console import Console
 
-from fftocean.bench import command, main, quick, shown
+from fftocean.bench import command, main, quick, quick_report
 from fftocean.bench.results import Reading, Result, answer, parse, read
 from fftocean.errors import OutputError, ParameterError
 
@@ -92,7 +89,7 @@ def test_everything_is_measured(measured):
     assert parse(result.plain()) == result
 
 
-def test_a_part_of_the_direct_sum_is_reckoned_up_to_the_whole(monkeypatch):
+def test_a_part_of_the_direct_sum_is_scaled_to_the_whole(monkeypatch):
     """
     Of 32 x 32 points a tenth is summed; the reading is ten times what that took, and says of how
     many points.
@@ -140,36 +137,36 @@ def test_the_crossing_is_that_of_the_ratios():
         {"direct_sizes": (4,)},
     ],
 )
-def test_impossible_settings_are_refused_before_anything_is_measured(wrong):
+def test_settings_out_of_range_are_refused_before_the_measurement(wrong):
     with pytest.raises(ParameterError, match="must be"):
         quick.quick(**{"seconds": 0.0, "sizes": (8,), "direct_sizes": (4, 6), **wrong})
 
 
-def test_the_sentences_say_what_was_found():
-    said = " ".join(shown.sentences(made()))
+def test_sentences_have_the_figures_of_the_readings():
+    said = " ".join(quick_report.sentences(made()))
     assert "A frame of 512 x 512 takes 12.0 ms here on one thread, 83.3 a second" in said
-    assert "10.0 times as fast as NumPy as the textbooks write it, and 2.5 times as fast" in said
+    assert "10.0 times as fast as NumPy as in textbooks, and 2.5 times as fast" in said
     assert "The height alone costs 33 %" in said
     assert "Two threads make it 1.70 times as fast." in said
     assert "64 x 64 takes 320 ms: 800 times as long as by FFT" in said
-    assert "The FFT wins from n = 10 on" in said
+    assert "The FFT is faster from n = 10 on" in said
     assert "busy" not in said
     assert (
-        shown.title(made())
+        quick_report.title(made())
         == "A frame of 512 x 512 takes 12.0 ms here: 10.0 times as fast as the textbook"
     )
 
 
-def test_the_sentences_tell_a_busy_machine_one_core_and_no_crossing():
-    said = " ".join(shown.sentences(made(cross=None, two=None, busy=1.8)))
+def test_sentences_cover_a_busy_machine_one_core_and_no_crossing():
+    said = " ".join(quick_report.sentences(made(cross=None, two=None, busy=1.8)))
     assert "Two threads" not in said.split("busy")[0]
-    assert "Up to n = 64 the direct sum is never the dearer one." in said
+    assert "Up to n = 64 the direct sum is never slower." in said
     assert "a second of work took 1.8 s" in said
-    assert "at every n tried" in " ".join(shown.sentences(made(cross=(8.0, 8.0))))
+    assert "at every n tried" in " ".join(quick_report.sentences(made(cross=(8.0, 8.0))))
 
 
 def test_the_table_holds_the_figures():
-    page = text(shown.table(made()))
+    page = text(quick_report.table(made()))
     (row,) = (line for line in page.splitlines() if line.startswith("512 x 512"))
     for cell in (
         "12.0 ms",
@@ -183,26 +180,26 @@ def test_the_table_holds_the_figures():
         "10.0 x",
     ):
         assert cell in row
-    assert "~ 21.8 min" in row  # 0.32 s times (512 / 64)^4 = 1311 s: reckoned, and marked so
-    assert "one core only" in text(shown.table(made(two=None)))
+    assert "~ 21.8 min" in row  # 0.32 s times (512 / 64)^4 = 1311 s: extrapolated, and marked so
+    assert "one core only" in text(quick_report.table(made(two=None)))
 
 
 def test_the_table_of_a_real_result_is_whole(measured):
-    page = text(shown.table(measured[0]))
+    page = text(quick_report.table(measured[0]))
     assert re.search(r"^16 x 16 .*\n32 x 32 ", page, re.MULTILINE)
     assert "nan" not in page
 
 
-def test_the_picture_is_drawn(measured, tmp_path):
+def test_a_chart_is_drawn(measured, tmp_path):
     path = tmp_path / "bench.png"
-    shown.picture(measured[0], path)
+    quick_report.draw(measured[0], path)
     assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
-    shown.picture(made(two=None, cross=None), path)
+    quick_report.draw(made(two=None, cross=None), path)
 
 
-def test_the_picture_says_what_it_shows(tmp_path):
+def test_a_chart_has_its_figures_as_text(tmp_path):
     path = tmp_path / "bench.svg"
-    shown.picture(made(), path)
+    quick_report.draw(made(), path)
     import xml.etree.ElementTree as ET
 
     comments = path.read_text()
@@ -213,7 +210,7 @@ def test_the_picture_says_what_it_shows(tmp_path):
         "they cross",
         "60 frames a second",
         "one frame [ms]",
-        "a bar 109,",
+        "times the first bar",
     ):
         assert words in comments, (
             words
@@ -221,35 +218,35 @@ def test_the_picture_says_what_it_shows(tmp_path):
 
 
 def run(monkeypatch, **how):
-    """The command, with the measurement replaced by figures of ours."""
+    """Run the command with made-up readings."""
     monkeypatch.setattr(quick, "quick", lambda **_: made())
     stream = io.StringIO()
     code = main(Console(file=stream, width=170), **how)
     return code, stream.getvalue()
 
 
-def test_the_command_shows_a_table_and_writes_what_it_says(monkeypatch, tmp_path):
+def test_the_command_prints_a_table_and_writes_its_files(monkeypatch, tmp_path):
     picture, json = tmp_path / "b.png", tmp_path / "b.json"
     code, page = run(monkeypatch, picture=picture, json=json, status=Console(file=io.StringIO()))
     assert code == 0
     assert "512 x 512" in page
-    assert f"look at {picture}" in page
-    assert f"every reading: {json}" in page
+    assert f"plot: {picture}" in page
+    assert f"all readings: {json}" in page
     assert isinstance(read(json), Result)
     assert picture.stat().st_size > 10_000
 
 
-def test_without_matplotlib_it_says_so_and_goes_on(monkeypatch, tmp_path):
+def test_without_matplotlib_the_command_prints_a_line_and_goes_on(monkeypatch, tmp_path):
     import sys
 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     code, page = run(monkeypatch, picture=tmp_path / "b.png")
     assert code == 0
-    assert "no picture: plots need matplotlib" in page
+    assert "no plot: plots need matplotlib" in page
     assert not (tmp_path / "b.png").exists()
 
 
-def test_a_picture_of_no_kind_is_refused_before_it_measures(monkeypatch):
+def test_an_unknown_suffix_is_refused_before_the_measurement(monkeypatch):
     monkeypatch.setattr(quick, "quick", lambda **_: pytest.fail("it measured"))
     with pytest.raises(ParameterError, match=r"must end in \.png, \.svg, \.pdf, got 'b\.doc'"):
         main(Console(file=io.StringIO()), picture=command.PICTURE.with_name("b.doc"))
@@ -262,7 +259,7 @@ def test_a_file_that_cannot_be_written_is_an_error(monkeypatch, tmp_path):
         run(monkeypatch, picture=tmp_path / "nowhere" / "b.png")
 
 
-def test_the_command_measures_what_it_was_asked(monkeypatch):
+def test_the_command_passes_its_arguments_on(monkeypatch):
     asked = {}
     monkeypatch.setattr(quick, "quick", lambda **how: asked.update(how) or made())
     main(Console(file=io.StringIO()), seconds=7.0, sizes=(8, 16), picture=None)
@@ -283,8 +280,8 @@ def test_the_command_measures_what_it_was_asked(monkeypatch):
         (219_000.0, "3.65 min"),
     ],
 )
-def test_durations_are_said_in_their_unit(milliseconds, said):
-    from fftocean.bench.pictures import duration
+def test_durations_have_a_suitable_unit(milliseconds, said):
+    from fftocean.bench.charts import duration
 
     assert duration(milliseconds) == said
 
@@ -300,7 +297,7 @@ def test_durations_are_said_in_their_unit(milliseconds, said):
         (52945.3, "52,945"),
     ],
 )
-def test_numbers_are_said_plainly(value, said):
-    from fftocean.bench.pictures import plain
+def test_numbers_have_no_needless_exponent(value, said):
+    from fftocean.bench.charts import plain
 
     assert plain(value) == said

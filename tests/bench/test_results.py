@@ -1,4 +1,4 @@
-"""Results as files: what is written is read back, and what is none of ours is refused."""
+"""Results as files: they are read back as written, and other files are refused."""
 
 import copy
 import json
@@ -36,7 +36,7 @@ def result():
     )
 
 
-def test_what_is_written_is_read_back(tmp_path):
+def test_results_are_read_back_as_written(tmp_path):
     path = tmp_path / "frame.json"
     one = result()
     one.write(path)
@@ -114,7 +114,7 @@ def test_an_impossible_reading_is_refused(change):
         (["surplus"], 1),
     ],
 )
-def test_a_file_that_is_bent_is_refused(where, value):
+def test_an_altered_file_is_refused(where, value):
     tree = copy.deepcopy(result().plain())
     part = tree
     for key in where[:-1]:
@@ -127,7 +127,7 @@ def test_a_file_that_is_bent_is_refused(where, value):
 @pytest.mark.parametrize(
     "key", ["schema", "question", "asks", "machine", "before", "after", "settings", "readings"]
 )
-def test_a_part_that_is_missing_is_named(key):
+def test_a_missing_part_is_named(key):
     tree = result().plain()
     del tree[key]
     with pytest.raises(ReaderError, match=key):
@@ -135,14 +135,14 @@ def test_a_part_that_is_missing_is_named(key):
 
 
 @pytest.mark.parametrize("text", ["", "[", "[]", "null", '{"schema": 1}'])
-def test_what_is_no_result_is_refused(tmp_path, text):
+def test_other_files_are_refused(tmp_path, text):
     path = tmp_path / "x.json"
     path.write_text(text)
     with pytest.raises(ReaderError, match=r"x\.json"):
         read(path)
 
 
-def test_a_race_reads_times_ratios_and_how_busy_it_was():
+def test_a_race_has_times_ratios_and_the_load():
     """
     Two contenders that are one and the same: their ratio is taken between the right two, under the
     right conditions.

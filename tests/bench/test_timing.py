@@ -1,7 +1,4 @@
-"""
-Statistics of timings: on a clock of our own, so that nothing here depends on how fast or busy the
-machine is.
-"""
+"""Statistics of timings on an artificial clock, independent of the machine."""
 
 import statistics
 
@@ -46,12 +43,12 @@ def test_a_summary_is_the_median_with_quartiles():
 
 
 @pytest.mark.parametrize("samples", [[], [1.0, np.nan], [np.inf]])
-def test_nothing_is_no_summary(samples):
+def test_empty_or_infinite_samples_are_refused(samples):
     with pytest.raises(ValueError, match="finite, and at least one"):
         timing.summary(samples)
 
 
-def test_contenders_take_turns_and_every_other_round_goes_backwards(monkeypatch):
+def test_contenders_alternate_and_every_other_round_is_reversed(monkeypatch):
     clock = Clock(monkeypatch)
     timing.alternate(
         {name: clock.work(name, 1.0) for name in "abc"}, seconds=0.0, least=4, sample=0.0
@@ -81,7 +78,7 @@ def test_ratios_hold_on_a_machine_that_slows_down(monkeypatch):
     assert rounds.seconds("fast", "cpu").count == 10
 
 
-def test_what_others_take_away_shows_on_the_wall_only(monkeypatch):
+def test_time_lost_to_other_processes_is_in_wall_time_only(monkeypatch):
     clock = Clock(monkeypatch, away=4.0)
     rounds = timing.alternate({"a": clock.work("a", 1.0)}, seconds=0.0, sample=0.0)
     assert rounds.seconds("a", "cpu").median == 1.0

@@ -1133,7 +1133,7 @@ def test_direction_of_a_vector():
         (lambda: MODELS["PMS"].waves.at(math.nan, 0.0, 0.0), "x0 must be between"),
         (lambda: MODELS["PMS"].waves.at(0.0, [0.0, math.inf], 0.0), "y0 must be between"),
         (lambda: MODELS["PMS"].waves.at(0.0, 0.0, 1e13), "t must be between"),
-        (lambda: MODELS["PMS"].waves.at("here", 0.0, 0.0), "x0 must be numbers"),
+        (lambda: MODELS["PMS"].waves.at("here", 0.0, 0.0), "x0 must be a number"),
         (lambda: MODELS["PMS"].waves.grid(0, 100.0), "n must be"),
         (lambda: MODELS["PMS"].waves.grid((4, 4, 4), 100.0), "n must be one number or a pair"),
         (lambda: MODELS["PMS"].waves.grid(4, -1.0), "size must be"),
@@ -1183,7 +1183,7 @@ def test_every_field_is_finite_at_the_ends_of_the_ranges(model):
 
 def test_they_feed_the_same_exporters():
     """
-    What a bake takes from a frame it takes from these: height, displacement and normal pictures,
+    A bake takes the same from these as from a frame: height, displacement and normal pictures,
     read back to half an ulp.
     """
     from fftocean.baking.scene.maps import MAPS

@@ -1,7 +1,4 @@
-"""
-Jobs: every key with its default and its rule, what a file may hold, and what is refused before
-anything is made.
-"""
+"""Jobs: default and rule of every key, contents of job files, and refusals before computation."""
 
 import contextlib
 import itertools
@@ -360,27 +357,78 @@ def test_a_file_reads_as_its_text(tmp_path, ending):
         ("sea.systems = [5]\n", ["sea.systems", "[[sea.systems]]", "[5]"]),
         (f"[sea.systems]\n{SWELL}\n", ["sea.systems", "must be tables, written [[sea.systems]]"]),
         ("[[sea.systems]]\n", ["sea.systems[0].spectrum", "must be given"]),
-        (f"[[sea.systems]]\n{SWELL}\n[[sea.systems]]\n{SWELL}\nspeading = 3\n", ["sea.systems[1].speading", "sea.systems[1].spreading?"]),
-        ("[[sea.systems]]\nspectrum = 5\n", ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "5"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n", ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "'jonswp'"]),
-        ("[[sea.systems]]\nspectrum = { kind = ['jonswap'] }\n", ["sea.systems[0].spectrum", "['jonswap']"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n", ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n", ["got {hs, tp, speed}"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'pierson-moskowitz', hs = 1.0, tp = 9.0, gamma = 2.0 }\n", ["got {hs, tp, gamma}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-power' }}\n", ["spreading", "{s}", "got {}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-squared', s = 3 }}\n", ["spreading", "got {s}"]),
-        (f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n", ["spreading", "one of blend, cosine-n", "'blend'"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 50.0, tp = 2.0 }\n", ["sea.systems[0].spectrum", "50 m with 2 s"]),
-        ("sea.depth = 0.01\n[[sea.systems]]\nspectrum = { kind = 'tma', hs = 9.0, tp = 4.0 }\n", ["9 m with 4 s", "in 0.01 m of water"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [0.1, 0.2], density = [1.0] }\n", ["sea.systems[0].spectrum"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [0.2, 0.1], density = [1.0, 1.0] }\n", ["frequency"]),
-        ("[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [], density = [] }\n", ["sea.systems[0].spectrum"]),
-        (f"[sea.wind]\nfetch = 1e4\n[[sea.systems]]\n{SWELL}\n", ["sea.wind.speed must be given", "sea.wind.fetch"]),
+        (
+            f"[[sea.systems]]\n{SWELL}\n[[sea.systems]]\n{SWELL}\nspeading = 3\n",
+            ["sea.systems[1].speading", "sea.systems[1].spreading?"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = 5\n",
+            ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "5"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswp' }\n",
+            ["sea.systems[0].spectrum", "one of beaufort, bretschneider", "'jonswp'"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = ['jonswap'] }\n",
+            ["sea.systems[0].spectrum", "['jonswap']"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n",
+            ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n",
+            ["got {hs, tp, speed}"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'pierson-moskowitz', hs = 1.0, tp = 9.0, gamma = 2.0 }\n",
+            ["got {hs, tp, gamma}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-power' }}\n",
+            ["spreading", "{s}", "got {}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = {{ kind = 'cosine-squared', s = 3 }}\n",
+            ["spreading", "got {s}"],
+        ),
+        (
+            f"[[sea.systems]]\n{SWELL}\nspreading = 'blend'\n",
+            ["spreading", "one of blend, cosine-n", "'blend'"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 50.0, tp = 2.0 }\n",
+            ["sea.systems[0].spectrum", "50 m with 2 s"],
+        ),
+        (
+            "sea.depth = 0.01\n[[sea.systems]]\nspectrum = { kind = 'tma', hs = 9.0, tp = 4.0 }\n",
+            ["9 m with 4 s", "in 0.01 m of water"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'tabulated', frequency = [0.1, 0.2], density = [1.0] }\n",
+            ["sea.systems[0].spectrum"],
+        ),
+        (
+            "[[sea.systems]]\n"
+            "spectrum = { kind = 'tabulated', frequency = [0.2, 0.1], density = [1.0, 1.0] }\n",
+            ["frequency"],
+        ),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'tabulated', frequency = [], density = [] }\n",
+            ["sea.systems[0].spectrum"],
+        ),
+        (
+            f"[sea.wind]\nfetch = 1e4\n[[sea.systems]]\n{SWELL}\n",
+            ["sea.wind.speed must be given", "sea.wind.fetch"],
+        ),
         ("\0", ["TOML"]),
         ("[ocean]\rn = 8\n", ["TOML"]),
         ('a = """\n', ["TOML"]),
     ],
-)  # fmt: skip
+)
 def test_what_a_job_may_not_say_is_refused(text, parts):
     refused(text, *parts)
 

@@ -50,7 +50,7 @@ def test_phasors_in_single_precision():
 
 
 def waves_of(forward, backward, dtype):
-    """What `passes.heights` wants."""
+    """Return the table that `passes.heights` takes."""
     sums = (
         forward.real + backward.real,
         forward.imag - backward.imag,

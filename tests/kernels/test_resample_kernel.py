@@ -47,7 +47,7 @@ def test_sample_wraps_round_every_edge():
 
 def test_invert_finds_the_position():
     """
-    What is put in comes out: random gentle shifts, positions anywhere; the residual is what remains
+    Positions are recovered: random gentle shifts, positions anywhere; the residual is what remains
     of the equation.
     """
     shift = 0.3 * RNG.standard_normal((9, 12, 2))

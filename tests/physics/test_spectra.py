@@ -427,7 +427,7 @@ def test_flat_table_is_a_flat_sea():
         (
             0.1,
             [1.0, 1.0],
-            "frequency must be a list of numbers between 1e-06 and 100000 Hz, got 0.1",
+            "frequency must be a list of numbers between 1e-06 and 100000 Hz, got 0.1 (float)",
         ),
     ],
 )

@@ -125,7 +125,7 @@ def test_it_is_a_frozen_value():
         ),
         ({"density": np.zeros((5, 7)).tolist()}, "more than 0 somewhere"),
         ({"density": [[1.0], [1.0, 2.0]]}, "density must be numbers"),
-        ({"density": "rough"}, "density must be a number .*, got 'rough' "),
+        ({"density": "rough"}, "density must be a table of numbers .*, got 'rough' "),
         ({"density": 1.0}, "density must be a table of numbers .*, got 1.0"),
     ],
 )

@@ -760,7 +760,8 @@ def test_radians_under_swans_degrees(keyword, count, tmp_path):
 def test_radians_under_netcdfs_degrees_and_degrees_under_its_radians(count):
     data = ww3(sea()).isel(direction=slice(0, 24, 24 // count))
     with pytest.raises(
-        ReaderError, match=r"direction must be in degrees, as its unit says, .* is it in radians"
+        ReaderError,
+        match=r"variable direction must be in degrees, as its unit says, .* is it in radians",
     ):
         readers.netcdf.to_layout(with_values(data, "direction", np.radians))
     with pytest.raises(

@@ -49,7 +49,7 @@ normal: normals whose length is not 1. seam, loop: a step across the tile's edge
 frame to the first. crest: troughs that are sharper than crests.
 """
 
-ROUGHER = 2.0
+LARGEST_STEP = 2.0
 """
 Largest ratio of the step across an edge to the roughest step inside. The sea is as rough there as
 anywhere: of any two steps of a sea, all frames together, the roughest was at most 1.6 times the
@@ -58,7 +58,7 @@ second (60 seas of 10 to 32 samples a side).
 
 UNFINISHED = "it does not exist: the bake was stopped, and the same command resumes it"
 
-FEWEST = 8  # steps inside that the step across an edge is compared with
+MIN_STEPS = 8  # steps inside that the step across an edge is compared with
 
 
 @dataclass(frozen=True, slots=True)
@@ -429,9 +429,9 @@ def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple
             fault := _foam_forgotten(last, first, step / count, contents)
         ):
             yield "loop", fault
-    elif len(sequence.steps) >= FEWEST:
+    elif len(sequence.steps) >= MIN_STEPS:
         home, roughest = _rms(first - last), max(sequence.steps)
-        if home > ROUGHER * roughest + _half_step(contents, name):
+        if home > LARGEST_STEP * roughest + _half_step(contents, name):
             yield (
                 "loop",
                 f"the step from the last frame to the first is "
@@ -440,9 +440,9 @@ def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple
     for axis, edge in ((0, "north"), (1, "east")):
         inside, across = np.atleast_1d(sequence.inside[axis]), sequence.across[axis]
         if (
-            inside.size >= FEWEST
+            inside.size >= MIN_STEPS
             and across
-            > ROUGHER**2 * (roughest := float(inside.max())) + _half_step(contents, name) ** 2
+            > LARGEST_STEP**2 * (roughest := float(inside.max())) + _half_step(contents, name) ** 2
         ):
             excess = np.sqrt(across / max(roughest, 1e-300))
             yield (

@@ -26,7 +26,7 @@ Containers whose frames cannot be separated once they are damaged: they are comp
 frames.
 """
 
-FREE = (".import",)
+REWRITTEN = (".import",)
 """Sidecars that engines rewrite; lines that they add are no fault."""
 
 
@@ -122,7 +122,7 @@ def has_written_lines(contents: Contents, path: str, data: bytes) -> bool:
     """
     Return whether a file is a sidecar that an engine may rewrite, and still has all its lines.
     """
-    if not path.endswith(FREE):
+    if not path.endswith(REWRITTEN):
         return False
     across, down = formats.atlas(len(contents.frames), *contents.shape, contents.profile.gutter)
     written = recipes.godot_import(across, down)

@@ -1,7 +1,4 @@
-"""
-The two-minute version, told to somebody who knows nothing of it: a table, a few sentences, one
-picture.
-"""
+"""Report of the quick benchmark: a table, sentences, a chart."""
 
 import math
 from pathlib import Path
@@ -10,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fftocean.bench import machine
-from fftocean.bench.pictures import BLUE, COLOURS, FAINT, Line, bars, curves, duration, plain, sheet
+from fftocean.bench.charts import BLUE, COLOURS, FAINT, Line, bars, curves, duration, plain, sheet
 from fftocean.bench.results import BUSY, Reading, Result
 
 if TYPE_CHECKING:
@@ -22,23 +19,28 @@ OTHERS = {"careful": "careful SciPy", "textbook": "textbook NumPy"}
 
 
 def title(result: Result) -> str:
-    """The answer in one line."""
-    n = _spoken_of(result)
+    """Return the result in one line."""
+    n = _main_size(result)
     gain = result.find("textbook / full frame", n=n).median
-    return f"A frame of {n} x {n} takes {duration(_full(result, n).median)} here: {gain:.1f} times as fast as the textbook"
+    return (
+        f"A frame of {n} x {n} takes {duration(_full(result, n).median)} here: "
+        f"{gain:.1f} times as fast as the textbook"
+    )
 
 
 def sentences(result: Result) -> list[str]:
-    """The answer in words."""
-    n = _spoken_of(result)
+    """Return the result in sentences."""
+    n = _main_size(result)
     full = _full(result, n)
     gains = {name: result.find(f"{name} / full frame", n=n).median for name in OTHERS}
     height = result.find("height only / full frame", n=n).median
     said = [
-        f"A frame of {n} x {n} takes {duration(full.median)} here on one thread, {plain(1e3 / full.median)} a second: "
+        f"A frame of {n} x {n} takes {duration(full.median)} here on one thread, "
+        f"{plain(1e3 / full.median)} a second: "
         "height, horizontal displacements, unit normals and Jacobian.",
-        f"That is {gains['textbook']:.1f} times as fast as NumPy as the textbooks write it, and {gains['careful']:.1f} times as fast "
-        f"as NumPy and SciPy with care. The height alone costs {100 * height:.0f} % of it.",
+        f"That is {gains['textbook']:.1f} times as fast as NumPy as in textbooks, and "
+        f"{gains['careful']:.1f} times as fast as carefully optimised NumPy and SciPy. "
+        f"The height alone costs {100 * height:.0f} % of it.",
     ]
     said += [
         f"Two threads make it {two.median:.2f} times as fast."
@@ -50,25 +52,29 @@ def sentences(result: Result) -> list[str]:
     part = (
         ""
         if slow.at["points"] == m * m
-        else f" (reckoned from {slow.at['points']} of its {m * m} points)"
+        else f" (computed from {slow.at['points']} of its {m * m} points)"
     )
     said.append(
-        f"Summed wave by wave, {m} x {m} takes {duration(slow.median)}{part}: {plain(last.median)} times as long as by FFT."
+        f"Summed wave by wave, {m} x {m} takes {duration(slow.median)}{part}: "
+        f"{plain(last.median)} times as long as by FFT."
     )
     for cross in result.all("crossover"):
         where = "at every n tried" if cross.low == cross.high else f"from n = {cross.high:g} on"
-        said.append(f"The FFT wins {where}; fewer waves than that are better summed one by one.")
+        said.append(
+            f"The FFT is faster {where}; fewer waves than that are better summed one by one."
+        )
     if not result.all("crossover"):
-        said.append(f"Up to n = {m} the direct sum is never the dearer one.")
+        said.append(f"Up to n = {m} the direct sum is never slower.")
     if (busy := float(np.median([r.median for r in result.all(BUSY)]))) > 1.1:
         said.append(
-            f"The machine was busy: a second of work took {busy:.1f} s. Trust the ratios; two threads gain more on a quiet one."
+            f"The machine was busy: a second of work took {busy:.1f} s. Ratios are reliable; "
+            "two threads gain more on an idle machine."
         )
     return said
 
 
 def table(result: Result) -> "RenderableType":
-    """The answer for a terminal."""
+    """Return the result as a table for a terminal."""
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text
@@ -101,14 +107,17 @@ def table(result: Result) -> "RenderableType":
         slow, measured = direct_sum(result, n)
         cells.append(f"{'' if measured else '~ '}{duration(slow)}  {plain(slow / full):>9} x")
         rows.add_row(*cells)
-    foot = "one thread, CPU time, medians of alternating runs; x: how many times as long as our full frame; ~: reckoned"
+    foot = (
+        "one thread, CPU time, medians of alternating runs; "
+        "x: multiples of the full frame; ~: extrapolated"
+    )
     small = f"\n{foot}\n{machine.one_line(dict(result.machine))}"
     return Group(rows, Text("\n" + "\n".join(sentences(result))), Text(small, style="dim"))
 
 
-def picture(result: Result, path: Path) -> None:
+def draw(result: Result, path: Path) -> None:
     """
-    Draw the answer.
+    Draw the result.
 
     Raises:
         ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg,
@@ -123,8 +132,9 @@ def picture(result: Result, path: Path) -> None:
 
 def direct_sum(result: Result, n: int) -> tuple[float, bool]:
     """
-    What the direct sum takes for n x n [ms], and whether all its points were measured; else it is
-    reckoned, as n^4 or by points.
+    Return the time of the direct sum for n x n [ms], and whether it was measured at all points.
+
+    Otherwise it is extrapolated, by points or as n^4.
     """
     sums = result.all("eight fields, direct sum")
     for row in sums:
@@ -135,7 +145,7 @@ def direct_sum(result: Result, n: int) -> tuple[float, bool]:
 
 
 def _draw_costs(ax: "Axes", result: Result) -> None:
-    """What a frame costs at each size, by all means."""
+    """Draw the cost of a frame at each size, by every method."""
     sizes = result.settings["sizes"]
     lines = []
     for what, label, colour in (
@@ -210,12 +220,12 @@ def _draw_costs(ax: "Axes", result: Result) -> None:
             fontsize=9.0,
             color=sums,
         )
-    ax.set_title("What a frame costs, and how that grows")
+    ax.set_title("Cost of a frame, by size")
 
 
 def _draw_one_frame(ax: "Axes", result: Result) -> None:
-    """What one frame costs, by all means that can be drawn to one scale."""
-    n = _spoken_of(result)
+    """Draw the cost of one frame, by every method that fits on one scale."""
+    n = _main_size(result)
     full, height = _full(result, n).median, result.find("height only", n=n).median
     rows = [
         ("fftocean", full, duration(full), BLUE),
@@ -236,31 +246,33 @@ def _draw_one_frame(ax: "Axes", result: Result) -> None:
     ax.set_title(f"One frame of {n} x {n}")
     slow, measured = direct_sum(result, n)
     taken = f"{'' if measured else 'about '}{duration(slow)}"
-    words = f"The direct sum is not drawn: it takes {taken},\na bar {plain(slow / full)} times as long as the first."
+    ratio_text = plain(slow / full)
+    words = f"The direct sum is not drawn: it takes {taken},\n{ratio_text} times the first bar."
     ax.text(
         0.0, -0.02, words, transform=ax.transAxes, fontsize=9.0, color=COLOURS["direct"], va="top"
     )
 
 
 def _full(result: Result, n: int) -> Reading:
-    """A full frame on one thread."""
+    """Return the reading of a full frame on one thread."""
     return result.find("full frame", n=n, threads=1, clock="cpu")
 
 
 def _on_two_threads(result: Result, n: int) -> float:
     """
-    What a full frame takes on two threads [ms]: that of one thread, over what the two gained side
-    by side on the wall's clock.
+    Return the time of a full frame on two threads [ms].
+
+    It is the CPU time of one thread, divided by the gain of two in elapsed time.
     """
     return _full(result, n).median / result.find("one thread / two", n=n).median
 
 
 def _by_size(result: Result, what: str) -> list[Reading]:
-    """Readings of one kind, in rising order of n."""
+    """Return the readings of one name, by ascending n."""
     return sorted(result.all(what), key=lambda r: r.at["n"])
 
 
-def _spoken_of(result: Result) -> int:
-    """The size to speak of: 512 where it was measured, else the largest."""
+def _main_size(result: Result) -> int:
+    """Return the size that the sentences describe: 512 if measured, else the largest."""
     sizes: list[int] = result.settings["sizes"]
     return 512 if 512 in sizes else max(sizes)

@@ -1,6 +1,5 @@
 """
-Bakes that once went wrong: files of others, sidecars that are gone, names with a meaning, manifests
-that are none.
+Bakes among unusual files: those of other programs, lost sidecars, special names, false manifests.
 """
 
 import shutil
@@ -20,7 +19,7 @@ def bake(folder, changes=None, **options):
     return fo.bake(JOB.replaced(changes or {}), folder, executor="serial", **options)
 
 
-def test_pictures_may_be_none(tmp_path):
+def test_previews_may_be_none(tmp_path):
     bake(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "height",
@@ -100,7 +99,7 @@ def test_what_is_left_of_the_work_is_no_fault_of_a_finished_bake(tmp_path, monke
 
 
 @pytest.mark.parametrize("form", ["png16", "r16"])
-def test_scaled_formats_can_be_baked_again_and_mended(tmp_path, form):
+def test_scaled_formats_can_be_baked_again_and_repaired(tmp_path, form):
     """A finished bake's range is that of its manifest: it is not surveyed twice, nor lost."""
     settings = {"bake.format": form, "bake.pictures": ["sheet"]}
     manifest = bake(tmp_path, settings)

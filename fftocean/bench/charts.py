@@ -1,7 +1,4 @@
-"""
-Pictures of costs: logarithmic axes, labels at the ends of lines, the same colours for the same
-contenders everywhere.
-"""
+"""Charts of costs."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -38,7 +35,7 @@ COLOURS: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One curve of costs, and the words at its end."""
+    """One curve of costs, and the label at its end."""
 
     label: str
     x: RealLike
@@ -56,8 +53,7 @@ def sheet(
     path: Path, title: str, result: Result, *, width: float = 9.0, height: float = 5.2
 ) -> Iterator["Figure"]:
     """
-    Yield an empty figure to draw on; write it, with its title and the machine at its foot, when
-    that is done.
+    Yield an empty figure; on leaving, write it with its title, and the machine at its foot.
 
     Raises:
         ParameterError: matplotlib is not installed, or the name's suffix is none of .png, .svg,
@@ -77,18 +73,20 @@ def sheet(
 
 
 def foot(result: Result) -> str:
-    """The machine and the hour, as the small print of a picture."""
+    """Return the machine and the time, as the small print of a chart."""
     load = result.before.get("load")
     busy = "" if load is None else f"; load {load:g} at the start"
-    return f"{machine.one_line(dict(result.machine))}\n{result.before['utc']} UTC{busy}; medians of alternating runs"
+    return (
+        f"{machine.one_line(dict(result.machine))}\n"
+        f"{result.before['utc']} UTC{busy}; medians of alternating runs"
+    )
 
 
 def curves(
     ax: "Axes", lines: Sequence[Line], *, xlabel: str, ylabel: str, sizes: Sequence[float] = ()
 ) -> None:
     """
-    Draw curves on logarithmic axes, each named at its right end; labels that would overlap move
-    apart.
+    Draw curves on logarithmic axes, each labelled at its right end without overlaps.
     """
     ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
     for line in lines:
@@ -121,7 +119,7 @@ def curves(
 
 
 def bars(ax: "Axes", rows: Sequence[tuple[str, float, str, str]], *, xlabel: str = "") -> None:
-    """Draw horizontal bars, the first on top: (name, value, the words beside it, colour)."""
+    """Draw horizontal bars, the first on top: (name, value, words beside it, colour)."""
     for i, (_, value, words, colour) in enumerate(rows):
         ax.barh(-i, value, color=colour, height=0.62)
         ax.text(value, -i, f"  {words}", va="center", ha="left", fontsize=9.5, color=INK)
@@ -138,7 +136,9 @@ def bars(ax: "Axes", rows: Sequence[tuple[str, float, str, str]], *, xlabel: str
 
 def plain(value: float) -> str:
     """
-    A number as one says it: 0.5, 20, 3,000; powers of ten only where nobody could count the zeros.
+    Return a number as text, such as 0.5, 20 or 3,000.
+
+    Powers of ten appear only where the zeros could not be counted at a glance.
     """
     if value == 0.0:
         return "0"
@@ -148,7 +148,7 @@ def plain(value: float) -> str:
 
 
 def duration(milliseconds: float) -> str:
-    """A time in the unit in which one would say it."""
+    """Return a time in a suitable unit."""
     for unit, length, limit in (
         ("µs", 1e-3, 1.0),
         ("ms", 1.0, 1e3),
@@ -162,7 +162,7 @@ def duration(milliseconds: float) -> str:
 
 
 def _two(value: float) -> str:
-    """At least two digits."""
+    """Return a number with two digits at least."""
     return (
         f"{value:,.0f}"
         if value >= 99.5
@@ -174,27 +174,25 @@ def _two(value: float) -> str:
 
 def _name_at_ends(ax: "Axes", lines: Sequence[Line]) -> None:
     """
-    Write each line's name right of its last point, pushed up or down until none covers another.
+    Write each line's name right of its last point, shifted until no names overlap.
     """
     named = sorted(
         (line for line in lines if line.label), key=lambda line: float(np.asarray(line.y)[-1])
     )
     if not named:
         return
-    cast(
-        "Figure", ax.figure
-    ).draw_without_rendering()  # the limits must stand before places are given out
+    cast("Figure", ax.figure).draw_without_rendering()  # sets the limits of the axes
     to_pixels, height = ax.transData, 11.5 * DPI / 72.0
-    places: list[list[Any]] = []
+    positions: list[list[Any]] = []
     for line in named:
         x, y = to_pixels.transform((float(np.asarray(line.x)[-1]), float(np.asarray(line.y)[-1])))
-        places.append([line, x, y])
-    for _ in range(50):  # neighbours push each other apart by half of what they overlap
-        for lower, upper in pairwise(places):
+        positions.append([line, x, y])
+    for _ in range(50):  # neighbours move by half their overlap
+        for lower, upper in pairwise(positions):
             if (overlap := height - (upper[2] - lower[2])) > 0.0:
                 lower[2] -= 0.5 * overlap
                 upper[2] += 0.5 * overlap
-    for line, _, y in places:
+    for line, _, y in positions:
         last = (float(np.asarray(line.x)[-1]), float(np.asarray(line.y)[-1]))
         offset = (y - to_pixels.transform(last)[1]) * 72.0 / DPI
         ax.annotate(
