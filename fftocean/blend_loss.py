@@ -50,7 +50,7 @@ def loss(ocean: Ocean | Cascade, frames: int) -> Blend:
     """
     if ocean.loop is None:
         raise ParameterError("blend loss needs an ocean that loops: Ocean(..., loop=16.0)")
-    frames = FRAMES.check_whole("frames", frames)
+    frames = FRAMES.check("frames", frames)
     energy, omega, k = _waves(ocean)
     long = omega <= 2.0 * _peak(ocean, energy, omega)
     step = ocean.loop / frames

@@ -87,7 +87,7 @@ class Cascade:
         grids = _grids(tiles)
         shared = band_edges(grids) if bands is None else _checked_bands(bands, grids)
         loops = _loops(loop, len(grids))
-        seed = SEED.check_whole("seed", seed)
+        seed = SEED.check("seed", seed)
         computation = Computation(dtype, backend, planning, threads)
         require_memory(
             f"a cascade of {len(grids)} tiles",

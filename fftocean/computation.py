@@ -24,4 +24,4 @@ class Computation:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "dtype", precision_of(self.dtype))
-        object.__setattr__(self, "threads", THREADS.check_whole("threads", self.threads))
+        object.__setattr__(self, "threads", THREADS.check("threads", self.threads))

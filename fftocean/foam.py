@@ -74,7 +74,7 @@ class Foam:
 
         Pinned by tests/test_foam.py, against a dense quadrature of the integral.
         """
-        ocean, count = _water(ocean), FRAMES.check_whole("count", count)
+        ocean, count = _water(ocean), FRAMES.check("count", count)
         spans = spans_of(count)
         made = [self.response(ocean, count, first, stop) for first, stop in spans]
         for (first, stop), state in zip(spans, self.starts(made, ocean, count), strict=True):
@@ -138,7 +138,7 @@ class Foam:
     ) -> Iterator[int]:
         """Advance a state from frame `first`, yielding at each frame up to `last`."""
         loop = _require_looping(ocean)
-        count = FRAMES.check_whole("count", count)
+        count = FRAMES.check("count", count)
         parts = max(1, math.ceil(loop / count / longest_step(ocean)))
         stepper = _Stepper(self, loop / (count * parts))
         watch = _Watch(ocean)

@@ -134,7 +134,7 @@ def at(
         work, here = task
         out[here] = work(flat_x[here], flat_y[here], flat_z[here])
 
-    if THREADS.check_whole("threads", threads) > 1 and len(tasks) > 1:
+    if THREADS.check("threads", threads) > 1 and len(tasks) > 1:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(do, tasks))
     else:

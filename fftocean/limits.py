@@ -204,8 +204,6 @@ class Count(Quantity):
             raise ParameterError(f"{name} must be a whole number {self.rule}, got {int(value)}")
         return int(value)
 
-    check_whole = check  # the name of earlier versions
-
 
 def _is_list(values: Any) -> bool:
     """Return True for an iterable of entries; a text and a dictionary are none."""

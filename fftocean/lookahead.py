@@ -25,7 +25,7 @@ def run_in_order(tasks: Iterator[Task], ahead: int, reuse: bool) -> Iterator[Fra
         ParameterError: `ahead` out of range, at once; the errors of a task, and of the iterator
             itself, when the frame in question is due.
     """
-    ahead = AHEAD.check_whole("ahead", ahead)
+    ahead = AHEAD.check("ahead", ahead)
     return _one_by_one(tasks, reuse) if ahead == 0 else _ahead(tasks, ahead, reuse)
 
 

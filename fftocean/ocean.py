@@ -334,7 +334,7 @@ class Ocean:
         """
         if self.loop is None or self.amplitudes.cycles is None:
             raise ParameterError("loop_frame needs an ocean that loops: Ocean(..., loop=16.0)")
-        count = MOMENTS.check_whole("count", count)
+        count = MOMENTS.check("count", count)
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
@@ -392,7 +392,7 @@ class Ocean:
             ParameterError: as `loop_frame` and `frames`.
         """
         fields = check_fields(fields)
-        steps = range(MOMENTS.check_whole("count", count))
+        steps = range(MOMENTS.check("count", count))
         return run_in_order(
             (partial(self.loop_frame, j, count, fields) for j in steps), ahead, reuse
         )

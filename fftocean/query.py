@@ -160,7 +160,7 @@ class Query:
             )
         self.source, self.mode = source, mode
         self.shortest = WAVELENGTH.check("shortest", shortest)
-        self.threads = THREADS.check_whole("threads", threads)
+        self.threads = THREADS.check("threads", threads)
         self._water: SummedWaves | InterpolatedTiles
         if mode == "exact":
             self._water = SummedWaves(

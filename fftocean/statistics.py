@@ -184,7 +184,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
         loop=None
         if len(tiles) > 1 or ocean.loop is None
         else loop_error(first.amplitudes, ocean.loop),
-        folding=_folding(tiles, FRAMES.check_whole("frames", frames), 10.0 * tp),
+        folding=_folding(tiles, FRAMES.check("frames", frames), 10.0 * tp),
     )
 
 

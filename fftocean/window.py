@@ -147,7 +147,7 @@ class Window:
         frames = [ocean.loop_frame(j, count, needs) for ocean in self._splines]
         return self._summed(
             frames,
-            self.loop * (int(j) % FRAMES.check_whole("count", count)) / count,
+            self.loop * (int(j) % FRAMES.check("count", count)) / count,
             fields,
             needs,
             out,

@@ -7,6 +7,7 @@ import sys
 import warnings
 from decimal import Decimal
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -165,6 +166,16 @@ def test_the_last_seed_is_told_from_the_next():
     assert limits.SEED.check("seed", 2**64 - 1) == 2**64 - 1
     with pytest.raises(ParameterError, match="seed must be a whole number"):
         limits.SEED.check("seed", 2**64)
+
+
+def test_a_count_has_one_verb():
+    """A count passed where a quantity is expected refuses fractions too."""
+    counted: Quantity = limits.SAMPLES
+    assert type(counted.check("n", 7)) is int
+    with pytest.raises(ParameterError, match="n must be a whole number"):
+        counted.check("n", 7.0)
+    with pytest.raises(ParameterError, match="n must be a whole number"):
+        limits.keep_checked(SimpleNamespace(n=7.0), n=counted)
 
 
 # An array of them

@@ -42,7 +42,7 @@ def check_family(
     Raises:
         ParameterError: a value out of range, or waves spread beyond a factor 1e6 from the middle.
     """
-    NUMBER.check_whole("number", number)
+    NUMBER.check("number", number)
     PERIOD.check("period", period)
     RATIO.check("scale", scale)
     if 0.5 * (number - 1) * math.log(scale) > math.log(1e6):

@@ -299,7 +299,7 @@ class Waves:
             ParameterError: a number of samples or a size out of range, or more memory than there
                 is.
         """
-        nx, ny = (SAMPLES.check_whole("n", value) for value in pair("n", n))
+        nx, ny = (SAMPLES.check("n", value) for value in pair("n", n))
         lx, ly = (SIZE.check("size", value) for value in pair("size", size))
         require_memory(f"a surface of {nx} x {ny} samples", 8.0 * 30.0 * nx * ny)
         x0, y0 = np.meshgrid(np.arange(nx) * (lx / nx), np.arange(ny) * (ly / ny))

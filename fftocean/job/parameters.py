@@ -103,8 +103,6 @@ class Parameter:
             raise JobError(str(error)) from None
 
     def _check_one(self, value: Any) -> Any:
-        if isinstance(self.quantity, Count):
-            return self.quantity.check_whole(self.key, value)
         if self.quantity is not None:
             return self.quantity.check(self.key, value)
         if self.switch:

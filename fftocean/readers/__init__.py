@@ -74,7 +74,7 @@ def open(path: str | os.PathLike[str], *, site: int = 0, bins: int = 72) -> "Dat
             value.
         ParameterError: `site` or `bins` out of range.
     """
-    bins = BINS.check_whole("bins", bins)
+    bins = BINS.check("bins", bins)
     if not isinstance(path, (str, os.PathLike)):
         raise ReaderError(
             f"the spectrum must be the name of a file, got {path!r:.60} ({type(path).__name__})"

@@ -327,7 +327,7 @@ def _seconds(where: str, tokens: list[str], fields: int) -> int:
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":
-    Count("", 0, 0).check_whole("site", site)
+    Count("", 0, 0).check("site", site)
     return read(path, bins=bins)
 
 

@@ -111,7 +111,7 @@ def _beside(path: Path, name: str) -> Path | None:
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":
-    Count("", 0, 0).check_whole("site", site)
+    Count("", 0, 0).check("site", site)
     return read(path, bins=bins)
 
 

@@ -359,7 +359,7 @@ def _pick(
         raise ReaderError(
             f"{where} must hold at least one place, got dimensions {dict(spectrum.sizes)}"
         )
-    site = Count("", 0, sites - 1).check_whole("site", site)
+    site = Count("", 0, sites - 1).check("site", site)
     picked = dict(
         zip(others, (int(i) for i in np.unravel_index(site, shape)) if others else (), strict=True)
     )
@@ -367,7 +367,7 @@ def _pick(
     if times < 1:
         raise ReaderError(f"{where} must hold at least one time, got none")
     if time is not None:
-        time = Count("", -times, times - 1).check_whole("time", time) % times
+        time = Count("", -times, times - 1).check("time", time) % times
         if "time" in axes:
             picked[axes["time"]] = time
     return picked, {"site": site, "sites": sites}

@@ -217,7 +217,7 @@ def _columns(where: str, names: list[str]) -> dict[str, list[int]]:
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":
-    Count("", 0, 0).check_whole("site", site)
+    Count("", 0, 0).check("site", site)
     return read(path, bins=bins)
 
 

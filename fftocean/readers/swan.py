@@ -106,7 +106,7 @@ def read(path: Path, *, site: int) -> "Dataset":
     if keyword not in ("LONLAT", "LOCATIONS"):
         raise ReaderError(f"{lines.where} must be LONLAT or LOCATIONS, got {keyword!r:.40}")
     places = lines.table("places", 2)
-    site = Count("", 0, len(places) - 1).check_whole("site", site)
+    site = Count("", 0, len(places) - 1).check("site", site)
     axes = ("lon", "lat") if keyword == "LONLAT" else ("x", "y")
 
     keyword = lines.next("AFREQ or RFREQ").split()[0]

@@ -61,7 +61,7 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
     lines = swan._Lines(path)
     lines.next("SWAN")
     dated, axes, places = _header(lines)
-    site = Count("", 0, len(places) - 1).check_whole("site", site)
+    site = Count("", 0, len(places) - 1).check("site", site)
     keyword = lines.next("AFREQ or RFREQ").split()[0]
     if keyword not in ("AFREQ", "RFREQ"):
         raise ReaderError(f"{lines.where} must be AFREQ or RFREQ, got {keyword!r:.40}")

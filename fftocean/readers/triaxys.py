@@ -187,7 +187,7 @@ def _position(title: str) -> dict[str, Any]:
 
 
 def _read(path: Path, site: int, bins: int) -> "Dataset":  # noqa: ARG001
-    Count("", 0, 0).check_whole("site", site)
+    Count("", 0, 0).check("site", site)
     return read(path)
 
 

@@ -113,7 +113,7 @@ def read(path: Path, *, site: int) -> "Dataset":
             f"{lines.where} must count 2 to {_MOST} frequencies, 4 to {_MOST} directions and 1 to "
             f"{_MOST} points, got {nf}, {nd} and {points}"
         )
-    site = Count("", 0, points - 1).check_whole("site", site)
+    site = Count("", 0, points - 1).check("site", site)
     frequency, f_order = dataset_layout.frequencies(
         f"{path.name}: the frequencies", lines.numbers(nf, "frequencies")
     )
