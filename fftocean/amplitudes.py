@@ -27,7 +27,7 @@ class Modes(NamedTuple):
     ky: Real  # [rad/m]
     amplitude: Real  # [m], >= 0
     phase: Real  # [rad]
-    omega: Real  # [rad/s]; on a loop, a whole number of turns in its period
+    omega: Real  # [rad/s]; on a loop, a whole number of cycles in its period
 
     def __repr__(self) -> str:
         return brief_repr(self)
@@ -57,7 +57,7 @@ class Amplitudes:
     band: Band = (
         WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     )
-    cycles: Integer | None = field(init=False)  # whole turns in a loop
+    cycles: Integer | None = field(init=False)  # whole cycles in a loop
 
     __repr__ = brief_repr
 
@@ -107,9 +107,8 @@ class Amplitudes:
     def variance(self) -> float:
         """m0 of the tile, averaged over seeds: the sum of E_k [m^2]."""
         half = float(np.sum(self.variance_forward))
-        return half + float(
-            np.sum(self.variance_backward[:, 1:])
-        )  # the column mx = 0 holds both k and -k
+        # the column mx = 0 holds both k and -k
+        return half + float(np.sum(self.variance_backward[:, 1:]))
 
     def modes(self) -> Modes:
         """Return every wave that carries energy."""
@@ -157,7 +156,7 @@ def seed_amplitudes(
 
     Source: Tessendorf 2001, with a factor such that E[a^2/2] = 2 E|h0|^2 = E_k.
     """
-    seed = SEED.check_whole("seed", seed)
+    seed = SEED.check("seed", seed)
     if draw not in ("gaussian", "fixed"):
         raise ParameterError(f"amplitudes must be 'gaussian' or 'fixed', got {draw!r}")
 
@@ -165,9 +164,8 @@ def seed_amplitudes(
     forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
     reach_x, reach_y = grid.reach
-    at_a_time = max(
-        1, _BLOCK // (reach_y + 1)
-    )  # columns: what is made on the way is several times as much as what is kept
+    # columns: what is made on the way is several times as much as what is kept
+    at_a_time = max(1, _BLOCK // (reach_y + 1))
     for first in range(0, reach_x + 1, at_a_time):
         ax, ay = (
             a.ravel()

@@ -51,13 +51,8 @@ TOLERANCE = 1e-3
 """Of a sea's variance: by how much the cells and the continuous integral may differ."""
 
 _POINTS = (1, 2, 3, 4, 6)  # Gauss points a side ...
-_ACROSS = (
-    0.16,
-    0.8,
-    1.6,
-    2.6,
-    4.5,
-)  # ... that give 1e-3 to 1e-4 of a bell's top in cells up to so many quarters of a panel
+# ... that give 1e-3 to 1e-4 of a bell's top in cells up to so many quarters of a panel
+_ACROSS = (0.16, 0.8, 1.6, 2.6, 4.5)
 _TAIL = 0.22  # the scale on which k^-4 changes, as a share of k: 1/sqrt(20)
 _BLOCK = 2**15  # evaluations of a density at a time: what stays in cache
 _CELLS = 256  # cells covered by rays at a time
@@ -180,9 +175,8 @@ class Cells:
             else:
                 _, low, high = split(edges[:-1], edges[1:], part.theta)
                 theta, weight = (a.ravel() for a in gauss(low, high))
-            with np.errstate(
-                divide="ignore", over="ignore"
-            ):  # along an axis the other edge is never met
+            # along an axis the other edge is never met
+            with np.errstate(divide="ignore", over="ignore"):
                 yield (
                     part,
                     theta,

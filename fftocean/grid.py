@@ -28,7 +28,7 @@ class Grid:
 
     def __post_init__(self) -> None:
         for name, n in (("nx", self.nx), ("ny", self.ny)):
-            SAMPLES.check_whole(name, n)
+            SAMPLES.check(name, n)
         for name, size in (("lx", self.lx), ("ly", self.ly)):
             SIZE.check(name, size)
 
@@ -41,7 +41,7 @@ class Grid:
             ParameterError: `n` is not one or two whole numbers in range, `size` not one or two
                 lengths in range.
         """
-        nx, ny = (SAMPLES.check_whole("n", v) for v in _pair("n", n))
+        nx, ny = (SAMPLES.check("n", v) for v in _pair("n", n))
         lx, ly = (SIZE.check("size", v) for v in _pair("size", size))
         return cls(nx, ny, lx, ly)
 

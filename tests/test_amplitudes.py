@@ -1,4 +1,4 @@
-"""h0(k): the energy that was ordered, in the right cells, whatever the tile."""
+"""Amplitudes h0(k): the specified energy in the right cells of any tile."""
 
 import math
 

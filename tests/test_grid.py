@@ -1,4 +1,4 @@
-"""The tile's index order and the waves it can hold."""
+"""Index order of a tile, and the waves it can hold."""
 
 import numpy as np
 import pytest

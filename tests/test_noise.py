@@ -1,4 +1,4 @@
-"""Chance is a function of (seed, mx, my), and it is the right chance."""
+"""Random numbers as a function of (seed, mx, my), and their distribution."""
 
 import numpy as np
 import pytest

@@ -48,9 +48,8 @@ def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
 def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
     """Return (d omega/dk) / (omega/k), unchecked."""
     s = kinematic_tension * k**2
-    x2 = 2.0 * np.minimum(
-        _times_depth(k, depth), 350.0
-    )  # sinh overflows past 710; x/sinh x is 0 long before
+    # sinh overflows past 710; x/sinh x is 0 long before
+    x2 = 2.0 * np.minimum(_times_depth(k, depth), 350.0)
     ratio: Real = 0.5 * (
         (GRAVITY + 3.0 * s) / (GRAVITY + s)
         + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0)
@@ -167,9 +166,8 @@ def wavenumber(omega: RealLike, depth: float = math.inf, surface_tension: float 
     w, k = omega[moving], deep[moving]
     k = k / np.sqrt(np.tanh(_times_depth(k, depth)))
     if kinematic_tension > 0.0:
-        k = np.minimum(
-            k, np.cbrt(w) ** 2 / np.cbrt(kinematic_tension)
-        )  # w^2 over the faintest of tensions would overflow
+        # w^2 over the faintest of tensions would overflow
+        k = np.minimum(k, np.cbrt(w) ** 2 / np.cbrt(kinematic_tension))
     for _ in range(_NEWTON_STEPS):
         misfit = _frequency(k, depth, kinematic_tension) / w - 1.0
         k = k * np.exp(-np.log1p(misfit) / _speed_ratio(k, depth, kinematic_tension))

@@ -58,9 +58,8 @@ def moment(spectrum: Spectrum, n: int, low: float = 0.0, high: float = math.inf)
         return math.inf
 
     def tail(u: float) -> float:
-        return (
-            integrand(1.0 / u) / u**2 if u > 0.0 else 0.0
-        )  # a power law in 1/x is one in u, and its end is in sight
+        # a power law in 1/x is one in u, and its end is in sight
+        return integrand(1.0 / u) / u**2 if u > 0.0 else 0.0
 
     pieces = [
         (integrand, a, b) if b < math.inf else (tail, 0.0, 1.0 / a)

@@ -38,12 +38,13 @@ _BEAUFORT: tuple[tuple[str, float, float, float], ...] = (
     ("Strong gale", 20.8, 24.4, 7.0),
     ("Storm", 24.5, 28.4, 9.0),
     ("Violent storm", 28.5, 32.6, 11.5),
+    # "32.7 and over", "14 and over": the scale has no middle here, so its beginning is taken
     (
         "Hurricane",
         32.7,
         32.7,
         14.0,
-    ),  # "32.7 and over", "14 and over": the scale has no middle here, so its beginning is taken
+    ),
 )
 
 # name, height of well-developed wind waves of the open sea from-to [m]
@@ -121,7 +122,7 @@ def beaufort(number: int) -> Preset:
     306, code table 1100; probable wave heights: WMO-No. 306, Manual on Codes, as guidance to the
     scale in the open sea.
     """
-    number = BEAUFORT.check_whole("number", number)
+    number = BEAUFORT.check("number", number)
     name, low, high, hs = _BEAUFORT[number]
     wind = 0.5 * (low + high)
     return Preset(number, name, wind, hs, *_young_or_developed(wind, hs))
@@ -143,7 +144,7 @@ def sea_state(number: int) -> Preset:
 
     Source: WMO-No. 306, Manual on Codes, volume I.1, code table 3700.
     """
-    number = SEA_STATE.check_whole("number", number)
+    number = SEA_STATE.check("number", number)
     name, low, high = _SEA_STATES[number]
     hs = 0.5 * (low + high)
     wind = _developing_wind(hs)

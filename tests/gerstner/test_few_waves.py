@@ -344,7 +344,7 @@ def test_few_wave_models_share_no_code_with_the_fast_path():
             a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names
         }
         ours = {name for name in modules if name.startswith("fftocean")}
-        low = {f"fftocean.{name}" for name in ("arrays", "constants", "errors", "limits")}
+        low = {f"fftocean.{name}" for name in ("arrays", "constants", "errors", "host", "limits")}
         assert {name for name in ours if not name.startswith("fftocean.gerstner.")} <= low
 
 
@@ -1131,7 +1131,7 @@ def test_direction_of_a_vector():
             "omega must be",
         ),
         (lambda: MODELS["PMS"].waves.at(math.nan, 0.0, 0.0), "x0 must be between"),
-        (lambda: MODELS["PMS"].waves.at(0.0, [0.0, math.inf], 0.0), "y0 must be between"),
+        (lambda: MODELS["PMS"].waves.at(0.0, [0.0, math.inf], 0.0), r"y0\[1\] must be between"),
         (lambda: MODELS["PMS"].waves.at(0.0, 0.0, 1e13), "t must be between"),
         (lambda: MODELS["PMS"].waves.at("here", 0.0, 0.0), "x0 must be a number"),
         (lambda: MODELS["PMS"].waves.grid(0, 100.0), "n must be"),

@@ -1,4 +1,4 @@
-"""omega(k), its slope and its inverse: limits, a 40-digit oracle, and the laws a loop must keep."""
+"""Dispersion relation: limits, 40-digit arithmetic, and the frequencies of a loop."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What the integrals of a spectrum say, against closed forms."""
+"""Integral parameters of a spectrum, against closed forms."""
 
 import math
 from itertools import pairwise

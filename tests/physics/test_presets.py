@@ -1,7 +1,4 @@
-"""
-Seas by number: each has the height that its scale promises, and the period that its wind can give
-it.
-"""
+"""Seas of the Beaufort scale and of sea states: heights of the scale, periods of the wind."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Several systems over one depth: they add, they go where they are sent, and a sea is a value."""
+"""Sums of wave systems over one depth, their directions, and seas as frozen values."""
 
 import math
 import pickle

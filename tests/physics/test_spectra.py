@@ -89,7 +89,7 @@ def test_peak_enhancement_stands_outside_the_exponential():
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
-def test_the_peak_is_where_it_is_said_to_be(gamma):
+def test_density_is_highest_at_the_peak(gamma):
     """
     S' = 0 at omega_p for every gamma: found within the step of the finest grid, 1e-6 of the peak.
     """
@@ -107,7 +107,7 @@ def test_tail_is_the_phillips_law():
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
-def test_ordered_height_is_delivered(gamma):
+def test_a_sea_has_the_specified_height(gamma):
     s = JONSWAP.from_sea_state(hs=3.0, tp=9.0, gamma=gamma)
     assert 4.0 * math.sqrt(independent_m0(s)) == pytest.approx(3.0, rel=1e-9)
     assert s.peak == 2.0 * math.pi / 9.0
@@ -118,7 +118,7 @@ def test_ordered_height_is_delivered(gamma):
 
 
 @pytest.mark.parametrize("depth", [0.5, 10.0, math.inf])
-def test_ordered_height_is_delivered_in_that_depth(depth):
+def test_a_sea_has_the_specified_height_in_its_depth(depth):
     s = TMA.from_sea_state(hs=0.3, tp=9.0, depth=depth)
     assert 4.0 * math.sqrt(independent_m0(s)) == pytest.approx(0.3, rel=1e-9)
     assert s.depth == depth
@@ -219,7 +219,7 @@ def test_growth_is_a_law_of_dimensionless_fetch():
 
 
 def corner(predicate, low: float, high: float) -> float:
-    """Where the predicate turns true, to the last digit but ten."""
+    """Return the number at which the predicate turns true, to the last digit but ten."""
     while high > low * (1.0 + 1e-12):
         middle = math.sqrt(low * high)
         low, high = (low, middle) if predicate(JONSWAP.from_wind, middle) else (middle, high)
@@ -539,7 +539,7 @@ def test_replace_changes_one_thing():
 
 
 @pytest.mark.parametrize("s", ALL, ids=lambda s: type(s).__name__)
-def test_shapes_and_the_dead_side_of_zero(s):
+def test_density_has_the_shape_of_omega_and_is_0_below_0(s):
     assert np.shape(s(1.0)) == ()
     assert s(np.ones((2, 3))).shape == (2, 3)
     assert s([]).shape == (0,)

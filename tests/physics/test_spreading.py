@@ -1,4 +1,4 @@
-"""D(omega, theta): every model shares out exactly what there is, and each has its own shape."""
+"""Spreadings: integral 1 over the circle, and the shape of each."""
 
 import math
 import pickle

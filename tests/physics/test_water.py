@@ -173,7 +173,7 @@ def test_two_parts_of_two_waters_are_refused():
         fo.Sea(TMA, depth=-1.0)
 
 
-def test_a_wind_that_differs_within_a_system_is_said():
+def test_a_wind_that_differs_within_a_system_is_warned_of():
     with pytest.warns(
         SeaWarning,
         match=r"wind speed .* 10 m/s for its spectrum \(Elfouhaily\) and 20 m/s for its spr",

@@ -7,10 +7,7 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, described
-from fftocean.limits import (
-    PEAK,
-    SIGNIFICANT_WAVE_HEIGHT,
-)
+from fftocean.limits import PEAK, SIGNIFICANT_WAVE_HEIGHT
 from fftocean.physics.kinds import Registry
 
 

@@ -4,11 +4,7 @@ import math
 from dataclasses import dataclass
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    PERIOD,
-    SIGNIFICANT_WAVE_HEIGHT,
-    keep_checked,
-)
+from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
 from fftocean.physics.spectra.gamma import GammaSpectrum, require_possible
@@ -25,7 +21,7 @@ class Bretschneider:
 
     Source: Bretschneider 1959; 15th ITTC (1978), S = A omega^-5 exp(-B omega^-4) with A = 173
     Hs^2/T1^4, B = 691/T1^4.
-    Pinned by tests/physics/test_double_peaked.py: 173, 691, and the closed m0.
+    Pinned by tests/physics/test_composed_spectra.py: 173, 691, and the closed m0.
     """
 
     hs: float  # significant wave height [m]

@@ -7,10 +7,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    PEAK,
-    keep_checked,
-)
+from fftocean.limits import PEAK, keep_checked
 
 
 @dataclass(frozen=True, slots=True)

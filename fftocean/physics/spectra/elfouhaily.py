@@ -9,18 +9,9 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY, SURFACE_TENSION
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    DEPTH,
-    FETCH,
-    WIND_SPEED,
-    Quantity,
-    keep_checked,
-)
+from fftocean.limits import DEPTH, FETCH, WIND_SPEED, Quantity, keep_checked
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
-from fftocean.physics.dispersion import (
-    angular_frequency,
-    group_velocity,
-)
+from fftocean.physics.dispersion import angular_frequency, group_velocity
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
 from fftocean.physics.spectra.wavenumber_form import per_frequency, scale_wind
@@ -63,8 +54,8 @@ class Elfouhaily:
     Source: Elfouhaily, Chapron, Katsaros & Vandemark, J. Geophys. Res. 102 (1997), 15781-15796,
     doi:10.1029/97JC00467, eq. 2, 3, 31-34, 40, 41, 44; the correction of eq. 41 after Mobley (Ocean
     Optics Web Book), who has it from the first author.
-    Pinned by tests/physics/test_wind_wavenumber.py: developed Hs, Cox & Munk's slopes, the second
-    peak of B at k_m.
+    Pinned by tests/physics/test_wavenumber_spectra.py: developed Hs, slopes of Cox & Munk, the
+    second peak of B at k_m.
     """
 
     speed: float  # U10 [m/s]
@@ -132,9 +123,8 @@ class Elfouhaily:
             self._peak_wavenumber,
             self.friction_velocity,
         )
-        k = np.maximum(
-            np.asarray(k, dtype=np.float64), 0.03 * k_p
-        )  # there L is 0 in double precision
+        # there L is 0 in double precision
+        k = np.maximum(np.asarray(k, dtype=np.float64), 0.03 * k_p)
         if not self.speed:
             return np.zeros_like(k)
         step = np.sqrt(k / k_p) - 1.0

@@ -9,26 +9,18 @@ import numpy as np
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    PERIOD,
-    SIGNIFICANT_WAVE_HEIGHT,
-    Quantity,
-    check_bool,
-    keep_checked,
-)
+from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, Quantity, check_bool, keep_checked
 from fftocean.physics.kinds import Switch, Way
 from fftocean.physics.moments import moment
 from fftocean.physics.spectra.base import SPECTRA
 
-TAIL = Quantity(
-    "", 1.4, 1000.0
-)  # N: m0 exists above 1; below 1.4 half of it would lie beyond ten times the peak
+# N: m0 exists above 1; below 1.4 half of it would lie beyond ten times the peak
+TAIL = Quantity("", 1.4, 1000.0)
 
 FRONT = Quantity("", 1.0, 16.0)  # M
 
-ENHANCEMENT = Quantity(
-    "", 1.0, 100.0
-)  # Torsethaugen's regression reaches 50 in the steepest seas that can be
+# Torsethaugen's regression reaches 50 in the steepest possible seas
+ENHANCEMENT = Quantity("", 1.0, 100.0)
 
 STEEPEST = 4.0 / math.sqrt(5.0)
 """
@@ -58,9 +50,8 @@ class GammaSpectrum:
     tail: float = 5.0  # N: S falls as omega^-N [-]
     front: float = 4.0  # M: how steeply it rises [-]
     gamma: float = 1.0  # peak enhancement [-]
-    exact: bool = field(
-        default=True, repr=False
-    )  # Hs to the last digit, not as the published regression has it
+    # Hs to the last digit, not as the published regression has it
+    exact: bool = field(default=True, repr=False)
 
     def __post_init__(self) -> None:
         keep_checked(
@@ -86,9 +77,8 @@ class GammaSpectrum:
         """Return S at `omega`, [m^2 s/rad]."""
         norm = norm_by_regression if not self.exact else norm_by_quadrature
         scale = self.hs**2 / 16.0 / self.peak * norm(self.tail, self.front, self.gamma)
-        omega = np.minimum(
-            np.asarray(omega, dtype=np.float64), 1e50
-        )  # nothing is left there, nor is infinity a frequency
+        # nothing is left there, nor is infinity a frequency
+        omega = np.minimum(np.asarray(omega, dtype=np.float64), 1e50)
         return scale * _bell(omega / self.peak, self.tail, self.front, self.gamma)
 
 
@@ -102,9 +92,10 @@ def _bell(x: Real, tail: float, front: float, gamma: float) -> Real:
     x = np.maximum(x, 1e-3)  # there the front is 0 in double precision
     bell: Real = np.exp(log_g - tail * np.log(x) - tail / front * x**-front)
     if gamma > 1.0:
+        # 0 at 5 peaks
         bell *= gamma ** np.exp(
             -0.5 * ((np.minimum(x, 5.0) - 1.0) / np.where(x <= 1.0, 0.07, 0.09)) ** 2
-        )  # 0 at 5 peaks
+        )
     return bell
 
 
@@ -124,13 +115,8 @@ class _Shape:
     front: float
     gamma: float
     peak: float = 1.0
-    breaks: tuple[float, ...] = (
-        0.5,
-        0.8,
-        1.0,
-        1.3,
-        2.0,
-    )  # gamma^r ends within 3 widths of the peak
+    # gamma^r ends within 3 widths of the peak
+    breaks: tuple[float, ...] = (0.5, 0.8, 1.0, 1.3, 2.0)
 
     def __call__(self, x: RealLike, /) -> Real:
         return _bell(np.asarray(x, dtype=np.float64), self.tail, self.front, self.gamma)
@@ -155,6 +141,7 @@ def total(parts: tuple[GammaSpectrum, ...], omega: RealLike) -> Real:
 
 
 def breaks_of(parts: tuple[GammaSpectrum, ...]) -> tuple[float, ...]:
+    """Return the scales of all parts, ascending [rad/s]."""
     return tuple(sorted({b for part in parts for b in part.breaks}))
 
 

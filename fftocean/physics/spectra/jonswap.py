@@ -103,9 +103,8 @@ def fetch_limited(speed: float, fetch: float, gamma: float) -> JONSWAP:
     # Dimensionless, with u = omega_p U/g and e = g^2 m0 / U^4:  e = alpha J(gamma) / u^4.
     limit = 8.1e-3 * 0.2 / FULLY_DEVELOPED_PEAK**4
     growth = 0.076 * shape_integral(gamma) / 22.0**4
-    nearly = (0.99 * limit / growth) ** (
-        1.0 / (4.0 / 3.0 - 0.22)
-    )  # fetch at which e is 99 % of its limit
+    # fetch at which e is 99 % of its limit
+    nearly = (0.99 * limit / growth) ** (1.0 / (4.0 / 3.0 - 0.22))
     mature = (22.0 / FULLY_DEVELOPED_PEAK) ** 3  # fetch at which the peak is that of the limit
     u = max(22.0 * x ** (-1.0 / 3.0), FULLY_DEVELOPED_PEAK)
     alpha = 0.076 * x**-0.22

@@ -13,9 +13,8 @@ def kitaigorodskii(omega: RealLike, depth: float) -> Real:
     Return Phi(omega, h) [-], from omega^2 h / (2g) in shallow water to 1 in deep  (Kitaigorodskii
     et al. 1975).
     """
-    omega = np.clip(
-        np.asarray(omega, dtype=np.float64), 0.0, 1e20
-    )  # deep in a micrometre; and inf is not a frequency
+    # deep in a micrometre; and inf is not a frequency
+    omega = np.clip(np.asarray(omega, dtype=np.float64), 0.0, 1e20)
     return kitaigorodskii_at(wavenumber(omega, depth), depth)
 
 

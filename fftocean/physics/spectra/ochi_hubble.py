@@ -5,22 +5,15 @@ from dataclasses import dataclass, field
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    PERIOD,
-    SIGNIFICANT_WAVE_HEIGHT,
-    Count,
-    Quantity,
-    keep_checked,
-)
+from fftocean.limits import PERIOD, SIGNIFICANT_WAVE_HEIGHT, Count, Quantity, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
 from fftocean.physics.spectra.gamma import GammaSpectrum, breaks_of, total
 
 SHAPE = Quantity("", 0.1, 100.0)  # Ochi and Hubble's lambda
 
-FAMILY_WAVE_HEIGHT = Quantity(
-    "m", 0.0, 20.0
-)  # at 20 m Ochi and Hubble's exponentials leave one tail at omega^-1.5
+# at 20 m Ochi and Hubble's exponentials leave one tail at omega^-1.5
+FAMILY_WAVE_HEIGHT = Quantity("m", 0.0, 20.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

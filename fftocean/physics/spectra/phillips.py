@@ -17,10 +17,7 @@ from fftocean.limits import (
     keep_checked,
 )
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
-from fftocean.physics.dispersion import (
-    angular_frequency,
-    group_velocity,
-)
+from fftocean.physics.dispersion import angular_frequency, group_velocity
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
 from fftocean.physics.spectra.wavenumber_form import per_frequency, scale_wind
@@ -36,7 +33,7 @@ class Phillips:
     calibrated.
 
     The source calls A "a numeric constant" and gives no value: a wind does not tell how high this
-    sea is. Here P is a density [m^4] and A has no unit, so that the picture does not change with
+    sea is. Here P is a density [m^4] and A has no unit, so that the sea does not change with
     the tile; set A by eye or let `from_height` set it. A = alpha / (2 pi) gives the tail of
     Phillips' constant alpha: 1.3e-3 is an ocean's.
 
@@ -46,8 +43,8 @@ class Phillips:
     `CosineSquared` is its front half.
 
     Source: Tessendorf, Simulating Ocean Water, SIGGRAPH course notes (2001), eq. 23 and 24; the
-    form from Phillips 1958. Pinned by tests/physics/test_wind_wavenumber.py, against the closed m0
-    and against `PiersonMoskowitz`.
+    form from Phillips 1958. Pinned by tests/physics/test_wavenumber_spectra.py, against the closed
+    m0 and against `PiersonMoskowitz`.
     """
 
     speed: float  # V [m/s]; the source does not say how high it blows
@@ -122,16 +119,16 @@ class Phillips:
         if not self.speed:
             return 0.0
         z = 2.0 * self.cutoff / self._longest
+        # z K1(z) = 1 + O(z^2 ln z)
         return float(
             self.amplitude * np.pi * self._longest**2 / 2.0 * (z * k1(z) if z > 1e-9 else 1.0)
-        )  # z K1(z) = 1 + O(z^2 ln z)
+        )
 
     @property
     def peak(self) -> float:
         """omega_p [rad/s] of S in deep water, carried to this water at the same wavelength."""
-        y = 8.0 / (
-            5.0 + math.sqrt(25.0 + 64.0 * (self.cutoff / self._longest) ** 2)
-        )  # (k L)^2 where dS/d omega = 0
+        # (k L)^2 where dS/d omega = 0
+        y = 8.0 / (5.0 + math.sqrt(25.0 + 64.0 * (self.cutoff / self._longest) ** 2))
         return float(
             angular_frequency(math.sqrt(y) / self._longest, self.depth, self.surface_tension)
         )
@@ -139,9 +136,8 @@ class Phillips:
     def wavenumber_density(self, k: RealLike) -> Real:
         """Return F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
         amplitude = self.amplitude if self.speed else 0.0
-        kl = np.maximum(
-            np.asarray(k, dtype=np.float64) * self._longest, 0.03
-        )  # there exp(-1/x^2) is 0 in double precision
+        # there exp(-1/x^2) is 0 in double precision
+        kl = np.maximum(np.asarray(k, dtype=np.float64) * self._longest, 0.03)
         f: Real = (
             np.pi
             * amplitude

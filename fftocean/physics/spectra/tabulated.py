@@ -8,12 +8,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    DENSITY,
-    DEPTH,
-    FREQUENCY,
-    keep_checked,
-)
+from fftocean.limits import DENSITY, DEPTH, FREQUENCY, keep_checked
 from fftocean.physics.kinds import Numbers, Way
 from fftocean.physics.spectra.base import SPECTRA
 

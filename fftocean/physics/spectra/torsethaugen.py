@@ -6,24 +6,13 @@ from dataclasses import dataclass, field
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    PERIOD,
-    Quantity,
-    check_bool,
-    keep_checked,
-)
+from fftocean.limits import PERIOD, Quantity, check_bool, keep_checked
 from fftocean.physics.kinds import Choice, Switch, Way
 from fftocean.physics.spectra.base import SPECTRA
-from fftocean.physics.spectra.gamma import (
-    GammaSpectrum,
-    breaks_of,
-    require_possible,
-    total,
-)
+from fftocean.physics.spectra.gamma import GammaSpectrum, breaks_of, require_possible, total
 
-TORSETHAUGEN_WAVE_HEIGHT = Quantity(
-    "m", 0.0, 50.0
-)  # at 54 m the fully developed sea would be longer than the longest swell
+# at 54 m the fully developed sea would be longer than the longest swell
+TORSETHAUGEN_WAVE_HEIGHT = Quantity("m", 0.0, 50.0)
 
 FORMS = ("simplified", "full")
 
@@ -48,7 +37,7 @@ class Torsethaugen:
 
     Source: Torsethaugen, SINTEF report STF22 A96204 (1996); Torsethaugen & Haver, Simplified double
     peak spectral model for ocean waves, Proc. 14th ISOPE (2004), paper 2004-JSC-193; DNV-RP-C205
-    (2010), appendix A. None of them has a doi. Pinned by tests/physics/test_double_peaked.py,
+    (2010), appendix A. None of them has a doi. Pinned by tests/physics/test_composed_spectra.py,
     against an independent implementation's figures.
     """
 

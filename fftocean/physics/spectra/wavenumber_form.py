@@ -5,10 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.physics.dispersion import (
-    group_velocity,
-    wavenumber,
-)
+from fftocean.physics.dispersion import group_velocity, wavenumber
 from fftocean.physics.spectra.wind import STILL_AIR
 
 

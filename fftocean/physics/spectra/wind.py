@@ -4,9 +4,7 @@ import warnings
 
 from fftocean.constants import GRAVITY
 from fftocean.errors import SeaWarning
-from fftocean.limits import (
-    WIND_SPEED,
-)
+from fftocean.limits import WIND_SPEED
 
 STILL_AIR = 1e-3
 """

@@ -3,10 +3,7 @@
 from dataclasses import dataclass, field
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    FRACTION,
-    keep_checked,
-)
+from fftocean.limits import FRACTION, keep_checked
 from fftocean.physics.kinds import Part, Way
 from fftocean.physics.spreading.base import SPREADINGS, Spreading, require_spreading
 from fftocean.physics.spreading.cosine_squared import CosineSquared

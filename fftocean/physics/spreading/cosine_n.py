@@ -5,10 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    SPREADING_EXPONENT,
-    keep_checked,
-)
+from fftocean.limits import SPREADING_EXPONENT, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spreading.base import SPREADINGS, wrapped
 from fftocean.physics.spreading.cosine_power import cosine_2s

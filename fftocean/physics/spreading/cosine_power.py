@@ -6,10 +6,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    SPREADING_EXPONENT,
-    keep_checked,
-)
+from fftocean.limits import SPREADING_EXPONENT, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spreading.base import SPREADINGS, wrapped
 

@@ -7,9 +7,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    ANGLE,
-)
+from fftocean.limits import ANGLE
 from fftocean.physics.spreading.base import held, wrapped
 from fftocean.physics.spreading.normalisation import Function, circle_integral
 

@@ -8,17 +8,9 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY, SURFACE_TENSION
-from fftocean.limits import (
-    DEPTH,
-    WIND_SPEED,
-    Quantity,
-    check_bool,
-    keep_checked,
-)
+from fftocean.limits import DEPTH, WIND_SPEED, Quantity, check_bool, keep_checked
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
-from fftocean.physics.dispersion import (
-    wavenumber,
-)
+from fftocean.physics.dispersion import wavenumber
 from fftocean.physics.kinds import Switch, Way
 from fftocean.physics.spreading.base import SPREADINGS, wrapped
 

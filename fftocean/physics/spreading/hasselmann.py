@@ -6,10 +6,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
-from fftocean.limits import (
-    WIND_SPEED,
-    keep_checked,
-)
+from fftocean.limits import WIND_SPEED, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spreading.base import SPREADINGS, relative, wrapped
 from fftocean.physics.spreading.cosine_power import cosine_2s

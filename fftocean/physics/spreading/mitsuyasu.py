@@ -6,10 +6,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.constants import GRAVITY
-from fftocean.limits import (
-    WIND_SPEED,
-    keep_checked,
-)
+from fftocean.limits import WIND_SPEED, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spreading.base import SPREADINGS, relative, wrapped
 from fftocean.physics.spreading.cosine_power import cosine_2s
@@ -40,9 +37,8 @@ class Mitsuyasu:
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
         """Return the exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
-        inverse_age = max(
-            self.speed * peak / GRAVITY, 1e-2
-        )  # a hundredth makes s_p a million already
+        # a hundredth makes s_p a million already
+        inverse_age = max(self.speed * peak / GRAVITY, 1e-2)
         return peaked_exponent(relative(omega, peak), 11.5 * inverse_age**-2.5)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:

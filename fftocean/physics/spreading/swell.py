@@ -5,10 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    FRACTION,
-    keep_checked,
-)
+from fftocean.limits import FRACTION, keep_checked
 from fftocean.physics.kinds import Part, Way
 from fftocean.physics.spreading.base import (
     SPREADINGS,

@@ -7,11 +7,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import (
-    LARGEST_FINITE,
-    SMALLEST_POSITIVE,
-    Quantity,
-)
+from fftocean.limits import LARGEST_FINITE, SMALLEST_POSITIVE, Quantity
 from fftocean.physics.kinds import Numbers, Way
 from fftocean.physics.spreading.base import SPREADINGS
 
@@ -39,9 +35,8 @@ class TabulatedSpreading:
     ]  # from the system's direction, counter-clockwise [degrees], in any order, no angle twice
     density: Sequence[Sequence[float]] = field(repr=False)  # (frequency, direction), any unit, >= 0
     _f: Real = field(init=False, repr=False, compare=False)
-    _theta: Real = field(
-        init=False, repr=False, compare=False
-    )  # ascending [rad], the first again a turn later
+    # ascending [rad], the first again a turn later
+    _theta: Real = field(init=False, repr=False, compare=False)
     _d: Real = field(init=False, repr=False, compare=False)  # (f, theta) [1/rad]
 
     def __post_init__(self) -> None:

@@ -6,10 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
-from fftocean.limits import (
-    Quantity,
-    keep_checked,
-)
+from fftocean.limits import Quantity, keep_checked
 from fftocean.physics.kinds import Way
 from fftocean.physics.spreading.base import SPREADINGS, wrapped
 
@@ -36,9 +33,8 @@ class WrappedNormal:
         """Return D at `theta`, [1/rad]."""
         _, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
         sigma = math.radians(self.spread)
-        turns = math.ceil(
-            (8.5 * sigma + np.pi) / (2.0 * np.pi) - 0.5
-        )  # what is left out lies beyond 8.5 sigma: under 1e-16
+        # what is left out lies beyond 8.5 sigma: under 1e-16
+        turns = math.ceil((8.5 * sigma + np.pi) / (2.0 * np.pi) - 0.5)
         total = np.zeros_like(theta)
         for j in range(-turns, turns + 1):
             total += np.exp(-0.5 * np.square((theta + 2.0 * np.pi * j) / sigma))

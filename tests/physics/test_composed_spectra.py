@@ -1,6 +1,6 @@
 """
-Bells and pairs of bells: their energy in closed form, their shapes against the papers and an
-independent program.
+Gamma spectra and the spectra composed of them: energy in closed form, shapes against the papers
+and an independent program.
 """
 
 import math
@@ -68,7 +68,7 @@ def test_every_spectrum_is_finite_and_serves_a_sea(s):
 
 
 @pytest.mark.parametrize(("hs", "tp"), [(0.1, 2.0), (3.0, 9.0), (12.0, 14.0)])
-def test_bretschneider_is_pierson_moskowitz_set_free(hs, tp):
+def test_bretschneider_is_pierson_moskowitz_of_any_height_and_period(hs, tp):
     """m0 = Hs^2/16 exactly, and the same curve as the other room's, point by point."""
     s = Bretschneider(hs=hs, tp=tp)
     assert moment(s, 0) == pytest.approx(hs**2 / 16.0, rel=1e-11)  # the quadrature's own tolerance
@@ -171,7 +171,7 @@ def test_ochi_hubble_is_the_formula_of_the_paper():
 
 
 @pytest.mark.parametrize("hs", [0.0, 4.0, 20.0])
-def test_the_family_of_eleven_has_the_height_that_was_ordered(hs):
+def test_the_family_of_eleven_has_the_specified_height(hs):
     members = OchiHubble.family(hs=hs)
     assert len(set(members)) == 11
     for member in members:
@@ -263,7 +263,7 @@ def test_the_simplified_norm_is_the_full_one_rounded():
         (30.0, 19.0),
     ],
 )
-def test_torsethaugen_has_the_height_that_was_ordered(form, hs, tp):
+def test_torsethaugen_has_the_specified_height(form, hs, tp):
     """To the last digit; with the published norms to 2.5 %, the regression's own error."""
     assert significant_wave_height(Torsethaugen(hs=hs, tp=tp, form=form)) == pytest.approx(
         hs, rel=1e-9
@@ -397,7 +397,7 @@ def test_the_two_halves_may_not_change_places():
         OchiHubble(**{**OH, "tp_low": 5.0})
 
 
-def test_the_steepest_sea_is_that_of_the_other_door():
+def test_the_steepest_sea_is_that_of_pierson_moskowitz():
     """
     `PiersonMoskowitz.from_sea_state` refuses alpha > 1: the same limit, 4/sqrt(5) of g/omega_p^2.
     """

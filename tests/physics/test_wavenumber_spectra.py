@@ -84,7 +84,7 @@ def test_phillips_is_scaled_to_the_height_in_any_water(cutoff, depth, tension):
 
 
 @pytest.mark.parametrize("speed", [3.0, 12.0, 30.0])
-def test_phillips_is_pierson_moskowitz_by_another_name(speed):
+def test_phillips_is_pierson_moskowitz_in_deep_water(speed):
     """In deep water, l = 0: alpha = 2 pi A and omega_p = 0.8^(1/4) g/V, point by point."""
     s = Phillips(speed=speed, amplitude=1.3e-3)
     pm = PiersonMoskowitz(peak=0.8**0.25 * GRAVITY / speed, alpha=2.0 * math.pi * 1.3e-3)

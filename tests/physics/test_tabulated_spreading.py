@@ -1,4 +1,4 @@
-"""D(omega, theta) from a table."""
+"""Tabulated spreading: normalisation, interpolation and refusals."""
 
 import dataclasses
 import math
