@@ -116,8 +116,8 @@ def test_maps_by_one_name_or_several():
     [
         ([], "times must be 1 to 1000 numbers, got 0"),
         (3.0, "times must be a list of numbers between -1e.12 and 1e.12 s, got 3.0"),
-        (None, "times must be a number .*, got None"),
-        ("12", "times must be a number .*'12'"),
+        (None, "times must be a list of numbers .*, got None"),
+        ("12", "times must be a list of numbers .*'12'"),
         ([0.0, math.nan], r"times\[1\] must be between .* s, got nan"),
         ([0.0, 1e13], r"times\[1\] must be between"),
         ([True], r"times\[0\] must be a number"),
