@@ -101,7 +101,9 @@ class Amplitudes:
     @property
     def running_omega(self) -> Real:
         """The frequencies of the waves as they run: omega, or 2 pi cycles / loop  [rad/s]."""
-        return self.omega if self.cycles is None else self.cycles * (2.0 * np.pi / self.loop)  # type: ignore[operator]
+        if self.cycles is None or self.loop is None:
+            return self.omega
+        return self.cycles * (2.0 * np.pi / self.loop)
 
     @property
     def variance(self) -> float:

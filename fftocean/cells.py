@@ -424,7 +424,8 @@ class Part:
         omega = dispersion.angular_frequency(k, self.depth, self.tension)
         slope = omega / k * dispersion.group_to_phase_speed(k, self.depth, self.tension)
         if self.knows_waves:
-            return omega, self.system.spectrum.at_waves(omega, k) * slope  # type: ignore[attr-defined]
+            at_waves = self.system.spectrum.at_waves  # type: ignore[attr-defined]
+            return omega, at_waves(omega, k) * slope
         return omega, self.system.spectrum(omega) * slope
 
     def density(self, k: Real, theta: Real) -> Real:
