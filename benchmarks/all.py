@@ -1,10 +1,9 @@
 """
-Ask every question and write it all anew: results/*.json, results/*.png and RESULTS.md.
+All benchmarks: results/*.json, results/*.png and RESULTS.md.
 
 Each question runs in a process of its own; all of them take about a quarter of an hour on two
-cores. On a machine that does other things meanwhile the ratios still hold, and RESULTS.md says how
-busy it was. A question that fails keeps the answer that it had; `--only frame` asks one again and
-leaves the others as they are.
+cores. On a busy machine the ratios still hold, and RESULTS.md states the load. A question that
+fails keeps its earlier answer; `--only frame` runs one again and leaves the others unchanged.
 
     python benchmarks/all.py [--only frame memory] [--quick]
 """
@@ -20,7 +19,7 @@ import report
 from rich.console import Console
 
 HERE = Path(__file__).resolve().parent
-QUICK = {  # a minute, to see that everything runs; its figures mean nothing
+QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "frame": ("--n", "64", "128", "--seconds", "2"),
     "direct_sum": (
         "--n",
@@ -47,6 +46,7 @@ QUICK = {  # a minute, to see that everything runs; its figures mean nothing
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the benchmarks and write the report; return the exit code."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument(
         "--quick",
         action="store_true",
-        help="a minute, with settings whose figures mean nothing, to see that all runs",
+        help="a minute, to test that everything runs; the figures are meaningless",
     )
     parser.add_argument(
         "--output",
@@ -76,7 +76,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     failed = []
     for i, name in enumerate(options.only):
         console.print(
-            f"[bold]{name}[/], {i + 1} of {len(options.only)}, after {time.perf_counter() - start:.0f} s"
+            f"[bold]{name}[/], {i + 1} of {len(options.only)}, "
+            f"after {time.perf_counter() - start:.0f} s"
         )
         flags = QUICK[name] if options.quick else ()
         files = ("--json", str(results / f"{name}.json"), "--plot", str(results / f"{name}.png"))
@@ -89,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     page = options.output / "RESULTS.md"
     page.write_text(report.report(report.gather(results)), encoding="utf-8")
     console.print(
-        f"look at {page}, {time.perf_counter() - start:.0f} s"
+        f"report: {page}, {time.perf_counter() - start:.0f} s"
         + (f"; failed: {', '.join(failed)}" if failed else ""),
         markup=False,
     )

@@ -1,12 +1,12 @@
 """
-How fast is a bake, and where does its time go?
+Speed of a bake, and its profile.
 
 The embedded default job is baked whole at each n: three maps (height, displacement, normal) as
-half-float EXR. Frames a second are those of the bake as a user runs it, in one process and in one
-for each core. Where the time goes is seen by Python's own profiler in one process: every function's
-own time goes to a room of the house by the file that it stands in, and that of the library
-functions to the room that called them. Compiled kernels are wrapped for it, so that each is seen
-under its own file. The profiler makes Python slower, not the rest: "Python" is an upper bound.
+half-float EXR. Frames a second are those of a bake in one process, and in one per core. The profile
+is that of Python's profiler in one process: each function's own time belongs to the part of the
+package that holds its file, and the time of library functions to the part that called them.
+Compiled kernels are wrapped, so that each is profiled under its own file. The profiler slows down
+Python only: "Python" is an upper bound.
 
     python benchmarks/bake.py [--n 256 512] [--frames 240] [--json FILE] [--plot FILE]
 """
@@ -37,9 +37,9 @@ ASKS = "How fast is a bake, and where does its time go?"
 Function = tuple[str, int, str]  # file, line, name: as the profiler has it
 PACKAGE = Path(fo.__file__).resolve().parent
 
-# The first row that fits a function's place in the package, or a library function's name, says
-# whose time it is.
-ROOMS = (
+# The first row that matches a function's place in the package, or a library function's name, is the
+# part to which its time belongs.
+PARTS = (
     (
         "simulation",
         (
@@ -88,6 +88,7 @@ COLOURS = {"simulation": BLUE, "encoder": "#00805d", OTHER: "#c75000"}
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     script.sizes(parser, 256, 512)
     parser.add_argument(
         "--frames", type=int, default=240, help="in the loop, all of which are baked (default: 240)"
@@ -95,14 +96,14 @@ def flags(parser: argparse.ArgumentParser) -> None:
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """Three bakes for each n: in one process, in one for each core, and under the profiler."""
+    """Bake three times for each n: in one process, in one per core, and under the profiler."""
     readings: list[Reading] = []
     warnings.simplefilter("ignore", fo.SeaWarning)
     with tempfile.TemporaryDirectory() as folder:
         fo.bake(job(16, 2), Path(folder, "warm"), executor="serial")  # kernels
         for n in options.n:
             for executor, workers in (("serial", 1), ("processes", host.cores())):
-                say(f"{n} x {n}, {executor}, {workers} at work")
+                say(f"{n} x {n}, {executor}, {workers} workers")
                 start = time.perf_counter()
                 fo.bake(
                     job(n, options.frames),
@@ -127,7 +128,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
                 profile.runcall(
                     fo.bake, job(n, options.frames), Path(folder, f"{n} profile"), executor="serial"
                 )
-            shares = rooms(pstats.Stats(profile).stats)  # type: ignore[attr-defined]
+            shares = parts(pstats.Stats(profile).stats)  # type: ignore[attr-defined]
             total = sum(shares.values())
             at = {"n": n, "frames": options.frames}
             for name, seconds in sorted(shares.items(), key=lambda item: -item[1]):
@@ -144,15 +145,16 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 
 def job(n: int, frames: int) -> fo.Job:
-    """The embedded default job, at another resolution."""
+    """Return the embedded default job at another resolution."""
     return fo.Job.default().replaced({"ocean.n": n, "bake.frames": frames})
 
 
 @contextmanager
 def kernels_seen() -> Iterator[None]:
     """
-    Let the profiler see compiled kernels, which it takes for lines of their callers: each as a
-    function of its own file.
+    Make compiled kernels visible to the profiler, each as a function of its own file.
+
+    Otherwise their time is counted with their callers.
     """
     changed: list[tuple[Any, str, Any]] = []
     for info in pkgutil.iter_modules(kernels.__path__):
@@ -170,20 +172,20 @@ def kernels_seen() -> Iterator[None]:
 
 
 def seen(kernel: Callable[..., Any], name: str, file: str) -> Callable[..., Any]:
-    """A Python function of that name and file that calls the kernel."""
+    """Return a Python function of that name and file that calls the kernel."""
     space: dict[str, Any] = {"kernel": kernel}
     exec(compile(f"def {name}(*arguments):\n    return kernel(*arguments)\n", file, "exec"), space)
     made: Callable[..., Any] = space[name]
     return made
 
 
-def rooms(
+def parts(
     stats: Mapping[
         Function, tuple[int, int, float, float, Mapping[Function, tuple[int, int, float, float]]]
     ],
 ) -> dict[str, float]:
     """
-    Sort a profile's seconds by room.
+    Return a profile's seconds by part of the package.
 
     Args:
         stats: for each function (calls, primitive calls, own time, time, callers), as
@@ -193,22 +195,23 @@ def rooms(
 
     def home(function: Function) -> str:
         """
-        Its own room, or that of the caller in whose service it spends most; a ring of libraries is
-        Python's.
+        Return its own part, or that of the caller for which it spends most time.
+
+        Library functions that call each other in a cycle belong to Python.
         """
         if function not in homes:
-            homes[function] = OTHER  # while it is looked for
-            own = room_of(function)
+            homes[function] = OTHER  # until it is found
+            own = part_of(function)
             if own is None:
                 callers = stats[function][4] if function in stats else {}
-                chief = max(callers, key=lambda caller: callers[caller][3], default=None)
-                own = OTHER if chief is None else home(chief)
+                main_caller = max(callers, key=lambda caller: callers[caller][3], default=None)
+                own = OTHER if main_caller is None else home(main_caller)
             homes[function] = own
         return homes[function] or OTHER
 
     found: dict[str, float] = {}
     for function, (_, _, own_time, _, callers) in stats.items():
-        named = room_of(function)
+        named = part_of(function)
         rest = own_time
         if named is None:
             for caller, (_, _, spent, _) in callers.items():
@@ -219,37 +222,36 @@ def rooms(
     return found
 
 
-def room_of(function: Function) -> str | None:
+def part_of(function: Function) -> str | None:
     """
-    The room that a function names by where it stands; None for a library's, which works for whoever
-    called it.
+    Return the part to which a function belongs by its file; None for a library's function.
     """
     file, _, name = function
     if file == "~":
         place = "~:" + name
-        for room, marks in ROOMS:
+        for part, marks in PARTS:
             if any(mark.startswith("~:") and mark[2:] in name for mark in marks):
-                return room
+                return part
         return None
     try:
         place = f"{Path(file).resolve().relative_to(PACKAGE).as_posix()}:{name}"
     except ValueError:
         return None
-    for room, marks in ROOMS:
+    for part, marks in PARTS:
         if place.startswith(marks):
-            return room
+            return part
     return OTHER
 
 
 def draw(result: Result, path: Path) -> None:
-    """Frames a second, and the rooms' shares at the largest n."""
+    """Draw frames a second, and the parts' shares at the largest n."""
     n = max(result.settings["n"])
     with sheet(path, ASKS, result, width=12.0, height=4.6) as figure:
         left, right = figure.subplots(1, 2)
         rows = []
         for r in result.all("frames a second"):
-            who = "one process" if r.at["executor"] == "serial" else f"{r.at['workers']} processes"
-            rows.append((f"{r.at['n']} x {r.at['n']}, {who}", r.median, f"{r.median:.1f}", BLUE))
+            by = "one process" if r.at["executor"] == "serial" else f"{r.at['workers']} processes"
+            rows.append((f"{r.at['n']} x {r.at['n']}, {by}", r.median, f"{r.median:.1f}", BLUE))
         bars(left, rows)
         left.set_title("Frames a second, three EXR maps each")
         shares = [
@@ -264,10 +266,11 @@ def draw(result: Result, path: Path) -> None:
                 for r in shares
             ],
         )
-        right.set_title(f"Where the time of a bake of {n} x {n} goes")
+        right.set_title(f"Profile of a bake of {n} x {n}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "bake", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

@@ -1,11 +1,11 @@
 """
-From which n on is the FFT faster than summing wave by wave, and by which laws do the two grow?
+Cost of the FFT and of the direct sum: the size at which they cross, and the laws of their growth.
 
-Both are compiled and make the same eight linear fields of the same sea on one thread; the direct
+Both are compiled and compute the same eight linear fields of the same sea on one thread; the direct
 sum in float64, the FFT in float32 and in float64. With N = n x n points and as many waves, one
 should grow as N^2, the other as N log N. Every size is measured; where all points would take too
-long (--limit), the direct sum makes a part of them, each of which costs the same, and the table
-says how many.
+long (--limit), the direct sum computes some of them, each of which costs the same, and the table
+has their number.
 
 Exponents are fitted by least squares of the logarithms; their "quartiles" are one standard error to
 either side.
@@ -31,10 +31,11 @@ from fftocean.plots.theme import BLUE, FAINT
 ASKS = "From which n on is the FFT faster than the direct sum, and by which laws do the two grow?"
 FFT, SUM = "FFT", "direct sum"
 DTYPES = ("float32", "float64")
-FFT_FROM, SUM_FROM = 96, 16  # the n from which on a law is fitted: before, the mere call counts
+FFT_FROM, SUM_FROM = 96, 16  # the n from which a law is fitted: below, the overhead dominates
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     script.sizes(
         parser,
         3,
@@ -73,7 +74,7 @@ def flags(parser: argparse.ArgumentParser) -> None:
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """Every size, then what follows from them all."""
+    """Measure every size, and draw conclusions from all."""
     readings: list[Reading] = []
     for n in sorted(set(options.n)):
         say(f"{n} x {n}")
@@ -82,14 +83,13 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 
 def at_one_size(n: int, seconds: float, limit: float) -> list[Reading]:
-    """Let the two take turns."""
+    """Time both alternately at one size."""
     oceans = {dtype: ocean(n, dtype=dtype) for dtype in DTYPES}
     waves = max(1, oceans["float32"].modes().kx.size)
     points = n * n if waves * n * n <= limit else max(1, int(min(limit, 2e7) / waves))
     slow = DirectSum(oceans["float64"], points)
-    require_same_water(
-        oceans["float64"], {SUM: slow}, within=1e-10
-    )  # both round in float64; phases of 1e3 rad cost three digits
+    # both round in float64; phases of 1e3 rad cost three digits
+    require_same_water(oceans["float64"], {SUM: slow}, within=1e-10)
     require_same_water(oceans["float32"], {SUM: slow}, within=WITHIN)
     summed = Entry(SUM, slow, {"n": n, "waves": waves, "points": points})
     fast = [Entry(FFT, Fast(oceans[dtype], EIGHT), {"n": n, "dtype": dtype}) for dtype in DTYPES]
@@ -103,7 +103,7 @@ def at_one_size(n: int, seconds: float, limit: float) -> list[Reading]:
 
 
 def conclusions(readings: Sequence[Reading]) -> list[Reading]:
-    """Where the two cross, and the laws that they follow."""
+    """Return the size at which both cross, and their laws."""
     sums = by_size(readings, SUM)
     found = []
     for dtype in DTYPES:
@@ -153,6 +153,7 @@ def conclusions(readings: Sequence[Reading]) -> list[Reading]:
 
 
 def exponent(what: str, law: PowerLaw, at: dict[str, str | int]) -> Reading:
+    """Return the reading of a fitted exponent."""
     return Reading(
         what,
         "1",
@@ -166,6 +167,7 @@ def exponent(what: str, law: PowerLaw, at: dict[str, str | int]) -> Reading:
 
 
 def by_size(readings: Sequence[Reading], what: str, dtype: str | None = None) -> list[Reading]:
+    """Return the readings of one name, by ascending n."""
     return sorted(
         (r for r in readings if r.what == what and dtype in (None, r.at.get("dtype"))),
         key=lambda r: r.at["n"],
@@ -173,7 +175,7 @@ def by_size(readings: Sequence[Reading], what: str, dtype: str | None = None) ->
 
 
 def draw(result: Result, path: Path) -> None:
-    """The two costs with the laws through them, and below how many times as long the sum takes."""
+    """Draw both costs with their fitted laws, and the ratio in words."""
     sums, fft = by_size(result.readings, SUM), by_size(result.readings, FFT, "float32")
     sizes = [int(r.at["n"]) for r in sums]
     ticks = [n for n in sizes if n & (n - 1) == 0] or sizes
@@ -257,13 +259,14 @@ def draw(result: Result, path: Path) -> None:
             fontsize=9.5,
             linespacing=1.6,
         )
-        hollow = "hollow: reckoned from a part of the points; " if part else ""
+        hollow = "hollow: computed from some of the points; " if part else ""
         ax.set_title(
             f"{hollow}lines: overhead + N², overhead + N log N, with N = n x n", fontsize=9.5
         )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "direct_sum", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

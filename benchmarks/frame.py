@@ -1,18 +1,17 @@
 """
-What does a frame cost, and against what?
+Cost of a frame, compared with other implementations.
 
 A full frame is height, two displacements, Jacobian and unit normals of the displaced surface,
-float32. At each n four races are run, in each of which the contenders take turns:
+float32. At each n four races are run, in each of which the contenders alternate:
 
-  others     every FFT library's full frame, one thread, against NumPy as the textbooks write it
-  (eight complex128 ifft2), against its eight
-             ifft2 alone, against NumPy and SciPy with care (complex64 halves, irfft2), and against
-             the floor: eight bare real transforms (c2r) of the same library, planned with MEASURE
-             all at once or one by one, whichever is faster, and one copy of what they make
+  others     every FFT library's full frame, one thread, against NumPy as in textbooks (eight
+             complex128 ifft2), against its eight ifft2 alone, against carefully optimised NumPy and
+             SciPy (complex64 halves, irfft2), and against the floor: eight bare real transforms
+             (c2r) of the same library, planned with MEASURE all at once or one by one, whichever is
+             faster, and one copy of the result
   fields     full, the eight linear fields, height only, and the full frame in float64
   planning   MEASURE against ESTIMATE
-  threads    one against two, and against all cores (by the clock on the wall; the other races count
-  CPU time)
+  threads    one against two, and against all cores (elapsed time; the other races count CPU time)
 
     python benchmarks/frame.py [--n 256 512] [--seconds 10] [--json FILE] [--plot FILE]
 """
@@ -29,18 +28,17 @@ from fftocean.bench.charts import COLOURS, Line, bars, curves, duration, plain, 
 from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
-from fftocean.errors import ParameterError
 from fftocean.fields import EIGHT
 from fftocean.host import available_memory
 from fftocean.plots.theme import BLUE
 
 ASKS = "What does a frame cost, and against what?"
-# that the largest race holds: the textbook's filters and intermediate fields, and the floors'
-# buffers
+# of the largest race: the textbook's filters and intermediate fields, and the floors' buffers
 BYTES_A_POINT = 900.0
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     script.sizes(parser, 128, 256, 512, 1024, 2048)
     parser.add_argument(
         "--seconds", type=float, default=20.0, help="per n, planning not counted (default: 20)"
@@ -50,17 +48,19 @@ def flags(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         default=list(machine.backends()),
         choices=machine.backends(),
-        help="default: all that are here",
+        help="default: all that are installed",
     )
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """The four races at each n."""
+    """Run the four races at each n."""
     readings: list[Reading] = []
     for n in options.n:
         if (free := available_memory()) < BYTES_A_POINT * n * n:
+            needed = BYTES_A_POINT * n * n / 2**30
             say(
-                f"{n} x {n} is left out: its contenders need {BYTES_A_POINT * n * n / 2**30:.1f} GiB, {free / 2**30:.1f} are free"
+                f"{n} x {n} is left out: its contenders need {needed:.1f} GiB, "
+                f"{free / 2**30:.1f} are free"
             )
             continue
         for share, title, the_race in (
@@ -76,7 +76,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
     """
-    Full frames of every library against other ways to make them, and against the bare transforms.
+    Time full frames of every library against other implementations and bare transforms.
     """
     entries, pairs, own = [], [], None
     for backend in backends:
@@ -84,10 +84,7 @@ def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
         at = conditions("others", n, backend)
         full = Entry("full frame", Fast(own), at)
         entries.append(full)
-        try:
-            bare = floor(n, backend)
-        except ParameterError:  # an ocean may find a library where the floor does not
-            continue
+        bare = floor(n, backend)
         entries.append(Entry("floor", bare, {"n": n, "backend": backend, "how": bare.how}))
         pairs.append(Pair("full frame / floor", full, entries[-1]))
     assert own is not None
@@ -104,7 +101,7 @@ def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 
 def fields(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
-    """What it costs to ask for less, or for more digits."""
+    """Time fewer fields, and float64."""
     own, double = ocean(n, backend=backends[0]), ocean(n, backend=backends[0], dtype="float64")
     at = conditions("fields", n, backends[0])
     full = Entry("full frame", Fast(own), at)
@@ -122,7 +119,7 @@ def fields(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 
 def planning(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
-    """What measuring gains over estimating, where the library plans at all."""
+    """Time a measured plan against an estimated one."""
     backend = backends[0]
     at = conditions("planning", n, backend)
     full = Entry("full frame", Fast(ocean(n, backend=backend)), at)
@@ -137,7 +134,7 @@ def planning(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 
 def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
-    """What more threads gain, by the clock on the wall."""
+    """Time one thread against several, in elapsed time."""
     counts = sorted({2, host.cores()} - {1})
     readings = []
     for backend in backends:
@@ -155,7 +152,7 @@ def threads(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
 
 
 def conditions(of: str, n: int, backend: str) -> dict[str, Condition]:
-    """Under which conditions a full frame runs in a race, unless it is about one of them."""
+    """Return the conditions of a full frame in a race."""
     return {
         "race": of,
         "n": n,
@@ -167,7 +164,7 @@ def conditions(of: str, n: int, backend: str) -> dict[str, Condition]:
 
 
 def draw(result: Result, path: Path) -> None:
-    """Cost against n by all means, and beside it how many times as long each takes as we do."""
+    """Draw the cost against n of every contender, and its ratio to the full frame."""
     backends = result.settings["backends"]
     shades = dict(zip(backends, (BLUE, "#00805d", "#56b4e9"), strict=False))
     best = min(backends, key=lambda name: sum(r.median for r in mains(result, name)))
@@ -234,12 +231,12 @@ def draw(result: Result, path: Path) -> None:
 
 
 def mains(result: Result, backend: str) -> list[Reading]:
-    """The full frames of the main race."""
+    """Return the full frames of the main race."""
     return result.all("full frame", race="others", backend=backend)
 
 
 def curve(label: str, readings: Sequence[Reading], colour: str, **how: str | float) -> Line:
-    """A line through readings, by n, with their quartiles as a band."""
+    """Return a line through readings, by n, with their quartiles as a band."""
     rows = sorted(readings, key=lambda r: r.at["n"])
     return Line(
         label,
@@ -253,6 +250,7 @@ def curve(label: str, readings: Sequence[Reading], colour: str, **how: str | flo
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "frame", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

@@ -1,6 +1,4 @@
-"""
-Things that only a fresh process shows: what it takes to start, and how much memory it comes to.
-"""
+"""Fresh processes: their time and their last line of output."""
 
 import json
 import os
@@ -14,19 +12,15 @@ from typing import Any
 
 import fftocean
 
-CACHES = (
-    "NUMBA_CACHE_DIR",
-    "XDG_CACHE_HOME",
-    "LOCALAPPDATA",
-)  # where kernels and wisdom may be kept from one process to the next
+# variables with the folders of compiled kernels and FFT plans
+CACHES = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
 PACKAGE_HOME = str(Path(fftocean.__file__).resolve().parents[1])
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
     """
-    One process: how long it lived and how much of the processor it used [s], and what it printed
-    last, as JSON.
+    One process: elapsed and CPU time [s], and its last line of output, read as JSON.
     """
 
     wall: float
@@ -36,14 +30,14 @@ class Run:
 
 def python(*arguments: str, cache: Path | None = None) -> Run:
     """
-    Run the interpreter anew, with the package that this process uses.
+    Run a new interpreter with the package that this process uses.
 
     Args:
         arguments: of the interpreter, such as "-c" and a program.
-        cache: a folder for all that is kept between processes; None for the user's own.
+        cache: a folder for all caches; None for the user's own.
 
     Raises:
-        RuntimeError: the process failed; what it said is in the message.
+        RuntimeError: the process failed; the message has its output.
     """
     paths = [PACKAGE_HOME, *filter(None, [os.environ.get("PYTHONPATH")])]
     kept = {} if cache is None else {name: str(cache) for name in CACHES}
@@ -58,19 +52,20 @@ def python(*arguments: str, cache: Path | None = None) -> Run:
     wall, cpu = time.perf_counter() - start, children_cpu() - used
     if done.returncode:
         raise RuntimeError(
-            f"python {' '.join(arguments):.80} failed with {done.returncode}: {done.stderr.strip()[-800:]}"
+            f"python {' '.join(arguments):.80} failed with {done.returncode}: "
+            f"{done.stderr.strip()[-800:]}"
         )
     return Run(wall, cpu, last_json(done.stdout))
 
 
 def children_cpu() -> float:
-    """Processor time of all processes that this one has started and seen end [s]."""
+    """Return the CPU time of all child processes that have ended [s]."""
     times = os.times()
     return times.children_user + times.children_system
 
 
 def last_json(text: str) -> Any:
-    """The last line of a text, where it is JSON; else None."""
+    """Return the last line of a text, read as JSON; None if it is not JSON."""
     lines: Sequence[str] = text.strip().splitlines()
     try:
         return json.loads(lines[-1]) if lines else None

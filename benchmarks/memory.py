@@ -1,11 +1,10 @@
 """
-How much memory do full frames take?
+Memory of full frames.
 
-For each n a fresh process makes a frame of 4 x 4, for which all is imported that will be, and notes
-what it holds. Then it makes an ocean and three full frames into the same arrays, and notes the most
-that it ever held and what it holds while it goes on. Compiled kernels come from the cache, as in
-daily life. The figures are the process's own pages in memory (Linux: VmHWM and VmRSS), above those
-after the imports.
+For each n a fresh process computes a frame of 4 x 4, which imports all that is needed, and records
+its memory. Then it makes an ocean and three full frames in the same arrays, and records its peak
+and its memory after them. Compiled kernels come from the cache, as usual. The figures are the
+process's own pages in memory (Linux: VmHWM and VmRSS), above those after the imports.
 
     python benchmarks/memory.py [--n 256 512] [--json FILE] [--plot FILE]
 """
@@ -31,9 +30,10 @@ from pathlib import Path
 
 def held():
     text = Path("/proc/self/status").read_text()
-    return {key: int(re.search(key + r":\\s+(\\d+) kB", text).group(1)) / 1024 for key in ("VmRSS", "VmHWM")}
+    keys = ("VmRSS", "VmHWM")
+    return {key: int(re.search(key + r":\\s+(\\d+) kB", text).group(1)) / 1024 for key in keys}
 
-def forget():  # from here on VmHWM counts anew
+def forget():  # resets VmHWM
     try:
         Path("/proc/self/clear_refs").write_text("5")
         return True
@@ -44,7 +44,8 @@ import fftocean as fo
 warnings.simplefilter("ignore", fo.SeaWarning)
 n, fields, backend = int(sys.argv[1]), sys.argv[2].split(","), sys.argv[3]
 sea, make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean
-make.from_modes([], n=4, size=1.0, backend=backend).frame(0.0, fields)  # loads the FFT library, and the compiler for its first kernel
+# loads the FFT library, and the compiler for its first kernel
+make.from_modes([], n=4, size=1.0, backend=backend).frame(0.0, fields)
 base = held()["VmRSS"]
 forget()
 ocean = make(sea, n=n, size=300.0, seed=7, backend=backend)
@@ -57,8 +58,9 @@ after = held()
 arrays = sum(frame[name].nbytes for name in fields) / 2**20
 making = made["VmHWM"] - base
 streaming = after["VmHWM"] - base if fresh else 0.0
-print(json.dumps({"imports": base, "making": making, "streaming": streaming, "resident": after["VmRSS"] - base,
-    "peak": max(making, after["VmHWM"] - base), "arrays": arrays}))
+print(json.dumps({"imports": base, "making": making, "streaming": streaming,
+    "resident": after["VmRSS"] - base, "peak": max(making, after["VmHWM"] - base),
+    "arrays": arrays}))
 """
 WHAT = {
     "peak": "peak above imports",
@@ -71,13 +73,14 @@ WHAT = {
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     script.sizes(parser, 256, 512, 1024, 2048)
     parser.add_argument("--runs", type=int, default=3, help="processes for each n (default: 3)")
     parser.add_argument("--backend", default="auto")
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """A few processes for each n, after one whose only task is to fill the cache."""
+    """Run a few processes for each n, after one that fills the cache."""
     if not Path("/proc/self/status").exists():
         raise ParameterError("memory is measured on Linux only: there is no /proc/self/status here")
     readings = []
@@ -102,7 +105,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 
 def draw(result: Result, path: Path) -> None:
-    """For each n: what making the ocean takes, what streaming takes, and the frame's own arrays."""
+    """Draw the memory for the ocean, for streaming, and of the frame's own arrays, for each n."""
     sizes = result.settings["n"]
     with sheet(path, ASKS, result, width=9.0, height=1.6 + 1.1 * len(sizes)) as figure:
         ax = figure.subplots()
@@ -116,10 +119,11 @@ def draw(result: Result, path: Path) -> None:
                 value = result.find(WHAT[key], n=n).median
                 rows.append((label, value, f"{plain(round(value, 1))} MiB", colour))
         bars(ax, rows)
-        ax.set_title("Full frames, float32, one thread: memory above what the imports take")
+        ax.set_title("Full frames, float32, one thread: memory above that of the imports")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "memory", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

@@ -1,6 +1,5 @@
 """
-How many points of the sea a second, against the same done with SciPy: map_coordinates of each tile,
-and a fixed point?
+Points a second of `fo.Query`, compared with SciPy: map_coordinates of each tile, and a fixed point.
 
 A million points on a cascade of three tiles at choppiness 1, float32, at one time whose frame is
 there already. SciPy's side gets the frames for nothing, and stops when its largest residual is
@@ -33,7 +32,9 @@ def with_scipy(
     cascade: fo.Cascade, x: np.ndarray, y: np.ndarray, t: float, order: int
 ) -> Callable[[], np.ndarray]:
     """
-    x0 <- x - c D(x0), D by map_coordinates; cubic splines are filtered beforehand, as ours are.
+    Return a function that iterates x0 <- x - c D(x0), with D by map_coordinates.
+
+    Cubic splines are filtered beforehand, as in `fo.Query`.
     """
     fields = ("displace_x", "displace_y", "height")
     tiles = []
@@ -77,8 +78,10 @@ def alternate(
     contenders: dict[str, Callable[[], object]], seconds: float
 ) -> dict[str, list[tuple[float, float]]]:
     """
-    Time the contenders in turn until the time is up, at least three rounds: clock and processor,
-    seconds.
+    Time the contenders alternately until the time is up, three rounds at least.
+
+    Returns:
+        The elapsed and CPU time of each run of each contender [s].
     """
     times: dict[str, list[tuple[float, float]]] = {name: [] for name in contenders}
     for run in contenders.values():
@@ -140,7 +143,8 @@ def main() -> None:
             )
             rate, per_core = count / clock / 1e6, count / processor / 1e6
             print(
-                f"{where:18s}  {name:36s} {1e3 * clock:10.3f} ms  {rate:6.2f} M points/s, {per_core:5.2f} M a core  ({len(pairs)} runs)"
+                f"{where:18s}  {name:36s} {1e3 * clock:10.3f} ms  {rate:6.2f} M points/s, "
+                f"{per_core:5.2f} M a core  ({len(pairs)} runs)"
             )
 
     for where, (x, y) in places.items():

@@ -1,6 +1,7 @@
 """
-RESULTS.md from the JSON files: the goals row by row, then each question with its picture and its
-readings. Nothing is written by hand.
+Report of all benchmarks, RESULTS.md, made from their JSON files.
+
+It has the goals row by row, then each question with its chart and its readings.
 
     python benchmarks/report.py
 """
@@ -16,7 +17,7 @@ from fftocean.bench.results import Condition, Reading, Result, read
 HERE = Path(__file__).resolve().parent
 RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
 QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake")
-SHOWN: Mapping[str, tuple[str, ...]] = {
+REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
         "full frame",
         "floor",
@@ -38,7 +39,7 @@ BUSY_FROM = 1.1  # wall over CPU time of one thread
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """One line of the table of goals: a reading that must be at most, or at least, so much."""
+    """One row of the table of goals: a reading and its largest or smallest allowed value."""
 
     what: str
     sign: str  # "<=" or ">="
@@ -49,12 +50,13 @@ class Goal:
     clock: str | None = None
 
     def met(self, reading: Reading) -> bool:
+        """Return whether a reading meets the goal."""
         holds: Callable[[float, float], bool] = {"<=": operator.le, ">=": operator.ge}[self.sign]
         return holds(reading.median, self.bound)
 
 
 def goals() -> list[Goal]:
-    """All of them, in the order in which they are reported."""
+    """Return all goals, in the sequence of the report."""
     found = []
     for backend, bounds in (
         ("pyfftw", {256: 9.0, 512: 9.0, 1024: 7.0}),
@@ -91,11 +93,8 @@ def goals() -> list[Goal]:
                     {"n": n, "backend": backend, "threads": 2},
                 )
             )
-    for n in (
-        256,
-        512,
-        1024,
-    ):  # "about a third": of the eight transforms it needs one, and the same evolution
+    # "about a third": it needs one of the eight transforms, and the same evolution
+    for n in (256, 512, 1024):
         found.append(
             Goal(
                 f"height only / full frame, {n} x {n}",
@@ -151,7 +150,7 @@ def goals() -> list[Goal]:
 
 
 def report(results: Mapping[str, Result]) -> str:
-    """The whole page."""
+    """Return the whole page."""
     return (
         "\n".join(
             [
@@ -170,12 +169,14 @@ def report(results: Mapping[str, Result]) -> str:
 
 
 def _head(results: Mapping[str, Result]) -> list[str]:
+    """Return the lines on the machine."""
     lines = [
-        "# What it costs",
+        "# Benchmarks",
         "",
-        "Made by `python benchmarks/all.py` from the files in `results/`; nothing here is written by hand. Medians of alternating runs;",
-        "ratios are taken round by round, and their median and quartiles are shown. Times of one thread are CPU time, others by the",
-        "clock on the wall.",
+        "Made by `python benchmarks/all.py` from the files in `results/`. "
+        "Medians of alternating runs;",
+        "ratios are taken round by round, and their median and quartiles are given. "
+        "Times of one thread are CPU time, others elapsed time.",
         "",
     ]
     if not results:
@@ -188,7 +189,8 @@ def _head(results: Mapping[str, Result]) -> list[str]:
     lines += [
         "| machine | |",
         "|---|---|",
-        f"| processor | {m['cpu']}, {m['cores']} cores ({m['usable_cores']} usable), {' '.join(m['instructions'])} |",
+        f"| processor | {m['cpu']}, {m['cores']} cores ({m['usable_cores']} usable), "
+        f"{' '.join(m['instructions'])} |",
         f"| caches, memory | {caches}; {m['memory_gib']} GiB |",
         f"| system | {m['os']}, {m['python']} |",
         f"| packages | {versions} |",
@@ -204,12 +206,14 @@ def _head(results: Mapping[str, Result]) -> list[str]:
                 else ""
             )
             lines.append(
-                f"| {name} | {before['utc']} UTC, load {before['load']} before, {after['load']} after{word} |"
+                f"| {name} | {before['utc']} UTC, load {before['load']} before, "
+                f"{after['load']} after{word} |"
             )
     return [*lines, ""]
 
 
 def _goals(results: Mapping[str, Result]) -> list[str]:
+    """Return the table of goals."""
     lines = ["## Goals", "", "| what | goal | measured | quartiles | |", "|---|---|---|---|---|"]
     for goal in goals():
         found = (
@@ -221,7 +225,10 @@ def _goals(results: Mapping[str, Result]) -> list[str]:
         if len(found) == 1:
             r = found[0]
             unit = unit_of(r)
-            cells = f"{sign} {plain(goal.bound)}{unit} | {number(r.median)}{unit} | {number(r.low)} to {number(r.high)} | "
+            cells = (
+                f"{sign} {plain(goal.bound)}{unit} | {number(r.median)}{unit} | "
+                f"{number(r.low)} to {number(r.high)} | "
+            )
             lines.append(f"| {goal.what} | {cells}{'met' if goal.met(r) else '**not met**'} |")
         else:
             lines.append(f"| {goal.what} | {sign} {plain(goal.bound)} | not measured | | |")
@@ -229,9 +236,12 @@ def _goals(results: Mapping[str, Result]) -> list[str]:
 
 
 def _section(result: Result) -> list[str]:
+    """Return the section of one question."""
     name = result.question
     lines = [f"## {name}: {result.asks}", "", f"![{result.asks}](results/{name}.png)", ""]
-    readings = [r for r in result.readings if name not in SHOWN or r.what.startswith(SHOWN[name])]
+    readings = [
+        r for r in result.readings if name not in REPORTED or r.what.startswith(REPORTED[name])
+    ]
     keys = list(dict.fromkeys(key for r in readings for key in r.at))
     lines += [
         f"| {' | '.join(['what', *keys, 'median', 'quartiles', 'of', 'clock'])} |",
@@ -258,16 +268,17 @@ def _section(result: Result) -> list[str]:
 
 
 def unit_of(reading: Reading) -> str:
+    """Return the unit of a reading as it follows the number."""
     return {"x": " x", "1": "", "n": ""}.get(reading.unit, f" {reading.unit}")
 
 
 def number(value: float) -> str:
-    """Three digits."""
+    """Return a number with three digits."""
     return plain(float(f"{value:.3g}")) if abs(value) < 1000.0 else plain(value)
 
 
 def gather(folder: Path = RESULTS) -> dict[str, Result]:
-    """The results that are there, in the order of the questions."""
+    """Return the results in a folder, in the sequence of the questions."""
     return {
         name: read(folder / f"{name}.json")
         for name in QUESTIONS
@@ -276,6 +287,7 @@ def gather(folder: Path = RESULTS) -> dict[str, Result]:
 
 
 def main(_: Sequence[str] | None = None) -> int:
+    """Write the report; return the exit code."""
     REPORT.write_text(report(gather()), encoding="utf-8")
     return 0
 

@@ -1,9 +1,9 @@
 """
-How does a full frame scale with n, and what do odd and prime sizes cost?
+Scaling of a full frame with n, for powers of two, smooth, odd and prime sizes.
 
-All sizes take turns, so that a slow minute slows them all. The work of a transform of N = n x n
-points grows as N log2 N: a flat line of nanoseconds per point and log2 N is a frame that scales as
-it should; it rises where the working set leaves a cache, and for sizes with large prime factors.
+All sizes alternate, so that a slow minute affects them all. The work of a transform of N = n x n
+points grows as N log2 N: nanoseconds per point and log2 N are constant for a frame that scales as
+it should; they rise where the working set leaves a cache, and for sizes with large prime factors.
 
     python benchmarks/scaling.py [--n 64 100 127] [--seconds 10] [--json FILE] [--plot FILE]
 """
@@ -32,6 +32,7 @@ KINDS = {
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     script.sizes(
         parser,
         64,
@@ -71,7 +72,7 @@ def flags(parser: argparse.ArgumentParser) -> None:
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """One race of all sizes."""
+    """Run one race of all sizes."""
     entries = []
     for n in sorted(set(options.n)):
         say(f"{n} x {n} is made")
@@ -83,7 +84,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
                 {"n": n, "kind": kind(n), "backend": own.backend, "planning": options.planning},
             )
         )
-    say("all sizes take turns")
+    say("all sizes alternate")
     readings = race(entries, clock="cpu", seconds=options.seconds)
     for r in [r for r in readings if r.what == "full frame"]:
         points = int(r.at["n"]) ** 2
@@ -108,12 +109,12 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 
 
 def per(reading: Reading, work: float) -> tuple[float, float, float]:
-    """Nanoseconds for one unit of work: median and quartiles."""
+    """Return the nanoseconds per unit of work: median and quartiles."""
     return 1e6 * reading.median / work, 1e6 * reading.low / work, 1e6 * reading.high / work
 
 
 def kind(n: int) -> str:
-    """What sort of number n is, to a Fourier transform."""
+    """Return the class of a size for Fourier transforms."""
     if n & (n - 1) == 0:
         return "a power of two"
     rest = n
@@ -126,11 +127,12 @@ def kind(n: int) -> str:
 
 
 def is_prime(n: int) -> bool:
+    """Return whether n is prime."""
     return n > 1 and all(n % d for d in range(2, math.isqrt(n) + 1))
 
 
 def draw(result: Result, path: Path) -> None:
-    """Milliseconds against n, and what is left of them when N log2 N is divided out."""
+    """Draw milliseconds against n, and nanoseconds per point and log2 N."""
     with sheet(path, ASKS, result, width=12.0, height=5.4) as figure:
         for ax, what, ylabel in (
             (figure.add_subplot(1, 2, 1), "full frame", "one full frame, one thread [ms]"),
@@ -188,6 +190,7 @@ def draw(result: Result, path: Path) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "scaling", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

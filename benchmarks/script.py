@@ -1,7 +1,4 @@
-"""
-What the questions have in common: their flags, a line for each step, a table, a JSON file and a
-picture.
-"""
+"""Command line of a benchmark: flags, progress, table, JSON file and chart."""
 
 import argparse
 import sys
@@ -30,7 +27,7 @@ def run(
     draw: Callable[[Result, Path], None],
     arguments: Sequence[str] | None = None,
 ) -> int:
-    """Ask one question from the command line; return its exit code."""
+    """Ask one question from the command line; return the exit code."""
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -42,14 +39,17 @@ def run(
         help="write every reading, with quartiles and the machine",
     )
     parser.add_argument(
-        "--plot", type=Path, metavar="FILE", help="draw it: .png, .svg or .pdf (needs matplotlib)"
+        "--plot",
+        type=Path,
+        metavar="FILE",
+        help="chart to write: .png, .svg or .pdf (needs matplotlib)",
     )
     options = parser.parse_args(arguments)
     console, start = Console(stderr=True, highlight=False), time.perf_counter()
 
-    def say(what: str) -> None:
+    def say(step: str) -> None:
         console.print(
-            f"{time.perf_counter() - start:5.0f} s  {question}: {what}",
+            f"{time.perf_counter() - start:5.0f} s  {question}: {step}",
             markup=False,
             soft_wrap=True,
         )
@@ -73,7 +73,7 @@ def run(
 
 
 def table(result: Result) -> Table:
-    """Every reading of a result, one a line."""
+    """Return every reading of a result as a row of a table."""
     rows = Table(
         title=result.asks,
         title_justify="left",
@@ -104,7 +104,7 @@ def table(result: Result) -> Table:
 
 
 def sizes(parser: argparse.ArgumentParser, *default: int) -> None:
-    """The flag for samples a side."""
+    """Add the flag for samples a side."""
     words = " ".join(map(str, default))
     parser.add_argument(
         "--n",

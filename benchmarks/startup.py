@@ -1,11 +1,10 @@
 """
-How long until the first frame?
+Time until the first frame.
 
 In fresh processes: `import fftocean`, `fftocean --help`, the first full frame after an installation
-(nothing compiled, no cache), and in every process after that. Each is the life of a whole process
-by the clock on the wall; "above Python" is that minus the median life of a process that does
-nothing. Processor time stands beside it: on a busy machine it is nearer to what a quiet one would
-show.
+(nothing compiled, no cache), and in every later process. Each is the elapsed time of a whole
+process; "above Python" is that minus the median of a process that does nothing. CPU time is given
+beside it: on a busy machine it is closer to the time on an idle one.
 
     python benchmarks/startup.py [--runs 7] [--n 256] [--json FILE] [--plot FILE]
 """
@@ -44,6 +43,7 @@ PROGRAMS = {
 
 
 def flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of this question."""
     parser.add_argument("--runs", type=int, default=9, help="processes of each kind (default: 9)")
     parser.add_argument(
         "--cold", type=int, default=2, help="processes with an empty cache (default: 2)"
@@ -54,7 +54,7 @@ def flags(parser: argparse.ArgumentParser) -> None:
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
-    """The short ones in turn, then the first frame with caches of its own, empty and filled."""
+    """Time imports alternately, then the first frame with an empty and a filled cache."""
     lives: dict[str, list[fresh.Run]] = {name: [] for name in PROGRAMS}
     say("import and help")
     for i in range(options.runs + 1):
@@ -84,7 +84,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 def both(
     what: str, runs: Sequence[fresh.Run], *, less: Sequence[fresh.Run] = (), **at: int
 ) -> list[Reading]:
-    """A reading by each clock, above the median of other runs where there are any."""
+    """Return a reading by each clock, above the median of other runs if given."""
     readings = []
     for clock in ("wall", "cpu"):
         base = float(np.median([getattr(run, clock) for run in less])) if less else 0.0
@@ -97,7 +97,7 @@ def both(
 
 
 def draw(result: Result, path: Path) -> None:
-    """Every start, on one scale."""
+    """Draw all starts on one scale."""
     n = result.settings["n"]
     with sheet(path, ASKS, result, width=9.0, height=3.6) as figure:
         ax = figure.subplots()
@@ -114,6 +114,7 @@ def draw(result: Result, path: Path) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Ask the question from the command line; return the exit code."""
     return script.run(
         "startup", ASKS, __doc__, flags=flags, measure=measure, draw=draw, arguments=arguments
     )

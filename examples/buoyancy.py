@@ -1,16 +1,15 @@
 """
-A box rides the sea: heave, pitch and roll at 50 Hz, pushed by the pressure of the water under a
-grid of float points.
+Heave, pitch and roll of a floating box, from the water pressure under a grid of points at 50 Hz.
 
     python examples/buoyancy.py [--seconds 60] [--picture buoyancy.png | --no-picture]
 
 The picture needs matplotlib (in a checkout: pip install ".[plot]"); without it the run is the same.
 
-The box is moored loosely above one place. Under each float point the water presses upward with rho
-g times the depth to which the point is submerged; the sum of these forces and of their moments,
-with damping against the water's own vertical velocity, moves the box. Waves shorter than the box's
-beam are left out of the query: they press on a point, not on a hull. In calm water first, the box
-is let go from above its balance: its period must be the closed form's.
+The box stays above one position. At each point the pressure is rho g times the depth to which the
+point is submerged; the sum of these forces and of their moments, with damping relative to the
+water's vertical velocity, moves the box. Waves shorter than the box's beam are left out of the
+query: they act on a point, but average out over a hull. First the box is released above its
+equilibrium in calm water: its period must be that of the closed form.
 """
 
 import argparse
@@ -30,7 +29,7 @@ RATE = 50.0  # steps a second
 
 @dataclass(frozen=True)
 class Box:
-    """A box of even density, with float points on its bottom, each for an equal part of it."""
+    """A box of uniform density, with points on its bottom, each for an equal part of it."""
 
     length: float = 12.0  # along x [m]
     beam: float = 5.0  # along y [m]
@@ -41,12 +40,12 @@ class Box:
 
     @property
     def mass(self) -> float:
-        """What it displaces in calm water [kg]."""
+        """Mass of the water displaced in calm water [kg]."""
         return WATER * self.length * self.beam * self.draught
 
     @property
     def inertia(self) -> tuple[float, float]:
-        """About its own x (roll) and y (pitch) axes [kg m^2]."""
+        """Moments of inertia about the x (roll) and y (pitch) axes of the box [kg m^2]."""
         return self.mass / 12.0 * (self.beam**2 + self.height**2), self.mass / 12.0 * (
             self.length**2 + self.height**2
         )
@@ -54,13 +53,14 @@ class Box:
     @property
     def heave_period(self) -> float:
         """
-        2 pi sqrt(m / (rho g A)) = 2 pi sqrt(draught / g): a box on a spring of water, without added
-        mass [s].
+        Period of heave without added mass [s].
+
+        2 pi sqrt(m / (rho g A)) = 2 pi sqrt(draught / g): the water acts as a spring.
         """
         return 2.0 * math.pi * math.sqrt(self.draught / GRAVITY)
 
     def bottom(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where the points are in the box's own frame, each the middle of its part [m]."""
+        """Return the points in the box's own coordinates, each the centre of its part [m]."""
         nx, ny = self.points
         x = ((np.arange(nx) + 0.5) / nx - 0.5) * self.length
         y = ((np.arange(ny) + 0.5) / ny - 0.5) * self.beam
@@ -69,12 +69,20 @@ class Box:
 
 def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -> np.ndarray:
     """
-    Return time, heave [m], roll and pitch [rad], and the height of the water at the middle, (steps,
-    5); calm water without a query.
+    Return time, heave [m], roll and pitch [rad], and the height of the water at the centre.
 
-    Semi-implicit Euler: forces of now change the velocity, the new velocity moves the box. It holds
-    the energy of a spring where the explicit rule feeds it, and asks for the water once a step. The
-    buoyancy's own period is 2.2 s, 110 steps.
+    Semi-implicit Euler: the current forces change the velocity, and the new velocity moves the box.
+    It conserves the energy of a spring, which the explicit rule increases, and needs the water once
+    a step. The period of heave is 2.2 s, 110 steps.
+
+    Args:
+        box: the box.
+        query: the water; None for calm water.
+        seconds: the duration [s].
+        heave: at the start [m].
+
+    Returns:
+        (steps, 5).
     """
     x, y = box.bottom()
     part = box.length * box.beam / x.size
@@ -82,9 +90,8 @@ def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -
         2.0 * box.damping * math.sqrt(WATER * GRAVITY * box.length * box.beam * box.mass) / x.size
     )
     roll_inertia, pitch_inertia = box.inertia
-    tipping = (
-        box.mass * GRAVITY * 0.5 * (box.height - box.draught)
-    )  # the centre of mass lies above that of the water displaced
+    # the centre of mass lies above that of the displaced water
+    tipping = box.mass * GRAVITY * 0.5 * (box.height - box.draught)
     state = np.array([heave, 0.0, 0.0])  # heave, roll, pitch
     speed = np.zeros(3)
     steps = int(seconds * RATE)
@@ -96,9 +103,8 @@ def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -
         else:  # one call a step; angles are small: the points stay above their (x, y)
             found = query.at(np.append(x, 0.0), np.append(y, 0.0), t, ("heights", "velocities"))
             water, rising, middle = found.heights[:-1], found.velocities[:-1, 2], found.heights[-1]
-        level = (
-            state[0] - box.draught + y * state[1] - x * state[2]
-        )  # of each point: roll lifts port (y), pitch lowers the bow (x)
+        # of each point: roll lifts port (y), pitch lowers the bow (x)
+        level = state[0] - box.draught + y * state[1] - x * state[2]
         moving = speed[0] + y * speed[1] - x * speed[2]
         submerged = np.clip(water - level, 0.0, box.height)
         force = WATER * GRAVITY * part * submerged + np.where(
@@ -113,13 +119,14 @@ def ride(box: Box, query: fo.Query | None, seconds: float, heave: float = 0.0) -
 
 
 def period_of(heave: np.ndarray) -> float:
-    """The mean time between upward crossings of zero [s]."""
+    """Return the mean time between upward crossings of zero [s]."""
     up = np.flatnonzero((heave[:-1] < 0.0) & (heave[1:] >= 0.0))
     exact = up + heave[up] / (heave[up] - heave[up + 1])
     return float(np.mean(np.diff(exact)) / RATE)
 
 
 def main() -> None:
+    """Let the box float in calm water, then on a sea."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -130,26 +137,29 @@ def main() -> None:
     drawn = not options.no_picture
     if drawn and importlib.util.find_spec("matplotlib") is None:
         print(
-            "matplotlib is not installed, so no picture is drawn; in a checkout: pip install '.[plot]'"
+            "matplotlib is not installed, so no picture is drawn; "
+            "in a checkout: pip install '.[plot]'"
         )
         drawn = False
     box = Box()
     damped = box.heave_period / math.sqrt(1.0 - box.damping**2)
     measured = period_of(ride(box, None, 20.0, heave=0.3)[:, 1])
     print(
-        f"heave in calm water: {measured:.3f} s between crossings; the closed form has {damped:.3f} s"
+        f"heave in calm water: {measured:.3f} s between crossings; "
+        f"the closed form has {damped:.3f} s"
     )
 
     sea = fo.Sea.from_wind(speed=9.0, fetch=60e3, direction=25.0)
     cascade = fo.Cascade(sea, tiles=[(128, 400.0), (128, 57.0)], seed=7, choppiness=1.0)
     query = fo.Query(cascade, mode="bicubic", shortest=box.beam)
-    query.at(0.0, 0.0, 0.0)  # compiles what is not yet
+    query.at(0.0, 0.0, 0.0)  # compiles the kernels
     start = time.perf_counter()
     track = ride(box, query, options.seconds)
     took = time.perf_counter() - start
     steps = track.shape[0]
     print(
-        f"{steps} steps at {RATE:g} Hz in {took:.1f} s: {1e3 * took / steps:.2f} ms each, {options.seconds / took:.1f} x real time"
+        f"{steps} steps at {RATE:g} Hz in {took:.1f} s: {1e3 * took / steps:.2f} ms each, "
+        f"{options.seconds / took:.1f} x real time"
     )
     heave, roll, pitch = np.std(track[:, 1:4], axis=0)
     angles = (
@@ -161,7 +171,7 @@ def main() -> None:
 
 
 def draw(query: fo.Query, box: Box, track: np.ndarray, picture: Path) -> None:
-    """Heave over the water, the two angles, and the box on the last moment's sea."""
+    """Draw heave and water, both angles, and the box on the water at the last step."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -202,7 +212,7 @@ def draw(query: fo.Query, box: Box, track: np.ndarray, picture: Path) -> None:
         aspect="equal",
         xlabel="x [m]",
         ylabel="y [m]",
-        title=f"t = {t[-1]:.0f} s: what the box feels of the sea",
+        title=f"t = {t[-1]:.0f} s: waves longer than the beam",
     )
     figure.savefig(picture, dpi=110)
     print(f"drawn: {picture}")

@@ -24,7 +24,9 @@ class _FieldProperty(property):
 
     if TYPE_CHECKING:  # a plain property would make every field of type Any
 
-        def __get__(self, frame: Any, owner: type | None = None) -> Real: ...  # type: ignore[override]
+        def __get__(  # type: ignore[override]
+            self, frame: Any, owner: type | None = None
+        ) -> Real: ...
 
 
 class _Arrays:

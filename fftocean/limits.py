@@ -12,12 +12,12 @@ import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
-from fftocean.arrays import Real
 from fftocean.errors import ParameterError
+
+if TYPE_CHECKING:
+    from fftocean.arrays import Real
 
 LARGEST_FINITE = sys.float_info.max
 SMALLEST_POSITIVE = math.ulp(0.0)
@@ -82,7 +82,7 @@ class Quantity:
         most: int | None = None,
         ascending: bool = False,
         missing: bool = False,
-    ) -> Real:
+    ) -> "Real":
         """
         Return `values` as a float64 array, every entry of which is in range.
 
@@ -106,6 +106,8 @@ class Quantity:
         }.get(ndim, f"a {ndim}-dimensional array of numbers")
         if ndim and not hasattr(values, "__array__") and not _is_list(values):
             raise ParameterError(f"{name} must be {form} {self.rule}, got {_with_type(values)}")
+        import numpy as np  # within functions, so that `fftocean --help` does not load it
+
         array = self._converted(name, values, most, missing)
         if ndim is not None and array.ndim != ndim:
             raise ParameterError(
@@ -140,8 +142,10 @@ class Quantity:
         """The words before the range in the message of an array's entry."""
         return "" if self._noun == "number" else f"a {self._noun} "
 
-    def _converted(self, name: str, values: Any, most: int | None, missing: bool) -> Real:
+    def _converted(self, name: str, values: Any, most: int | None, missing: bool) -> "Real":
         """Return `values` as float64; entries of arrays are not yet checked against the range."""
+        import numpy as np
+
         if np.ma.is_masked(values):
             if not missing:
                 raise ParameterError(f"{name} must have no masked entries, got {values!r:.60}")
@@ -166,6 +170,8 @@ class Quantity:
 
     def _listed(self, name: str, values: Any, most: int | None, missing: bool) -> Any:
         """Return the checked numbers in lists nested like `values`."""
+        import numpy as np
+
         if isinstance(values, np.ndarray) and values.ndim:  # a row of a list of arrays
             return self._converted(name, values, most, missing).tolist()
         if not _is_list(values):
@@ -201,6 +207,8 @@ class Count(Quantity):
 
 def _is_list(values: Any) -> bool:
     """Return True for an iterable of entries; a text and a dictionary are none."""
+    import numpy as np
+
     return isinstance(values, Iterable) and not isinstance(values, (str, bytes, dict, np.ndarray))
 
 

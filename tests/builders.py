@@ -1,6 +1,7 @@
 """Small values that many tests need: folders, jobs, tiles."""
 
 import importlib.util
+import os
 import sys
 from pathlib import Path
 
@@ -72,3 +73,8 @@ def ocean(sea=None, **arguments):
 
     small = {"n": 16, "size": 60.0, "seed": 4, "dtype": "float64"}
     return fo.Ocean(wind_sea() if sea is None else sea, **{**small, **arguments})
+
+
+def environment(**more):
+    """Return this process's environment, in which processes find this package."""
+    return {**os.environ, "PYTHONPATH": str(ROOT), **more}

@@ -17,7 +17,7 @@ QUICK = (
     "test_ocean.py",
     "test_products.py",
 )
-"""Places of tests that are done in half a minute, but for those marked `process` and `SLOW`."""
+"""Places of tests that are done in half a minute, but for `SLOW` and marks `process` and `slow`."""
 
 SLOW = ("export/test_bakes.py", "export/test_displace.py", "export/test_matrix.py")
 """Places among these whose tests bake, or try every format in every engine."""
@@ -44,8 +44,8 @@ def pytest_collection_modifyitems(items):
             continue
         if place.startswith(PROCESS):
             item.add_marker(pytest.mark.process)
-        slow = place.startswith(SLOW) or item.get_closest_marker("process")
-        if place.startswith(QUICK) and not slow:
+        marked = any(item.get_closest_marker(name) for name in ("process", "slow"))
+        if place.startswith(QUICK) and not place.startswith(SLOW) and not marked:
             item.add_marker(pytest.mark.quick)
 
 

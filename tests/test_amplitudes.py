@@ -42,6 +42,7 @@ def density_by_hand(sea, kx, ky):
 
 @pytest.mark.parametrize("sea", [WIND_SEA, SWELL], ids=["wind", "swell"])
 @pytest.mark.parametrize(("mx", "my"), [(1, 0), (2, 1), (-1, 3), (5, 4), (30, 10)])
+@pytest.mark.slow
 def test_cell_variance_is_the_integral_over_the_cell(sea, mx, my):
     """
     Against adaptive quadrature of the density written out by hand: Gauss points in cells or along
@@ -104,6 +105,7 @@ def test_fixed_amplitudes_hold_their_energy_in_every_draw(n, size):
     ("n", "size"),
     [(64, 200.0), (64, 1000.0), (256, 200.0), (256, 1000.0), ((128, 64), (400.0, 200.0))],
 )
+@pytest.mark.slow
 def test_mean_variance_over_seeds_is_m0(n, size):
     """
     E[var height]/m0 over 64 seeds within four standard errors of 1; m0 is what an independent polar
@@ -132,6 +134,7 @@ def test_mean_variance_over_seeds_is_m0(n, size):
     assert np.std(ratio) < 0.5  # else the line above cannot fail
 
 
+@pytest.mark.slow
 def test_the_literature_s_factor_of_eight_is_not_here():
     """
     h0 = sqrt(2 S dk dk)(xi_r + i xi_i), as often printed, has eight times the variance of 1/2 (xi_r

@@ -59,7 +59,9 @@ def worst(t, *oceans):
 @pytest.mark.parametrize("loop", [None, 30.0])
 @pytest.mark.parametrize("t", [0.0, 3.7, 1e6])
 @pytest.mark.parametrize("sea", [DEEP, SHALLOW], ids=["deep", "5m"])
-@pytest.mark.parametrize("n", [64, (48, 80), 31])
+@pytest.mark.parametrize(
+    "n", [*(pytest.param(n, marks=pytest.mark.slow) for n in (64, (48, 80))), 31]
+)
 def test_every_field_equals_the_direct_sum(n, sea, t, loop, backend):
     """
     float64: 1e-12 of the field's largest value, and the rounding of omega t in the direct sum;

@@ -230,6 +230,11 @@ def test_nan_does_not_pass():
     assert proof.Check("name", "against", 1.0, 1.0, "reason").passed
 
 
+def test_the_earlier_names_of_error_and_tolerance_remain():
+    check = proof.Check("name", "against", 0.25, 1.0, "reason")
+    assert (check.figure, check.bound) == (check.error, check.tolerance) == (0.25, 1.0)
+
+
 # Faults
 
 

@@ -331,19 +331,19 @@ def test_residuals_are_small_or_flagged(mode, choppiness):
         assert 0.0 < np.mean(found.folded) < 0.5
 
 
-def test_a_flag_where_nothing_was_found(monkeypatch):
-    """Points whose search is cut short keep the best there was, and say so."""
+def test_points_without_an_answer_are_flagged(monkeypatch):
+    """A search that is cut short keeps its best point, and sets the flag."""
     from fftocean.kernels import query as kernels
 
-    def lazy(*arguments):
-        arguments[-2][:], arguments[-1][:] = 1.0, 1.0  # a residual of a metre, and no fold
-        arguments[-4][:], arguments[-3][:] = 0.0, 0.0
+    def stop_early(*arguments):
+        found = kernels.Found(*arguments[-1])
+        found.residuals[:], found.jacobians[:] = 1.0, 1.0  # a residual of a metre, and no fold
+        found.offsets[:], found.heights[:] = 0.0, 0.0
 
-    monkeypatch.setattr(kernels, "follow", lazy)
-    assert not np.any(
-        fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights").folded
-    )  # the patient one finds them
-    monkeypatch.setattr(kernels, "invert", lazy)
+    monkeypatch.setattr(kernels, "follow", stop_early)
+    # `invert` finds the points that `follow` leaves.
+    assert not np.any(fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights").folded)
+    monkeypatch.setattr(kernels, "invert", stop_early)
     found = fo.Query(ocean()).at([1.0, 2.0], 0.0, 0.0, "heights")
     assert np.all(found.folded)
 

@@ -4,10 +4,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from fftocean.baking.bake import scene_for
-from fftocean.baking.cascade import estimate_tiles
+from fftocean.baking.cascade import estimate_prepared
+from fftocean.baking.cascade_setup import prepare
 from fftocean.baking.estimate import Estimate, estimate
 from fftocean.baking.folder.identity import header_of
-from fftocean.baking.folder.ownership import require_possible
+from fftocean.baking.folder.listing import require_same_cascade
+from fftocean.baking.folder.ownership import require_possible, require_writable
 from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile
@@ -40,8 +42,12 @@ def dry_run(
     """
     executor = check_executor(executor, workers)
     if tiles:
-        return estimate_tiles(
-            job, tiles, frames=frames, downsample=downsample, executor=executor, workers=workers
+        tile_set = prepare(job, tiles, frames=frames, downsample=downsample)
+        require_writable(folder)
+        if not overwrite:
+            require_same_cascade(folder, tile_set.header)
+        return estimate_prepared(
+            tile_set, frames=frames, downsample=downsample, executor=executor, workers=workers
         )
     chosen = frames_of(frames, job.frames)
     scene = scene_for(job, downsample, len(chosen))

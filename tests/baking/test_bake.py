@@ -777,7 +777,7 @@ class Disk:
             os.open,
             os.fsync,
             Path.replace,
-            open,
+            os.fdopen,
             Path.mkdir,
         )
         if kind == "open":
@@ -795,9 +795,12 @@ class Disk:
                 Path, "mkdir", lambda path, **how: self.count() or real_mkdir(path, **how)
             )
         else:
-            monkeypatch.setattr(
-                files, "open", lambda *a, **k: Torn(real_file(*a, **k), self), raising=False
-            )
+
+            def torn(descriptor, mode="r", *a, **k):
+                file = real_file(descriptor, mode, *a, **k)
+                return Torn(file, self) if mode == "wb" else file
+
+            monkeypatch.setattr(files.os, "fdopen", torn)
 
     def count(self):
         self.left -= 1

@@ -238,7 +238,7 @@ def test_workers_end_with_the_bake(tmp_path, number):
     assert set(tmp_path.rglob("*")) == written
     if number != signal.SIGKILL:
         assert not list(tmp_path.rglob("*.tmp"))
-        assert "of 50000 frames are finished; the same command goes on from there" in err
+        assert "of 50000 frames are finished; run the same command again to resume" in err
 
 
 def test_a_worker_ends_when_its_bake_is_gone():

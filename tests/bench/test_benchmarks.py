@@ -1,7 +1,4 @@
-"""
-The questions of benchmarks/, at sizes where they take no time: that each answers, and that the
-report is made of the answers alone.
-"""
+"""Benchmarks at small sizes: each answers its question, and the report has only answers."""
 
 import importlib
 import json
@@ -83,13 +80,13 @@ def test_direct_sum_answers(script, tmp_path):
     assert result.find("exponent of N, direct sum").count == 3
 
 
-def test_direct_sum_reckons_a_part_up_to_the_whole(script, monkeypatch):
+def test_a_part_of_the_direct_sum_is_scaled_to_the_whole(script, monkeypatch):
     direct_sum, seen = script("direct_sum"), []
     real = direct_sum.race
     monkeypatch.setattr(direct_sum, "race", lambda *a, **k: seen.append(real(*a, **k)) or seen[-1])
     readings = direct_sum.at_one_size(
         16, 0.0, 224 * 64.5
-    )  # 224 waves: room for 64 of the 256 points
+    )  # 224 waves: enough for 64 of the 256 points
     for raw, whole in zip(seen[0], readings, strict=True):
         assert whole.median == pytest.approx(
             raw.median * (4.0 if "direct sum" in raw.what else 1.0)
@@ -187,7 +184,10 @@ def test_memory_counts_what_is_held(script):
     go again.
     """
     memory, fresh = script("memory"), script("fresh")
-    hoard = "make = lambda *a, **k: (bytearray(64 * 2**20), fo.Ocean(*a, **k))[1]\nmake.from_modes = fo.Ocean.from_modes"
+    hoard = (
+        "make = lambda *a, **k: (bytearray(64 * 2**20), fo.Ocean(*a, **k))[1]\n"
+        "make.from_modes = fo.Ocean.from_modes"
+    )
     child = memory.CHILD.replace(
         "make = fo.Sea.from_wind(speed=10.0, fetch=100e3), fo.Ocean",
         f"_ = fo.Sea.from_wind(speed=10.0, fetch=100e3), 0\n{hoard}",
@@ -234,7 +234,10 @@ def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp
     import fftocean
 
     fresh = script("fresh")
-    program = "import fftocean, json, os; print(json.dumps([fftocean.__file__, os.environ['NUMBA_CACHE_DIR']]))"
+    program = (
+        "import fftocean, json, os; "
+        "print(json.dumps([fftocean.__file__, os.environ['NUMBA_CACHE_DIR']]))"
+    )
     run = fresh.python("-c", program, cache=tmp_path)
     assert run.said == [fftocean.__file__, str(tmp_path)]
     assert run.wall > 0.0
@@ -246,17 +249,17 @@ def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp
 
 def test_every_file_that_a_profile_is_sorted_by_exists(script):
     bake = script("bake")
-    places = [place for _, places in bake.ROOMS for place in places if not place.startswith("~")]
+    places = [place for _, places in bake.PARTS for place in places if not place.startswith("~")]
     files = [path.relative_to(bake.PACKAGE).as_posix() for path in bake.PACKAGE.rglob("*.py")]
     for place in places:
         start = place.partition(":")[0]
         assert any(file.startswith(start) for file in files), place
 
 
-def test_a_profile_is_sorted_by_room(script):
+def test_a_profile_is_sorted_by_part_of_the_package(script):
     """
-    A profile made by hand: own times go to the room of the file; a library's to whoever called it;
-    the system's to the disk.
+    A profile made by hand: own times belong to the part that holds the file; a library's to its
+    caller; the system's to the disk.
     """
     bake = script("bake")
     at = lambda path, name: (str(bake.PACKAGE / path), 1, name)  # noqa: E731
@@ -287,8 +290,8 @@ def test_a_profile_is_sorted_by_room(script):
         digest: (1, 1, 6.0, 6.0, {baker: (1, 1, 6.0, 6.0)}),
         lost: (1, 1, 0.125, 0.125, {}),
     }
-    rooms = bake.rooms(stats)
-    assert rooms == pytest.approx(
+    seconds = bake.parts(stats)
+    assert seconds == pytest.approx(
         {
             "simulation": 2.0 + 4.0,
             "encoder": 8.0 + 0.5 + 0.25 + 2.0 + 0.5,  # json's callee works for json's chief caller
@@ -297,14 +300,14 @@ def test_a_profile_is_sorted_by_room(script):
             "checksums": 6.0,
         }
     )
-    assert sum(rooms.values()) == pytest.approx(sum(own for _, _, own, _, _ in stats.values()))
+    assert sum(seconds.values()) == pytest.approx(sum(own for _, _, own, _, _ in stats.values()))
 
 
 def test_libraries_that_call_each_other_in_a_ring_are_sorted_too(script):
     bake = script("bake")
     a, b = ("/lib/a.py", 1, "a"), ("/lib/b.py", 1, "b")
     stats = {a: (1, 1, 1.0, 2.0, {b: (1, 1, 1.0, 2.0)}), b: (1, 1, 2.0, 2.0, {a: (1, 1, 2.0, 2.0)})}
-    assert bake.rooms(stats) == pytest.approx({"Python": 3.0})
+    assert bake.parts(stats) == pytest.approx({"Python": 3.0})
 
 
 def test_kernels_are_seen_by_the_profiler_and_put_back(script):
@@ -459,7 +462,7 @@ def test_every_question_is_asked_by_the_one_command_and_has_its_picture(
     assert everything.main(["--only", "frame", "--output", str(tmp_path)]) == 0
 
 
-def test_a_question_that_cannot_be_asked_says_so(script, capsys):
+def test_a_question_that_cannot_be_asked_ends_with_an_error(script, capsys):
     assert script("frame").main(["--n", "0", "--seconds", "0"]) == 2
     assert "frame: n must be" in capsys.readouterr().err
 

@@ -96,7 +96,7 @@ def test_a_part_of_the_direct_sum_is_scaled_to_the_whole(monkeypatch):
     """
     monkeypatch.setattr(
         quick, "DIRECT_CALL", 960 * 102.5
-    )  # waves x points: room for 102 of the 1024
+    )  # waves x points: enough for 102 of the 1024
     seen = []
     real = quick.race
     monkeypatch.setattr(quick, "race", lambda *a, **k: seen.append(real(*a, **k)) or seen[-1])

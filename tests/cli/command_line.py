@@ -3,13 +3,11 @@
 import dataclasses
 import functools
 import json
-import os
 from pathlib import Path
 
 import fftocean as fo
-from fftocean.baking.previews import sheets as preview
-from fftocean.statistics import SeaState
 
+SHEETS = "fftocean.baking.previews.sheets"
 SMALL = ("--n", "8", "--frames", "1")
 
 
@@ -17,12 +15,16 @@ SWELL = "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.5, tp = 4.0 }\n"
 
 
 def no_pictures(monkeypatch, size=7):
-    monkeypatch.setattr(preview, "contact_sheet", lambda *_, **__: bytes(size))
-    monkeypatch.setattr(preview, "animation", lambda *_, **__: bytes(size))
+    """Replace each preview of a bake by some zeros."""
+    monkeypatch.setattr(f"{SHEETS}.contact_sheet", lambda *_, **__: bytes(size))
+    monkeypatch.setattr(f"{SHEETS}.animation", lambda *_, **__: bytes(size))
 
 
 @functools.cache
 def some_statistics(m0):
+    """Return the statistics of one wave, as if a sea of variance m0 [m^2] had been specified."""
+    from fftocean.statistics import SeaState  # slow to import: not while collecting
+
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     return dataclasses.replace(
         still, specified=SeaState(m0=m0, hs=4.0 * m0**0.5, tp=5.0, mean_direction=0.0, spread=30.0)
@@ -40,11 +42,6 @@ def refusal(result, folder="out"):
     assert err.rstrip("\n").isprintable()
     assert not Path(folder).exists()
     return err
-
-
-def environment(**more):
-    """Return this process's environment, in which this package is found."""
-    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
 
 
 def events(out):

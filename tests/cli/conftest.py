@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 from command_line import no_pictures, some_statistics
 
-from fftocean.baking import bake as baker
 from fftocean.cli import main
 
 
@@ -27,8 +26,7 @@ def fast_bakes(monkeypatch):
     tests/baking has them.
     """
     monkeypatch.setattr(
-        baker,
-        "measure",
+        "fftocean.baking.bake.measure",
         lambda ocean: some_statistics(0.0 if ocean.amplitudes.variance == 0.0 else 0.1),
     )
     no_pictures(monkeypatch)

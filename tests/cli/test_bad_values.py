@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from command_line import SMALL, SWELL, refusal
 
-from fftocean.baking.finished.load import load
+import fftocean as fo
 from fftocean.job.parameters import BY_KEY, PARAMETERS
 
 BAD = ["nan", "inf", "-1", "0", '"5"', "true", "1e308", "1e-308"]
@@ -25,7 +25,7 @@ def refused_or_finite(result, key, value):
         return True
     assert result[0] == 0
     manifest = json.loads(Path("out/manifest.json").read_text(), parse_constant=pytest.fail)
-    for values in load("out").maps.values():
+    for values in fo.load("out").maps.values():
         assert np.all(np.isfinite(values))
     assert len(manifest["frames"]) >= 1
     return False

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from builders import lazy
 from command_line import SMALL, events, no_pictures, refusal
 
-from fftocean.baking import bake as baker
 from fftocean.cli import main
-from fftocean.export import exr
+
+exr = lazy("fftocean.export.exr")
 
 
 @pytest.mark.usefixtures("fast_bakes")
@@ -315,7 +316,7 @@ def test_the_last_json_event_of_a_stopped_bake_is_an_error(run, stop, code, word
     def fail(*_, **__):
         raise stop
 
-    monkeypatch.setattr(baker, "_finish", fail)
+    monkeypatch.setattr("fftocean.baking.bake._finish", fail)
     left, out, err = run("bake", "-o", "out", "--n", "8", "--frames", "2", "--json")
     assert left == code
     assert events(out)[-1] == {"event": "error", "message": word, "exit_code": code}

@@ -41,4 +41,4 @@ def test_an_unfinished_bake_exits_5_and_an_absent_folder_4(run, baked):
     assert "unfinished" in out
     code, out, err = run("check", "nowhere")
     assert (code, out) == (4, "")
-    assert err == "fftocean: nowhere must be the folder of a bake, and is not there\n"
+    assert err == "fftocean: nowhere must be the folder of a bake, and does not exist\n"

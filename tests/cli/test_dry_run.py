@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from command_line import no_pictures
+from command_line import SMALL, no_pictures
 
 
 def test_a_dry_run_writes_nothing_and_predicts_the_files(run, monkeypatch):
@@ -84,3 +84,25 @@ def test_estimates_name_container_and_video_memory(run):
     assert (
         "video memory of the maps in an engine: 0.234 MiB for 6 frames, 0.0391 MiB a frame" in out
     )
+
+
+@pytest.mark.usefixtures("fast_bakes")
+@pytest.mark.parametrize("folder", ["a file", "a file/below", "link", "one", "other", "foreign"])
+def test_a_dry_run_of_tiles_refuses_what_a_run_refuses(run, folder):
+    """A dry run has the same message and exit code, and leaves the folder as it is."""
+    Path("a file").write_text("")
+    Path("target").mkdir()
+    Path("link").symlink_to("target", target_is_directory=True)
+    Path("foreign/height").mkdir(parents=True)
+    Path("foreign/height/0000.exr").write_bytes(b"mine")
+    work = ("--maps", "height", "--executor", "serial", "--set", "bake.pictures=[]")
+    if folder == "one":
+        run("bake", "-o", "one", *SMALL, *work)
+    if folder == "other":
+        run("bake", "-o", "other", "--tiles", "8:60,8:20", "--frames", "1", "--seed", "9", *work)
+    before = sorted(Path().rglob("*"))
+    flags = ("bake", "-o", folder, "--tiles", "8:60,8:20", "--frames", "1", *work)
+    dry = run(*flags, "--dry-run")
+    assert dry[0] == 4
+    assert sorted(Path().rglob("*")) == before
+    assert run(*flags) == dry

@@ -11,7 +11,8 @@ import warnings
 from pathlib import Path
 
 import pytest
-from command_line import SMALL, environment
+from builders import environment
+from command_line import SMALL
 
 from fftocean.cli import entry_point, main
 from fftocean.errors import FFTOceanError

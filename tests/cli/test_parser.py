@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from command_line import environment
+from builders import environment
 
 import fftocean as fo
 from fftocean.cli import main

@@ -570,6 +570,7 @@ def test_no_frequency_gives_anything_but_a_finite_density(peak, gamma, depth):
 @pytest.mark.parametrize(
     ("depth", "n"), [(1e-6, 0), (1e-6, 3), (1e-3, 2), (1.0, 3), (math.inf, -1)]
 )
+@pytest.mark.slow
 def test_moments_are_finite_at_every_depth(depth, n):
     """
     In a micrometre of water Phi lifts the tail to omega^-3 for five decades before it turns deep:

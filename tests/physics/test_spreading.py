@@ -38,6 +38,7 @@ MODELS = [
 
 
 @pytest.mark.parametrize("model", MODELS, ids=repr)
+@pytest.mark.slow
 def test_every_model_integrates_to_one(model):
     """
     Adaptive quadrature, cut at the kinks (0, pi/2) and round the narrowest lobe, whose width is

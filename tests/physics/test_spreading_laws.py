@@ -91,6 +91,7 @@ def _whole(law, x):
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
+@pytest.mark.slow
 def test_every_law_integrates_to_one(law):
     for x in np.geomspace(0.3, 30.0, 20):
         assert _whole(law, x) == pytest.approx(1.0, abs=1e-10)

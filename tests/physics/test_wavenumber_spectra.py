@@ -71,6 +71,7 @@ def test_every_spectrum_is_finite_and_serves_a_sea(s):
 
 @pytest.mark.parametrize("cutoff", [0.0, 1e-6, 0.02, 1.0, 10.0])
 @pytest.mark.parametrize(("depth", "tension"), WATERS)
+@pytest.mark.slow
 def test_phillips_is_scaled_to_the_height_in_any_water(cutoff, depth, tension):
     """
     The Bessel integral against adaptive quadrature over omega, which knows nothing of it: 1e-9 of
@@ -125,6 +126,7 @@ def test_phillips_peaks_where_it_says(cutoff):
 
 @pytest.mark.parametrize("s", SEVERAL[1:3] + SEVERAL[7:11], ids=repr)
 @pytest.mark.parametrize(("depth", "tension"), WATERS)
+@pytest.mark.slow
 def test_the_same_energy_in_wavenumber_and_in_frequency(s, depth, tension):
     """S(omega) domega/dk = F(k) and the bands agree: F does not change with the water, S does."""
     s = replace(s, depth=depth, surface_tension=tension)

@@ -56,7 +56,7 @@ anywhere: of any two steps of a sea, all frames together, the roughest was at mo
 second (60 seas of 10 to 32 samples a side).
 """
 
-UNFINISHED = "it does not exist: the bake was stopped, and the same command resumes it"
+UNFINISHED = "it does not exist: the bake was stopped; run the same command again to resume"
 
 MIN_STEPS = 8  # steps inside that the step across an edge is compared with
 

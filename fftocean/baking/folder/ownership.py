@@ -141,6 +141,20 @@ def require_possible(folder: Path, header: Mapping[str, Any], *, overwrite: bool
     Raises:
         OutputError: the folder cannot be made or written to, or holds something else.
     """
+    require_writable(folder)
+    if overwrite:
+        require_replaceable(folder)
+    else:
+        require_same_bake(folder, header)
+
+
+def require_writable(folder: Path) -> None:
+    """
+    Raise if a folder cannot be made or written to; write nothing.
+
+    Raises:
+        OutputError: it is a link or no folder, or permission is missing.
+    """
     if folder.is_symlink():
         raise OutputError(f"{folder} must be a folder, and is a link to {folder.resolve()}")
     try:
@@ -157,10 +171,6 @@ def require_possible(folder: Path, header: Mapping[str, Any], *, overwrite: bool
         raise OutputError(
             f"{folder} could not be made a folder: {error.strerror or error}"
         ) from None
-    if overwrite:
-        require_replaceable(folder)
-    else:
-        require_same_bake(folder, header)
 
 
 def mark(folder: Path, header: Mapping[str, Any], *, overwrite: bool) -> None:
