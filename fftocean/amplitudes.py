@@ -101,8 +101,9 @@ class Amplitudes:
     @property
     def running_omega(self) -> Real:
         """The frequencies of the waves as they run: omega, or 2 pi cycles / loop  [rad/s]."""
-        if self.cycles is None or self.loop is None:
+        if self.cycles is None:
             return self.omega
+        assert self.loop is not None  # cycles are those of a loop
         return self.cycles * (2.0 * np.pi / self.loop)
 
     @property

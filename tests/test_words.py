@@ -8,7 +8,7 @@ from functools import cache
 
 import pytest
 from builders import ROOT
-from imports import PACKAGE, docstrings, questions
+from imports import PACKAGE, docstrings, questions, widths
 
 METAPHORS = re.compile(
     r"""\b(
@@ -64,10 +64,10 @@ def test_no_docstring_begins_with_a_question_word():
 
 def test_no_line_is_longer_than_100_columns():
     found = [
-        f"{path}:{i}: {len(line)}"
+        f"{path}:{i}: {width}"
         for path, source in files().items()
-        for i, line in enumerate(source.splitlines(), 1)
-        if len(line) > 100
+        for i, width in enumerate(widths(source), 1)
+        if width > 100
     ]
     assert not found, "\n".join(found)
 
