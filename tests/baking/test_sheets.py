@@ -243,10 +243,10 @@ def test_displaced_water_is_found_where_it_is():
     """
     sea = ocean(ocean__n=128)
     water = render.Water.of(sea.loop_frame(0, 1, FIELDS))
-    scene = render._Scene(water, (0.0, 0.0), 1000.0, 1, 1, 100.0, np.geomspace(3.0, 3e4, 50))
+    view = render._View(water, (0.0, 0.0), 1000.0, 1, 1, 100.0, np.geomspace(3.0, 3e4, 50))
     chance = np.random.default_rng(4)
     x, y = chance.uniform(0.0, 100.0, (2, 1000, 1))
-    _, _, z, _ = scene._surface(x, y, np.full(1000, 1e-3))
+    _, _, z, _ = view._surface(x, y, np.full(1000, 1e-3))
     truth = fo.Query(sea, mode="bilinear").at(x[:, 0], y[:, 0], 0.0, "heights").heights
     error = z[:, 0] - truth
     # three steps of an iteration that contracts by the steepness: 0.3^3 of what displacement does
