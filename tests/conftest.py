@@ -12,7 +12,6 @@ QUICK = (
     "test_amplitudes.py",
     "test_fields.py",
     "test_grid.py",
-    "test_limits.py",
     "test_noise.py",
     "test_ocean.py",
     "test_products.py",
