@@ -111,13 +111,23 @@ class Parameter:
             return value
         word = spelled(value, self.choices) if isinstance(value, str) else None
         if word is None:
-            raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}")
+            near = suggestion(value, self.choices)
+            raise ParameterError(f"{self.key} must be {self.rule}, got {value!r:.80}{near}")
         return word
 
 
 def spelled(word: str, names: Iterable[str]) -> str | None:
     """Return the name that equals a word apart from case; None if there is none."""
     return next((name for name in names if name.casefold() == word.strip().casefold()), None)
+
+
+def suggestion(word: Any, names: Iterable[str]) -> str:
+    """Return "; did you mean godot?" for the name most like a misspelt word; "" if none is."""
+    import difflib  # not before a word is wrong: the command line's help loads this module
+
+    given = word.strip().casefold() if isinstance(word, str) else ""
+    near = difflib.get_close_matches(given, list(names), n=1, cutoff=0.7)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 WIND = (
@@ -172,7 +182,13 @@ TILE = (
     ),
 )
 OUTPUT = (
-    Parameter("bake.frames", 240, "frames in the loop", limits.FRAMES, flag="frames"),
+    Parameter(
+        "bake.frames",
+        240,
+        "frames in the loop; `fftocean bake` also takes a part of it, START:STOP:STEP",
+        limits.FRAMES,
+        flag="frames",
+    ),
     Parameter("bake.maps", MAPS[:3], "maps to write", choices=MAPS, many=True, flag="maps"),
     Parameter("bake.format", "exr", "file format", choices=FORMATS, flag="format"),
     Parameter(

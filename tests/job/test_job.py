@@ -941,3 +941,19 @@ def test_a_byte_order_mark_elsewhere_is_no_toml(tmp_path):
     (tmp_path / "job.toml").write_bytes("[ocean]\n\ufeffn = 48\n".encode())
     with pytest.raises(JobError, match="must be TOML"):
         Job.read(tmp_path / "job.toml")
+
+
+@pytest.mark.parametrize(
+    ("key", "word", "meant"),
+    [
+        ("bake.engine", "godt", "godot"),
+        ("bake.format", "EXR-Atls", "exr-atlas"),
+        ("bake.maps", ["heigth"], "height"),
+        ("ocean.amplitudes", "fixd", "fixed"),
+    ],
+)
+def test_a_misspelt_value_is_answered_with_the_nearest(key, word, meant):
+    with pytest.raises(JobError, match=rf"{key} must be .*; did you mean {meant}\?$"):
+        Job.default().replaced({key: word})
+    with pytest.raises(JobError, match=r"got 'xyzzy'$"):
+        Job.default().replaced({key: ["xyzzy"] if isinstance(word, list) else "xyzzy"})
