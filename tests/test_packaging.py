@@ -31,7 +31,6 @@ def test_an_archive_holds_no_stray_environment(tmp_path):
     """
     Built from a small copy of the tree, with an environment in it whose folders have our names.
     """
-    pytest.importorskip("hatchling")
     for name in (
         "pyproject.toml",
         "README.md",
