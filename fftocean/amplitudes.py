@@ -1,10 +1,11 @@
 """Random amplitudes h0(k) of a tile, from the variance of each wavenumber cell."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from fftocean import noise
 from fftocean.arrays import Complex, Integer, Real, brief_repr
@@ -13,7 +14,7 @@ from fftocean.errors import ParameterError
 from fftocean.grid import Grid
 from fftocean.limits import ANGLE, DEPTH, LENGTH, LOOP, SEED
 from fftocean.physics import dispersion
-from fftocean.physics.sea import Sea, WaveSystem
+from fftocean.physics.sea import Sea
 
 Draw = Literal["gaussian", "fixed"]
 
@@ -294,12 +295,36 @@ def share_below(edge: float, sea: Sea, mx: Integer, my: Integer, dkx: float, dky
     return Cells(sea, dkx, dky).share_below(edge, mx, my)
 
 
-def wavenumber_density(sea: Sea, system: WaveSystem, kx: Real, ky: Real) -> Real:
+def refined(
+    amplitudes: Amplitudes,
+    fine: Grid,
+    kept: npt.NDArray[np.bool_],
+    response: Callable[[Real], Real],
+) -> Amplitudes:
     """
-    Return S(omega) D(omega, theta) (d omega/dk) / k, the density in the plane of wavenumbers, k > 0
-    [m^2 / (rad/m)^2].
+    Return waves on a finer grid of the same tile, divided by the response of a spline.
+
+    Args:
+        amplitudes: the waves.
+        fine: the finer grid.
+        kept: the waves to keep, (ny, nx // 2 + 1).
+        response: of the spline along one axis to a wave, by its cycles per fine sample.
     """
-    k = np.hypot(kx, ky)
-    omega = dispersion.angular_frequency(k, sea.depth, sea.surface_tension)
-    d_omega = omega / k * dispersion.group_to_phase_speed(k, sea.depth, sea.surface_tension)
-    return system.density(omega, np.arctan2(ky, kx)) * d_omega / k
+    grid = amplitudes.grid
+    rows, columns = np.nonzero(kept)
+    fine_rows = grid.my[rows]  # negative ones count from the end there, too
+    divisor = response(grid.mx[columns] / fine.nx) * response(grid.my[rows] / fine.ny)
+
+    def spread(values: npt.NDArray[Any], by: Real) -> npt.NDArray[Any]:
+        wide = np.zeros(fine.half_shape, dtype=values.dtype, order="F")
+        wide[fine_rows, columns] = values[rows, columns] / by
+        return wide
+
+    return replace(
+        amplitudes,
+        grid=fine,
+        forward=spread(amplitudes.forward, divisor),
+        backward=spread(amplitudes.backward, divisor),
+        variance_forward=spread(amplitudes.variance_forward, divisor**2),
+        variance_backward=spread(amplitudes.variance_backward, divisor**2),
+    )

@@ -15,12 +15,11 @@ twice its length, about a hundredth of a millimetre for a sea.
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fftocean.amplitudes import Amplitudes
+from fftocean.amplitudes import refined
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
 from fftocean.fields import EIGHT, GEOMETRY
@@ -276,25 +275,7 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
     """
     Return an ocean whose frames are the quintic spline coefficients of another's fields.
     """
-    a, grid = ocean.amplitudes, ocean.grid
-    rows, columns = np.nonzero(grid.active)
-    finer_rows = grid.my[rows]  # negative ones count from the end there, too
-    response = _response(grid.mx[columns] / finer.nx) * _response(grid.my[rows] / finer.ny)
-
-    def spread(values: npt.NDArray[Any], divisor: Real) -> npt.NDArray[Any]:
-        wide = np.zeros(finer.half_shape, dtype=values.dtype, order="F")
-        wide[finer_rows, columns] = values[rows, columns] / divisor
-        return wide
-
-    stretched: Amplitudes = replace(
-        a,
-        grid=finer,
-        forward=spread(a.forward, response),
-        backward=spread(a.backward, response),
-        variance_forward=spread(a.variance_forward, response**2),
-        variance_backward=spread(a.variance_backward, response**2),
-    )
-    return ocean.with_amplitudes(stretched)
+    return ocean.with_amplitudes(refined(ocean.amplitudes, finer, ocean.grid.active, _response))
 
 
 def _response(cycles: Real) -> Real:

@@ -6,9 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from fftocean.amplitudes import Amplitudes
+from fftocean.amplitudes import refined
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
@@ -233,23 +232,5 @@ def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
     They are on the grid `fine`, without waves shorter than `shortest` [m].
     """
     a, grid = ocean.amplitudes, ocean.grid
-    rows, columns = np.nonzero(grid.active & (grid.k * shortest <= 2.0 * np.pi))
-    rows_there = grid.my[rows]  # negative ones count from the end there, too
-    response = interpolate.spline_response(
-        grid.mx[columns] / fine.nx
-    ) * interpolate.spline_response(grid.my[rows] / fine.ny)
-
-    def spread(values: npt.NDArray[Any], divisor: Real) -> npt.NDArray[Any]:
-        wide = np.zeros(fine.half_shape, dtype=values.dtype, order="F")
-        wide[rows_there, columns] = values[rows, columns] / divisor
-        return wide
-
-    filtered: Amplitudes = replace(
-        a,
-        grid=fine,
-        forward=spread(a.forward, response),
-        backward=spread(a.backward, response),
-        variance_forward=spread(a.variance_forward, response**2),
-        variance_backward=spread(a.variance_backward, response**2),
-    )
-    return ocean.with_amplitudes(filtered)
+    kept = grid.active & (grid.k * shortest <= 2.0 * np.pi)
+    return ocean.with_amplitudes(refined(a, fine, kept, interpolate.spline_response))
