@@ -109,7 +109,7 @@ def load(
     maps: Iterable[str] | None = None,
     frames: Iterable[int] | None = None,
     verify: bool = True,
-) -> Any:
+) -> Bake | BakedCascade:
     """
     Load the maps of a finished bake.
 
