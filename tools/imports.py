@@ -43,7 +43,7 @@ def imports_in(
     source: str,
     known: Collection[str],
     is_package: bool = False,
-    doors: Mapping[tuple[str, str], str] | None = None,
+    upward: Mapping[tuple[str, str], str] | None = None,
     *,
     inside: bool = True,
 ) -> set[str]:
@@ -59,18 +59,18 @@ def imports_in(
         source: its text.
         known: names of modules.
         is_package: whether the importer is a package's `__init__.py`.
-        doors: imports to leave out, by (module, function).
+        upward: imports to leave out, by (module, function).
         inside: whether imports within functions count.
     """
     tree = ast.parse(source)
     skipped = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef) and (module, node.name) in (doors or {}):
-            door = f"fftocean.{(doors or {})[module, node.name]}"
+        if isinstance(node, ast.FunctionDef) and (module, node.name) in (upward or {}):
+            imported_there = f"fftocean.{(upward or {})[module, node.name]}"
             skipped |= {
                 line
                 for line in node.body
-                if isinstance(line, ast.ImportFrom) and line.module == door
+                if isinstance(line, ast.ImportFrom) and line.module == imported_there
             }
     if not inside:
         functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))

@@ -306,7 +306,7 @@ def test_a_cascade_has_all_previews():
 
 
 def test_a_pond_is_not_a_storm():
-    """What a wind does is seen: more waves above the horizon, more foam, a wider glitter."""
+    """A stronger wind shows: more waves above the horizon, more foam, a wider glitter."""
     views = {}
     for wind, fetch, size in ((3.0, 300.0, 12.0), (28.0, 800e3, 1200.0)):
         sea = fo.Ocean(
