@@ -161,7 +161,7 @@ def test_from_above_north_is_up_and_east_is_right():
         assert np.ptp(picture[..., 1]) > 0.001
     mean = np.zeros((16, 8))
     mean[:, 1], mean[:, 4] = frame.slope_y[:, 0], frame.stretch_yy[:, 0]
-    view = np.broadcast_to([0.0, -0.80, 0.60], (16, 3))
+    view = np.broadcast_to([0.0, -0.92, 0.39191836], (16, 3))
     lit = render.shade(mean, water, view, frame.height[:, 0], np.zeros(16))
     assert np.allclose(picture[::-1, 0], lit, atol=1e-5)  # float32 fields
 
