@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import os
+import re
 import time
 import warnings
 from pathlib import Path
@@ -957,3 +958,14 @@ def test_a_misspelt_value_is_answered_with_the_nearest(key, word, meant):
         Job.default().replaced({key: word})
     with pytest.raises(JobError, match=r"got 'xyzzy'$"):
         Job.default().replaced({key: ["xyzzy"] if isinstance(word, list) else "xyzzy"})
+
+
+def test_settings_of_the_default_job_that_differ_from_the_defaults_are_stated():
+    """The description of such a key, and the comment in the default job, name both values."""
+    differing = {
+        key: value for key, value in Job.default().settings.items() if value != BY_KEY[key].default
+    }
+    assert list(differing) == ["sea.wind.direction"]
+    assert "the default job has 25" in BY_KEY["sea.wind.direction"].help
+    text = Path(job_module.__file__).with_name("default.toml").read_text(encoding="utf-8")
+    assert re.search(r"^direction = 25\.0 .* a job without it has 0$", text, re.MULTILINE)
