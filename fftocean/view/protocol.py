@@ -18,7 +18,7 @@ import base64
 import binascii
 import json
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, NoReturn
 
@@ -234,7 +234,7 @@ def _frame(content: Any) -> BakedFrame:
     return BakedFrame(TILE.check("tile", table["tile"]), FRAME.check("frame", table["frame"]))
 
 
-_KINDS: Final = {
+_KINDS: Final[Mapping[str, Callable[[Any], Message]]] = {
     "set": _set,
     "verify": _verify,
     "job": _job,
@@ -298,3 +298,8 @@ def binary(kind: bytes, header: dict[str, Any], data: bytes) -> bytes:
     text = json.dumps(header, allow_nan=False).encode()
     text += b" " * (-len(text) % 16)
     return kind + struct.pack("<3I", 1, len(text), 0) + text + data
+
+
+def as_json(tree: Any) -> bytes:
+    """Return compact JSON without NaN and infinities."""
+    return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()
