@@ -8,11 +8,12 @@ from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, info, plot, presets, verify
+from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify
 from fftocean.cli.console import plain
 
 COMMANDS = (
     bake.COMMAND,
+    export_sea.COMMAND,
     check.COMMAND,
     info.COMMAND,
     verify.COMMAND,
