@@ -254,6 +254,11 @@ def copied(what: str, text: str) -> str:
     return json.dumps({"copied": {"what": what, "text": text}})
 
 
+def few_waves(model: dict[str, Any] | None) -> str:
+    """Return the text with the waves of a few-wave model; None where none is shown."""
+    return json.dumps({"few_waves": model}, allow_nan=False)
+
+
 def state_text(
     values: dict[str, Any], *, source: str, busy: bool, notes: Sequence[str], **more: Any
 ) -> str:

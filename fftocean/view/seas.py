@@ -11,10 +11,12 @@ import warnings
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Final
 
 from fftocean.cascade import Cascade
-from fftocean.errors import FFTOceanError, ParameterError, SeaWarning
+from fftocean.errors import ParameterError, SeaWarning
+from fftocean.physics.sea import Sea
 from fftocean.runtime import pack, to_bytes
 from fftocean.view import protocol
 from fftocean.view.state import State
@@ -36,9 +38,12 @@ class MadeSea:
     document: dict[str, Any]
     notes: tuple[str, ...]  # warnings of the library
     cascade: Cascade | None  # of an exact sea
+    few_waves: dict[str, Any] | None = None  # of the few-wave model, where one is shown
 
 
-def make_exact(state: State, number: int, *, points: int = 0) -> MadeSea:
+def make_exact(
+    state: State, number: int, *, points: int = 0, before: MadeSea | None = None
+) -> MadeSea:
     """
     Return the exact sea of a state.
 
@@ -46,21 +51,51 @@ def make_exact(state: State, number: int, *, points: int = 0) -> MadeSea:
         state: values and job.
         number: of the sea, in its document.
         points: points a tile at which the package has fields to check it by; 0 for none.
+        before: an exact sea whose waves are used again where they are the same.
 
     Raises:
-        FFTOceanError: no such sea can be made, or it cannot be packed; the message has the rule.
+        ParameterError: no such sea can be made, or it cannot be packed; the message has the rule.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", SeaWarning)
-        cascade = state.cascade(dtype="float64")
+        cascade = _cascade_of(state, before)
         package = pack(
             cascade, reference=points, job=state.toml(), quality="exact", wind=_wind_of(state)
         )
+        few = _few_waves_of(state, cascade.sea, package.document["ticks"])
     package.document["id"] = number
     notes = tuple(
         dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, SeaWarning))
     )
-    return MadeSea(number, state, "exact", to_bytes(package), package.document, notes, cascade)
+    if before is not None and cascade is before.cascade:
+        notes = before.notes
+    data = to_bytes(package)
+    return MadeSea(number, state, "exact", data, package.document, notes, cascade, few)
+
+
+def _cascade_of(state: State, before: MadeSea | None) -> Cascade:
+    """Return the cascade of a state: the one before, where nothing of the sea has changed."""
+    if before is not None and before.cascade is not None:
+        old = before.state
+        if state.has_waves_of(old) and state.values["choppiness"] == old.values["choppiness"]:
+            return before.cascade
+    return state.cascade(dtype="float64")
+
+
+def _few_waves_of(state: State, sea: Sea | None, ticks: int) -> dict[str, Any] | None:
+    """Return the waves of the few-wave model of a state, or None."""
+    if sea is None or state.values["model"] == "fft":
+        return None
+    from fftocean.view.few_waves import few_waves
+
+    made = few_waves(
+        sea,
+        state.values["model"],
+        loop=state.values["loop"],
+        ticks=ticks,
+        seed=state.values["seed"],
+    )
+    return made.document()
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:
@@ -96,7 +131,7 @@ class SeaMaker:
         self,
         worker: Worker,
         made: Callable[[MadeSea], None],
-        failed: Callable[[State, FFTOceanError], None],
+        failed: Callable[[State, Exception], None],
         *,
         moving: Callable[[State, int], MadeSea] | None = None,
     ) -> None:
@@ -148,7 +183,8 @@ class SeaMaker:
                 if await self._changes_within(REST):
                     await asyncio.sleep(max(0.0, PAUSE - (time.monotonic() - began)))
                     continue
-            await self._make(make_exact, state)
+            before = next(reversed(self._exact.values()), None)
+            await self._make(partial(make_exact, before=before), state)
 
     async def _make(self, make: Callable[[State, int], MadeSea], state: State) -> bool:
         """Make one sea and hand it on, or the reason why there is none; return True for a sea."""
@@ -156,7 +192,7 @@ class SeaMaker:
         number = self._number
         try:
             sea = await self._worker.run(lambda: make(state, number))
-        except FFTOceanError as error:
+        except Exception as error:  # whatever it is, the server goes on with the sea before
             if self._wanted is state:
                 self._wanted = None
             self._failed(state, error)

@@ -12,7 +12,7 @@ import signal
 from collections import OrderedDict
 from collections.abc import AsyncIterator, Callable, Mapping
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from fftocean.errors import OutputError, ParameterError, how_to_install
 from fftocean.limits import Count
@@ -243,24 +243,24 @@ async def serve_until_stopped(server: PageServer, ready: Callable[[str], None]) 
         ready: called with the address of the page once it listens.
     """
     loop, stopped = asyncio.get_running_loop(), asyncio.Event()
-    received: list[int] = []
+    received: list[signal.Signals] = []
 
-    def stop(number: int) -> None:
+    def stop(number: signal.Signals) -> None:
         received.append(number)
         stopped.set()
 
-    before: dict[int, Any] = {}
+    handled: list[signal.Signals] = []
     async with server.listening():
         for number in (signal.SIGINT, signal.SIGTERM):
             try:
                 loop.add_signal_handler(number, stop, number)
             except (NotImplementedError, RuntimeError, ValueError):  # no such handlers here
                 continue
-            before[number] = None
+            handled.append(number)
         try:
             ready(server.address)
             await stopped.wait()
         finally:
-            for number in before:
+            for number in handled:
                 loop.remove_signal_handler(number)
     return received[0]

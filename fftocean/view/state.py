@@ -194,6 +194,13 @@ class State:
         """(n, size) of the tiles that are shown, the largest first."""
         return self.sizes[: self.values["tiles"]]
 
+    def has_waves_of(self, other: "State") -> bool:
+        """Return True if the waves are those of another state, whatever their choppiness."""
+        free = ("choppiness", "model")
+        return (self.base, self.tiles) == (other.base, other.tiles) and all(
+            value == other.values[name] for name, value in self.values.items() if name not in free
+        )
+
     def job(self) -> Job:
         """Return the job of the sea, on the largest tile."""
         v, base = self.values, self.base

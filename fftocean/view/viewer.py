@@ -65,7 +65,7 @@ class Viewer:
         self._worker = Worker()
         self._maker = SeaMaker(self._worker, self._made, self._failed)
         self._sea: MadeSea | None = None
-        self._few: str | None = None
+        self._few = protocol.few_waves(None)
         self._spool: tempfile.TemporaryDirectory[str] | None = None
         self._spooled = 0
 
@@ -101,8 +101,7 @@ class Viewer:
         client.offer("state", self._state_text())
         if self._sea is not None:
             client.offer("sea", self._sea.data)
-        if self._few is not None:
-            client.offer("few_waves", self._few)
+        client.offer("few_waves", self._few)
 
     async def receive(self, client: Client, data: str | bytes) -> bool:
         """Carry out a message of a client, or say why not; return False for a refusal."""
@@ -129,6 +128,8 @@ class Viewer:
             return list(await self._worker.run(lambda: reference_fields(sea, request.tick)))
         except FFTOceanError as error:
             return [protocol.refused(str(error))]
+        except Exception as error:  # whatever it is, the server goes on
+            return [protocol.refused(f"the request could not be answered: {error!r:.200}")]
 
     async def _carry_out(self, client: Client, message: Message) -> None:
         """Carry out one message."""
@@ -191,16 +192,25 @@ class Viewer:
         self._offer_all("state", self._state_text())
 
     def _made(self, sea: MadeSea) -> None:
-        """Send a new sea to every client."""
+        """Send a new sea to every client, and the few waves beside it where they have changed."""
         self._sea, self._good = sea, sea.state
         self._offer_all("sea", sea.data)
+        if sea.quality == "exact":
+            few = protocol.few_waves(sea.few_waves)
+            if few != self._few:
+                self._few = few
+                self._offer_all("few_waves", few)
         self._offer_all("state", self._state_text())
 
-    def _failed(self, state: State, error: FFTOceanError) -> None:
+    def _failed(self, state: State, error: Exception) -> None:
         """Go back to the last sea that could be made, and say why."""
         if self._state is state and self._good is not None:
             self._state = self._good
-        text = protocol.refused(str(error))
+        text = protocol.refused(
+            str(error)
+            if isinstance(error, FFTOceanError)
+            else f"no sea could be made: {error!r:.200}"
+        )
         for client in self.clients:
             client.tell(text)
         self._offer_all("state", self._state_text())
