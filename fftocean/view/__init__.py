@@ -1,0 +1,1 @@
+"""Live page: server, static page, notebook widget."""
