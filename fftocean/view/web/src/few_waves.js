@@ -1,7 +1,7 @@
 // The few-wave models: at most 64 waves, summed at each vertex and lit as in the slides.
 import { ringDistances, visibleSector } from './camera.js';
 import { program, texture } from './gl.js';
-import { noiseTexels, NOISE_SAMPLES } from './noise.js';
+import { NOISE_CELLS, NOISE_SAMPLES, noiseLevels } from './noise.js';
 import {
   FEW_WAVES_FRAGMENT,
   FEW_WAVES_VERTEX,
@@ -103,9 +103,8 @@ export class FewWaves {
       filter: 'linear',
       mips: true,
       anisotropy: 8,
-      data: noiseTexels(),
     });
-    this.noise.generateMips();
+    noiseLevels().forEach((texels, level) => this.noise.upload(texels, level));
     this.vertexArray = gl.createVertexArray();
     this.indices = gl.createBuffer();
     gl.bindVertexArray(this.vertexArray);
@@ -141,8 +140,9 @@ export class FewWaves {
    *
    * @param {object} options
    * @param {boolean} [options.fade] leave out waves that the mesh cannot hold, as `draw` does
-   * @returns {{still: Float32Array, place: Float32Array, normal: Float32Array}} of each vertex: its
-   *   place at rest and now, relative to the point of the still water below the eye, and its normal
+   * @returns {{still: Float32Array, moved: Float32Array, normal: Float32Array}} of each vertex: its
+   *   place at rest, relative to the point of the still water below the eye; its displacement; and
+   *   its normal
    */
   readVertices(model, tick, camera, look, aspect, { fade = true } = {}) {
     const { gl } = this;
@@ -167,7 +167,7 @@ export class FewWaves {
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
     gl.deleteTransformFeedback(feedback);
     gl.deleteBuffer(buffer);
-    return separated(found, { still: 2, place: 3, normal: 3 });
+    return separated(found, { still: 2, moved: 3, normal: 3 });
   }
 
   /** Return the uniforms of a picture, and upload the rings of its mesh. */

@@ -1,34 +1,12 @@
 // Noise that turns normals: two channels, periodic, of mean 0, within -1 to 1.
 
+import { halfFloats } from './half.js';
+
 /** Samples a side of the texture, and cells of its coarsest octave across it. */
 export const NOISE_SAMPLES = 256;
 export const NOISE_CELLS = 8;
 
 const OCTAVES = 4;
-const LARGEST_HALF = 65504;
-
-const view = new DataView(new ArrayBuffer(4));
-
-/** Return the bits of the 16-bit float nearest to a number; ties go to the even one. */
-export function toHalf(value) {
-  view.setFloat32(0, value);
-  const bits = view.getUint32(0);
-  const sign = (bits >>> 16) & 0x8000;
-  const size = Math.abs(value);
-  if (Number.isNaN(value)) return 0x7e00;
-  if (size > LARGEST_HALF) return sign | 0x7c00;
-  if (size < 2 ** -14) return sign | roundToEven(size * 2 ** 24);
-  const exponent = ((bits >>> 23) & 0xff) - 112;
-  return sign + (exponent << 10) + roundToEven((bits & 0x7fffff) / 2 ** 13);
-}
-
-/** Return a number >= 0 rounded to the nearest whole one, ties to the even one. */
-function roundToEven(value) {
-  const below = Math.floor(value);
-  const rest = value - below;
-  if (rest !== 0.5) return Math.round(value);
-  return below + (below & 1);
-}
 
 /** Return a whole number that looks random, for a cell of an octave of a channel. */
 function hash(x, y, channel) {
@@ -77,13 +55,29 @@ export function noiseChannels() {
   });
 }
 
-/** Return the noise as texels of an RG16F texture. */
-export function noiseTexels() {
-  const [first, second] = noiseChannels();
-  const texels = new Uint16Array(2 * first.length);
-  for (let i = 0; i < first.length; i++) {
-    texels[2 * i] = toHalf(first[i]);
-    texels[2 * i + 1] = toHalf(second[i]);
+/**
+ * Return the levels of an RG16F texture of the noise, the finest first, each half as fine.
+ *
+ * They are averaged here, because a GPU that cannot draw into half floats makes no mips of them.
+ */
+export function noiseLevels() {
+  let channels = noiseChannels();
+  const levels = [];
+  for (let samples = NOISE_SAMPLES; samples >= 1; samples /= 2) {
+    const [first, second] = channels;
+    const texels = new Float32Array(2 * samples * samples);
+    first.forEach((value, i) => texels.set([value, second[i]], 2 * i));
+    levels.push(halfFloats(texels));
+    channels = channels.map((channel) => halved(channel, samples));
   }
-  return texels;
+  return levels;
+}
+
+/** Return the means of two by two samples. */
+function halved(values, samples) {
+  const half = samples >> 1;
+  return Float32Array.from({ length: half * half }, (_, i) => {
+    const at = 2 * Math.floor(i / half) * samples + 2 * (i % half);
+    return 0.25 * (values[at] + values[at + 1] + values[at + samples] + values[at + samples + 1]);
+  });
 }

@@ -6,7 +6,7 @@ import { phasorSource } from './evolve.js';
 export const MOST_WAVES = 64;
 
 /** Outputs of the vertex shader that `FewWaves.readVertices` reads back, in this order. */
-export const VERTEX_OUTPUTS = ['still', 'place', 'normal'];
+export const VERTEX_OUTPUTS = ['still', 'moved', 'normal'];
 
 /**
  * The vertex shader: a fan of rings before the eye, raised and moved by the waves.
@@ -29,7 +29,7 @@ uniform float middle, half_angle, apex, height, fade, choppiness;
 uniform vec4 wavenumber[${MOST_WAVES}];
 uniform vec4 wave[${MOST_WAVES}];
 out vec2 still;
-out vec3 place;
+out vec3 moved;
 out vec3 normal;
 out float far;
 
@@ -52,7 +52,8 @@ void main() {
   still = vec2(cos(angle), sin(angle)) * reach - ahead * apex;
   float across = 2.0 * half_angle * reach / float(columns - 1);
   float spacing = fade * pow(max(across, 1e-3), 0.3) * pow(ring.y, 0.7);
-  vec3 moved = vec3(0.0), along_x = vec3(1.0, 0.0, 0.0), along_y = vec3(0.0, 1.0, 0.0);
+  moved = vec3(0.0);
+  vec3 along_x = vec3(1.0, 0.0, 0.0), along_y = vec3(0.0, 1.0, 0.0);
   for (int i = 0; i < waves; i++) {
     vec4 k = wavenumber[i];
     vec2 turned = phasor(wave[i].w + turns(k.xy, still.x) + turns(k.zw, still.y));
@@ -71,9 +72,8 @@ void main() {
   vec3 upward = cross(along_x, along_y);
   float size = length(upward);
   normal = size > 0.0 ? upward / size : vec3(0.0, 0.0, 1.0);
-  place = vec3(still, 0.0) + moved;
   far = length(still);
-  vec3 seen = place - vec3(0.0, 0.0, height + dot(still, still) / (2.0 * EARTH_RADIUS));
+  vec3 seen = vec3(still, -height - dot(still, still) / (2.0 * EARTH_RADIUS)) + moved;
   gl_Position = view_projection * vec4(seen, 1.0);
 }`;
 
@@ -90,7 +90,7 @@ uniform float height, ambient, diffuse, specular, shininess, noise_amplitude, no
 uniform vec2 noise_start;
 uniform vec3 sun, color, light, horizon;
 in vec2 still;
-in vec3 place;
+in vec3 moved;
 in vec3 normal;
 in float far;
 out vec4 pixel;
@@ -110,7 +110,7 @@ void main() {
   vec2 wide = mat2(0.29, 0.22, -0.22, 0.29) * at + 0.37;
   vec2 angle = 0.5 * noise_amplitude * (texture(noise, at).xy + texture(noise, wide).xy);
   vec3 n = turn_normal(angle, normalize(normal));
-  vec3 eye = normalize(vec3(0.0, 0.0, height) - place);
+  vec3 eye = normalize(vec3(-still, height) - moved);
   float lit = dot(n, sun);
   float mirrored = 0.0;
   if (lit > 0.0) mirrored = pow(max(dot(eye, 2.0 * n * lit - sun), 0.0), shininess);
