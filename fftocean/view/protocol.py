@@ -10,7 +10,7 @@ The page sends one JSON table with one key:
     {"copy": "job"}                   the job file of the sea; "command": the command that bakes it
     {"frame": {"tile": 0, "frame": 3}}       a frame of the bake that is played
 
-The server sends text, `state`, `refused`, `copied`, `bake` and `few_waves`, and binary messages:
+The server sends text, `state`, `refused`, `copied` and `bake`, and binary messages:
 containers of seas (FFTO), reference fields (FFTR) and frames of a bake (FFTB).
 """
 
@@ -252,11 +252,6 @@ def refused(message: str, name: str | None = None) -> str:
 def copied(what: str, text: str) -> str:
     """Return the answer to a request for text."""
     return json.dumps({"copied": {"what": what, "text": text}})
-
-
-def few_waves(model: dict[str, Any] | None) -> str:
-    """Return the text with the waves of a few-wave model; None where none is shown."""
-    return json.dumps({"few_waves": model}, allow_nan=False)
 
 
 def state_text(

@@ -38,7 +38,6 @@ class MadeSea:
     document: dict[str, Any]
     notes: tuple[str, ...]  # warnings of the library
     cascade: Cascade | None  # of an exact sea
-    few_waves: dict[str, Any] | None = None  # of the few-wave model, where one is shown
 
 
 def make_exact(
@@ -63,14 +62,14 @@ def make_exact(
             cascade, reference=points, job=state.toml(), quality="exact", wind=_wind_of(state)
         )
         few = _few_waves_of(state, cascade.sea, package.document["ticks"])
-    package.document["id"] = number
+    package.document.update(id=number, few_waves=few)
     notes = tuple(
         dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, SeaWarning))
     )
     if before is not None and cascade is before.cascade:
         notes = before.notes
     data = to_bytes(package)
-    return MadeSea(number, state, "exact", data, package.document, notes, cascade, few)
+    return MadeSea(number, state, "exact", data, package.document, notes, cascade)
 
 
 def _cascade_of(state: State, before: MadeSea | None) -> Cascade:

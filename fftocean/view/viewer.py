@@ -65,7 +65,6 @@ class Viewer:
         self._worker = Worker()
         self._maker = SeaMaker(self._worker, self._made, self._failed)
         self._sea: MadeSea | None = None
-        self._few = protocol.few_waves(None)
         self._spool: tempfile.TemporaryDirectory[str] | None = None
         self._spooled = 0
 
@@ -101,7 +100,6 @@ class Viewer:
         client.offer("state", self._state_text())
         if self._sea is not None:
             client.offer("sea", self._sea.data)
-        client.offer("few_waves", self._few)
 
     async def receive(self, client: Client, data: str | bytes) -> bool:
         """Carry out a message of a client, or say why not; return False for a refusal."""
@@ -192,14 +190,9 @@ class Viewer:
         self._offer_all("state", self._state_text())
 
     def _made(self, sea: MadeSea) -> None:
-        """Send a new sea to every client, and the few waves beside it where they have changed."""
+        """Send a new sea to every client."""
         self._sea, self._good = sea, sea.state
         self._offer_all("sea", sea.data)
-        if sea.quality == "exact":
-            few = protocol.few_waves(sea.few_waves)
-            if few != self._few:
-                self._few = few
-                self._offer_all("few_waves", few)
         self._offer_all("state", self._state_text())
 
     def _failed(self, state: State, error: Exception) -> None:
