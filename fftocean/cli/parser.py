@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify
+from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify, view
 from fftocean.cli.console import plain
 
 COMMANDS = (
@@ -20,6 +20,7 @@ COMMANDS = (
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    view.COMMAND,
 )
 
 EXIT_CODES = (
