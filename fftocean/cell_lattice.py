@@ -6,9 +6,9 @@ a sea is sampled on a polar lattice: its energy below a wavenumber k, on a fine 
 and the share of directions below theta, at some of these k. Both are cumulative, so that a cell's
 energy is a sum of differences: a cell is a few rings about k = 0, and each ring holds the energy
 between its two wavenumbers times the share of directions that its arc spans. No energy falls
-between two samples, however narrow the spectrum is. The directions of the lattice are those on which the
-sea's spreading is smooth, so narrow seas have a finer one; the energy of a long-crested part is
-followed along its ray from cell to cell.
+between two samples, however narrow the spectrum is. The directions of the lattice are those on
+which the sea's spreading is smooth, so narrow seas have a finer one; the energy of a long-crested
+part is followed along its ray from cell to cell.
 """
 
 import math
