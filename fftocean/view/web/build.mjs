@@ -13,7 +13,11 @@ const options = { bundle: true, minify: true, target: 'es2022', charset: 'utf8',
 
 /** Return one bundled source as bytes. */
 async function bundled(source, more) {
-  const result = await build({ ...options, ...more, entryPoints: [path.join(here, 'src', source)] });
+  const result = await build({
+    ...options,
+    ...more,
+    entryPoints: [path.join(here, 'src', source)],
+  });
   return result.outputFiles[0].contents;
 }
 
@@ -36,6 +40,8 @@ for (const [name, bytes] of Object.entries(files)) {
   const same = existsSync(file) && Buffer.compare(await readFile(file), Buffer.from(bytes)) === 0;
   if (!same) stale.push(name);
   if (!same && !check) await writeFile(file, bytes);
-  console.log(`${name}: ${bytes.length} bytes${same ? '' : check ? ', not the bundle of the sources' : ', written'}`);
+  console.log(
+    `${name}: ${bytes.length} bytes${same ? '' : check ? ', not the bundle of the sources' : ', written'}`,
+  );
 }
 if (check && stale.length) process.exit(1);

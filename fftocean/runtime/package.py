@@ -1,0 +1,117 @@
+"""Run-time package of a sea: a document, and files of waves."""
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from fftocean.arrays import brief_repr
+from fftocean.cascade import Cascade
+from fftocean.errors import ParameterError
+from fftocean.files import digest
+from fftocean.foam import Foam
+from fftocean.ocean import Ocean
+from fftocean.runtime import document, layout, planes
+from fftocean.runtime.records import records_of
+from fftocean.runtime.reference import reference_of
+from fftocean.runtime.source import Source
+
+QUALITIES = ("exact", "moving")
+POINTS = 64
+"""Points of a tile at which `check.json` has the fields."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SeaPackage:
+    """A sea for programs that run it; docs/runtime.md has every byte."""
+
+    document: dict[str, Any]  # the contents of sea.json
+    files: dict[str, bytes]  # the other files by name, in the order of document["files"]
+
+    __repr__ = brief_repr
+
+
+def pack(
+    source: Ocean | Cascade | Source,
+    *,
+    textures: bool = False,
+    reference: bool | int = True,
+    job: str | None = None,
+    quality: str = "exact",
+    ticks: int | None = None,
+    foam: Foam | None = None,
+    wind: tuple[float, float] | None = None,
+) -> SeaPackage:
+    """
+    Pack the waves of a sea for programs that run it.
+
+    Args:
+        source: an ocean or a cascade that loops, or a `Source` of given amplitudes.
+        textures: add the waves as textures of float32, ready for a graphics processor.
+        reference: add `check.json`, fields at some points by which a program can check itself,
+            and measure the bounds of the fields; a number is that of the points a tile.
+        job: the job of the sea as TOML text.
+        quality: "exact", or "moving" for a sea that is being changed: without whatever takes
+            time, that is `check.json`, checksums and the specified direction.
+        ticks: moments of the loop, a power of two; None for the most that keep phases exact.
+        foam: parameters of foam; None for the defaults of `Foam`.
+        wind: speed [m/s] and direction [degrees] of the wind, where it is known.
+
+    Raises:
+        ParameterError: waves that a package cannot hold; the message has the rule.
+    """
+    source = Source.of(source)
+    if quality not in QUALITIES:
+        raise ParameterError(f"quality must be 'exact' or 'moving', got {quality!r:.40}")
+    exact = quality == "exact"
+    measured = exact and bool(reference)
+    whole = []
+    for i, tile in enumerate(source.tiles):
+        layout.require_sides(tile.grid, f"tile {i}")
+        whole.append(planes.planes_of(tile, f"tile {i}"))
+    most = max(plane.most_cycles for plane in whole)
+    ticks = layout.ticks_for(most) if ticks is None else layout.require_ticks(ticks, most)
+    records = [records_of(plane) for plane in whole]
+    contents = document.compose(
+        source,
+        whole,
+        records,
+        ticks=ticks,
+        quality=quality,
+        measured=measured,
+        foam=foam,
+        wind=wind,
+        job=job,
+    )
+    files: dict[str, bytes] = {}
+    rows: list[dict[str, Any]] = []
+
+    def add(name: str, data: bytes, dtype: str, shape: list[int], order: str) -> None:
+        checksum = digest(data) if exact else None
+        files[name] = data
+        rows.append(
+            {
+                "name": name,
+                "bytes": len(data),
+                "sha256": checksum,
+                "dtype": dtype,
+                "shape": shape,
+                "order": order,
+            }
+        )
+
+    for i, (tile, plane, waves) in enumerate(zip(source.tiles, whole, records, strict=True)):
+        add(layout.waves_file(i), waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
+        if textures:
+            arrays = planes.textures_of(plane, tile.grid, tile.depth)
+            for name, array in zip(layout.texture_files(i), arrays, strict=True):
+                add(name, array.tobytes(), "float32", list(array.shape), "row, column, channel")
+    if measured:
+        points = POINTS if reference is True else int(reference)
+        data = json.dumps(reference_of(source, ticks, points), separators=(",", ":")).encode()
+        add(layout.REFERENCE, data, "json", [], "")
+    contents["files"] = rows
+    return SeaPackage(contents, files)
+
+
+RECORD_TEXT = "int16 mx, int16 my, uint16 cycles, float32 re, float32 im"
+"""The fields of a record, as the document names them."""

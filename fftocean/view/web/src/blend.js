@@ -1,0 +1,187 @@
+// The amplitudes of a sea that changes into another: linear in time, without a jump.
+
+/** [s] in which a sea changes into another. */
+export const BLEND_SECONDS = 0.3;
+
+/**
+ * The amplitudes to show: those of a sea, or a sum of two sets while one changes into the other.
+ *
+ * `from` and `to` are lists of tiles with the tables of `decodeSea`, and the amplitudes shown are
+ * `scaleFrom` times the first plus `scaleTo` times the second. Both run with the cycles of `to`.
+ * Seas whose tiles differ in number, samples or size have no wave in common: then the earlier one
+ * falls to rest in the first half of the time, and the later one rises in the second half.
+ */
+export class AmplitudeBlend {
+  /** Show a sea. */
+  constructor(sea) {
+    this.revision = 0; // counts changes of the tables
+    this.lastTick = 0;
+    this.show(sea);
+  }
+
+  /** Show a sea at once. */
+  show(sea) {
+    this.sea = sea;
+    this.from = sea.tiles;
+    this.to = sea.tiles;
+    this.scaleFrom = 0;
+    this.scaleTo = 1;
+    this.duration = 0;
+    this.next = null; // a sea that rises after this one has come to rest
+    this.pending = null; // tiles whose phases are brought to those of `sea` at the next tick
+    this.revision++;
+  }
+
+  /** The document of the sea whose loop and ticks are in use. */
+  get document() {
+    return this.sea.document;
+  }
+
+  /** The newest sea, which will be shown alone in the end. */
+  get newest() {
+    return this.next ?? this.sea;
+  }
+
+  /** The share of the newest sea: 1 when it is shown alone. */
+  get weight() {
+    return this.scaleTo;
+  }
+
+  /** Change into another sea within some seconds. */
+  replace(sea, seconds) {
+    if (!(seconds > 0)) {
+      this.show(sea);
+      return;
+    }
+    // What a sea that was never stepped would have shown has not been seen.
+    const seen = this.pending ?? { sea: this.sea, tiles: this.shown(), tick: this.lastTick };
+    this.from = seen.tiles;
+    this.revision++;
+    if (alike(seen.sea, sea)) {
+      this.pending = seen;
+      this.sea = sea;
+      this.to = sea.tiles;
+      this.next = null;
+      this.begin(1, 0, 0, 1, seconds);
+    } else {
+      this.pending = null;
+      this.sea = seen.sea;
+      this.to = seen.tiles;
+      this.next = sea;
+      this.begin(1, 0, 0, 0, seconds / 2);
+    }
+  }
+
+  /** Let both scales run linearly from first to last values. */
+  begin(scaleFrom, scaleTo, lastFrom, lastTo, duration) {
+    Object.assign(this, { scaleFrom, scaleTo, lastFrom, lastTo, duration });
+    this.ends = { scaleFrom, scaleTo };
+    this.elapsed = 0;
+  }
+
+  /** Return the tiles with the amplitudes that are shown now, under the cycles of `to`. */
+  shown() {
+    const { from, to, scaleFrom, scaleTo } = this;
+    if (scaleFrom === 0 && scaleTo === 1) return to;
+    return to.map((tile, i) => mixedTile(from[i], tile, scaleFrom, scaleTo));
+  }
+
+  /** Let time pass. */
+  advance(seconds) {
+    if (this.duration === 0 || !(seconds > 0)) return;
+    this.elapsed += seconds;
+    const share = Math.min(1, this.elapsed / this.duration);
+    const { scaleFrom, scaleTo } = this.ends;
+    this.scaleFrom = scaleFrom + share * (this.lastFrom - scaleFrom);
+    this.scaleTo = scaleTo + share * (this.lastTo - scaleTo);
+    if (share < 1) return;
+    const { next } = this;
+    if (next) {
+      const { duration } = this;
+      this.show(next);
+      this.begin(0, 0, 0, 1, duration);
+    } else {
+      this.scaleFrom = 0; // exactly
+      this.scaleTo = 1;
+      this.duration = 0;
+    }
+  }
+
+  /** Make the tables ready for a tick of `document`. */
+  prepare(tick) {
+    if (this.pending) {
+      const { sea, tiles, tick: last } = this.pending;
+      const { document } = sea;
+      const before = sameTicks(document, this.document) ? tick : last;
+      this.from = tiles.map((tile, i) =>
+        rebased(tile, before, document.ticks, this.to[i], tick, this.document.ticks),
+      );
+      this.to = this.to.map((tile, i) => withMissingCycles(tile, tiles[i]));
+      this.pending = null;
+      this.revision++;
+    }
+    this.lastTick = tick;
+  }
+}
+
+/** Return true if a tick of both documents is the same share of the same loop. */
+function sameTicks(a, b) {
+  return a.loop === b.loop && a.ticks === b.ticks;
+}
+
+/** Return true if two seas have tiles of the same samples and sizes. */
+export function alike(a, b) {
+  return (
+    a.tiles.length === b.tiles.length &&
+    a.tiles.every((tile, i) =>
+      ['nx', 'ny', 'lx', 'ly', 'mixed'].every((name) => tile[name] === b.tiles[i][name]),
+    )
+  );
+}
+
+/** Return a tile whose amplitudes are a sum, and whose factors are an average. */
+function mixedTile(from, to, scaleFrom, scaleTo) {
+  const h0 = to.h0.map((value, i) => scaleFrom * from.h0[i] + scaleTo * value);
+  const wave = to.wave.slice();
+  if (scaleFrom > 0) {
+    const share = scaleFrom / (scaleFrom + scaleTo);
+    for (let i = 1; i < wave.length; i += 2) wave[i] += share * (from.wave[i] - wave[i]);
+  }
+  return { ...to, h0, wave };
+}
+
+/** Return a tile with the cycles of another where only that one has a wave. */
+function withMissingCycles(tile, other) {
+  const missing = (i) => tile.wave[i] === 0 && other.wave[i] > 0;
+  let wave = tile.wave;
+  for (let i = 0; i < wave.length; i += 2) {
+    if (!missing(i)) continue;
+    if (wave === tile.wave) wave = tile.wave.slice();
+    wave[i] = other.wave[i];
+  }
+  return wave === tile.wave ? tile : { ...tile, wave };
+}
+
+/**
+ * Return the waves of a tile such that they have, with the cycles of another tile and at its tick,
+ * the phases that they have now with their own.
+ */
+function rebased(tile, tick, ticks, other, otherTick, otherTicks) {
+  let h0 = tile.h0;
+  for (let i = 0; i < tile.wave.length; i += 2) {
+    const cycles = tile.wave[i];
+    const later = other.wave[i] || cycles;
+    if (cycles === later && ticks === otherTicks && tick === otherTick) continue;
+    const turns =
+      ((cycles * tick) % ticks) / ticks - ((later * otherTick) % otherTicks) / otherTicks;
+    if (h0 === tile.h0) h0 = tile.h0.slice();
+    const c = Math.cos(2 * Math.PI * turns);
+    const s = Math.sin(2 * Math.PI * turns);
+    const [a, b, p, q] = tile.h0.subarray(2 * i, 2 * i + 4);
+    h0[2 * i] = a * c + b * s;
+    h0[2 * i + 1] = b * c - a * s;
+    h0[2 * i + 2] = p * c - q * s;
+    h0[2 * i + 3] = q * c + p * s;
+  }
+  return { ...tile, h0 };
+}

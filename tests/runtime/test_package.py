@@ -1,0 +1,129 @@
+"""
+Bytes of a run-time package, read by a decoder of this file that shares no code with the package.
+"""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean import runtime
+
+SEA = fo.Sea.from_wind(speed=12.0, fetch=200e3, depth=30.0, direction=30.0)
+
+
+@pytest.fixture(scope="module")
+def cascade():
+    tiles = [(32, 420.0), ((32, 16), (61.0, 40.0)), (16, 8.3)]
+    return fo.Cascade(SEA, tiles, loop=64.0, seed=3, choppiness=0.9)
+
+
+def read_container(data):
+    """Return the document and the files of a container."""
+    magic, version, length, zero = struct.unpack_from("<4sIII", data)
+    assert (magic, version, length % 16, zero) == (b"FFTO", 1, 0, 0)
+    document = json.loads(data[16 : 16 + length])
+    at, files = 16 + length, {}
+    for row in document["files"]:
+        files[row["name"]] = data[at : at + row["bytes"]]
+        at += row["bytes"]
+        padding = -at % 16
+        assert data[at : at + padding] == bytes(padding)
+        at += padding
+    assert at == len(data)
+    return document, files
+
+
+def read_waves(data):
+    """Return (mx, my, cycles, h0) of each record."""
+    return [
+        (mx, my, cycles, complex(re, im))
+        for mx, my, cycles, re, im in struct.iter_unpack("<hhHff", data)
+    ]
+
+
+def test_the_records_are_the_waves_of_the_ocean(cascade):
+    """height = sum of a cos(k.x - phase) has h0 = a/2 e^(-i phase)."""
+    document, files = read_container(runtime.to_bytes(runtime.pack(cascade)))
+    assert document["depth"] == 30.0
+    assert document["choppiness"] == 0.9
+    for i, (ocean, tile) in enumerate(zip(cascade.oceans, document["tiles"], strict=True)):
+        (lx, ly), modes = tile["size"], ocean.modes()
+        waves = read_waves(files[f"tile{i}.waves"])
+        found = {(mx, my): (cycles, h0) for mx, my, cycles, h0 in waves}
+        assert len(found) == len(waves) == tile["waves"] == modes.kx.size
+        for kx, ky, amplitude, phase, omega in zip(*modes, strict=True):
+            place = round(kx * lx / (2 * np.pi)), round(ky * ly / (2 * np.pi))
+            cycles, h0 = found[place]
+            assert cycles == round(omega * 64.0 / (2 * np.pi))
+            assert h0 == pytest.approx(0.5 * amplitude * np.exp(-1j * phase), rel=1.2e-7)
+
+
+def test_records_follow_the_rows_of_the_plane(cascade):
+    package = runtime.pack(cascade, reference=False)
+    for tile, data in zip(package.document["tiles"], package.files.values(), strict=True):
+        nx, ny = tile["n"]
+        places = [(my % ny) * nx + mx % nx for mx, my, _, _ in read_waves(data)]
+        assert places == sorted(set(places))
+
+
+def test_textures_are_both_halves_of_each_wave(cascade):
+    package = runtime.pack(cascade, textures=True, reference=False)
+    for i, (ocean, tile) in enumerate(zip(cascade.oceans, package.document["tiles"], strict=True)):
+        nx, ny = tile["n"]
+        h0 = np.frombuffer(package.files[f"tile{i}_h0.bin"], "<f4").reshape(ny, nx, 4)
+        wave = np.frombuffer(package.files[f"tile{i}_wave.bin"], "<f4").reshape(ny, nx, 2)
+        expected = np.zeros_like(h0)
+        cycles = np.zeros((ny, nx))
+        for mx, my, count, amplitude in read_waves(package.files[f"tile{i}.waves"]):
+            expected[my, mx, :2] = amplitude.real, amplitude.imag
+            expected[-my, -mx, 2:] = amplitude.real, -amplitude.imag
+            cycles[my, mx] = cycles[-my, -mx] = count
+        assert np.array_equal(h0, expected)
+        assert np.array_equal(wave[..., 0], cycles)
+        kx = 2 * np.pi * np.fft.fftfreq(nx, ocean.grid.lx / nx)
+        ky = 2 * np.pi * np.fft.fftfreq(ny, ocean.grid.ly / ny)
+        k = np.hypot(kx, ky[:, None])
+        k[0, 0] = np.inf
+        np.testing.assert_allclose(wave[..., 1], 1 / (k * np.tanh(30.0 * k)), rtol=1e-6)
+        ours = runtime.amplitude_planes(ocean)
+        assert np.array_equal(ours[0], h0)
+        assert np.array_equal(ours[1], wave)
+
+
+def test_planes_become_the_waves_they_were(cascade):
+    for ocean in cascade.oceans:
+        h0, _ = runtime.amplitude_planes(ocean)
+        a = runtime.waves_from_planes(
+            h0[..., 0] + 1j * h0[..., 1], ocean.grid, loop=64.0, depth=30.0
+        )
+        assert np.array_equal(a.forward, ocean.amplitudes.forward.astype(np.complex64))
+        assert np.array_equal(a.backward, ocean.amplitudes.backward.astype(np.complex64))
+        assert np.array_equal(a.cycles, ocean.amplitudes.cycles)
+
+
+def test_a_moving_sea_is_packed_from_amplitudes(cascade):
+    """What takes time is left out; the waves are the same bytes."""
+    source = runtime.Source(
+        tiles=tuple(ocean.amplitudes for ocean in cascade.oceans), choppiness=0.9, sea=SEA
+    )
+    moving = runtime.pack(source, quality="moving")
+    exact = runtime.pack(cascade)
+    assert moving.document["quality"] == "moving"
+    assert all(exact.files[name] == data for name, data in moving.files.items())
+    assert set(exact.files) - set(moving.files) == {"check.json"}
+    assert moving.document["files"][0]["sha256"] is None
+    hs = moving.document["statistics"]["specified"]["hs"]
+    assert hs == pytest.approx(SEA.hs, rel=0.01)
+
+
+def test_statistics_are_those_measured_on_the_fields(cascade):
+    document = runtime.pack(cascade).document
+    measured = fo.measure(cascade)
+    realised = document["statistics"]["realised"]
+    assert realised["hs"] == pytest.approx(measured.hs, rel=1e-5)
+    assert realised["direction"] == pytest.approx(measured.mean_direction, abs=1e-3)
+    assert realised["tp"] == pytest.approx(measured.tp, rel=1e-4)
+    assert document["statistics"]["specified"]["hs"] == pytest.approx(SEA.hs)
