@@ -1,1 +1,1 @@
-"""Live page: server, static page, notebook widget."""
+"""Live page: parameters, state, seas, server and static page."""
