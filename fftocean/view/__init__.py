@@ -1,0 +1,1 @@
+"""Live page: parameters, state, seas, server and static page."""
