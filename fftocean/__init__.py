@@ -77,6 +77,8 @@ if TYPE_CHECKING:
     from fftocean.proof import verify as verify
     from fftocean.query import Answer as Answer
     from fftocean.query import Query as Query
+    from fftocean.runtime.folder import export_sea as export_sea
+    from fftocean.runtime.folder import load_sea as load_sea
     from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
@@ -137,6 +139,7 @@ _NAMES_BY_MODULE = {
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),
+    "fftocean.runtime.folder": ("export_sea", "load_sea"),
     "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
     "fftocean.window": ("Window",),

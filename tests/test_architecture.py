@@ -93,6 +93,7 @@ NEVER = {
 DOORS = {
     ("physics.sea", "from_spectrum"): "readers.realise",
     ("ocean", "to_spectrum"): "science",
+    ("baking.finished.check", "check"): "runtime.check",
     ("baking.previews.previews", "_spectrum"): "plots",
 }
 PRINTERS = {"cli"}

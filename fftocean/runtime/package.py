@@ -82,35 +82,47 @@ def pack(
         wind=wind,
         job=job,
     )
-    files: dict[str, bytes] = {}
-    rows: list[dict[str, Any]] = []
-
-    def add(name: str, data: bytes, dtype: str, shape: list[int], order: str) -> None:
-        checksum = digest(data) if exact else None
-        files[name] = data
-        rows.append(
-            {
-                "name": name,
-                "bytes": len(data),
-                "sha256": checksum,
-                "dtype": dtype,
-                "shape": shape,
-                "order": order,
-            }
-        )
-
+    contents["files"] = []
+    package = SeaPackage(contents, {})
     for i, (tile, plane, waves) in enumerate(zip(source.tiles, whole, records, strict=True)):
-        add(layout.waves_file(i), waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
+        name = layout.waves_file(i)
+        add_file(package, name, waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
         if textures:
             arrays = planes.textures_of(plane, tile.grid, tile.depth)
             for name, array in zip(layout.texture_files(i), arrays, strict=True):
-                add(name, array.tobytes(), "float32", list(array.shape), "row, column, channel")
+                axes = "row, column, channel"
+                add_file(package, name, array.tobytes(), "float32", list(array.shape), axes)
     if measured:
         points = POINTS if reference is True else int(reference)
         data = json.dumps(reference_of(source, ticks, points), separators=(",", ":")).encode()
-        add(layout.REFERENCE, data, "json", [], "")
-    contents["files"] = rows
-    return SeaPackage(contents, files)
+        add_file(package, layout.REFERENCE, data, "json", [], "")
+    return package
+
+
+def add_file(
+    package: SeaPackage, name: str, data: bytes, dtype: str, shape: list[int], order: str
+) -> None:
+    """
+    Add a file to a package that is being made.
+
+    Args:
+        package: the package.
+        name: of the file, without folders.
+        data: its bytes.
+        dtype, shape: of the array that it holds.
+        order: names of the array's axes, the slowest first.
+    """
+    package.files[name] = data
+    package.document["files"].append(
+        {
+            "name": name,
+            "bytes": len(data),
+            "sha256": digest(data) if package.document["quality"] == "exact" else None,
+            "dtype": dtype,
+            "shape": shape,
+            "order": order,
+        }
+    )
 
 
 RECORD_TEXT = "int16 mx, int16 my, uint16 cycles, float32 re, float32 im"

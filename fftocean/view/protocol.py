@@ -10,7 +10,7 @@ The page sends one JSON table with one key:
     {"copy": "job"}                   the job file of the sea; "command": the command that bakes it
     {"frame": {"tile": 0, "frame": 3}}       a frame of the bake that is played
 
-The server sends text, `state`, `refused`, `copied`, `bake` and `few_waves`, and binary messages:
+The server sends text, `state`, `refused`, `copied` and `bake`, and binary messages:
 containers of seas (FFTO), reference fields (FFTR) and frames of a bake (FFTB).
 """
 
@@ -18,7 +18,7 @@ import base64
 import binascii
 import json
 import struct
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, NoReturn
 
@@ -234,7 +234,7 @@ def _frame(content: Any) -> BakedFrame:
     return BakedFrame(TILE.check("tile", table["tile"]), FRAME.check("frame", table["frame"]))
 
 
-_KINDS: Final = {
+_KINDS: Final[Mapping[str, Callable[[Any], Message]]] = {
     "set": _set,
     "verify": _verify,
     "job": _job,
@@ -298,3 +298,8 @@ def binary(kind: bytes, header: dict[str, Any], data: bytes) -> bytes:
     text = json.dumps(header, allow_nan=False).encode()
     text += b" " * (-len(text) % 16)
     return kind + struct.pack("<3I", 1, len(text), 0) + text + data
+
+
+def as_json(tree: Any) -> bytes:
+    """Return compact JSON without NaN and infinities."""
+    return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()

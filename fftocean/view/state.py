@@ -140,6 +140,35 @@ class State:
             job.measurements(),
         )
 
+    @classmethod
+    def of_spectrum(cls, file: Path, before: "State", *, source: str) -> "State":
+        """
+        Return the sea of a measured spectrum, with the seed, loop and tiles of another state.
+
+        Tiles that follow the sea follow this one.
+
+        Args:
+            file: the spectrum, in any format of `fftocean.readers`.
+            before: the other state.
+            source: the name of the file, as the page shows it.
+
+        Raises:
+            ReaderError: a file that cannot be read; the message names the rule.
+        """
+        tree = {"sea": {"systems": [{"measured": {"file": file.name}}]}}
+        job = Job.from_tree(tree, source=str(file.with_name("sea.toml")))
+        kept = {_KEYS[name]: before.values[name] for name in ("seed", "loop", "choppiness")}
+        made = cls.of_job(
+            job.replaced(kept),
+            n=before.samples,
+            tiles=before.tiles if before.chosen and before.is_square else None,
+            source=source,
+            dropped=True,
+        )
+        values = {**made.values, "tiles": before.values["tiles"], "model": before.values["model"]}
+        made = replace(made, values=MappingProxyType(values), chosen=before.chosen)
+        return made if before.chosen else made._with_sizes(before.samples)
+
     def changed(self, changes: Mapping[str, Any]) -> "State":
         """
         Return the state with other values of some parameters, checked by making its sea.
@@ -154,7 +183,7 @@ class State:
         if not self.chosen and not changes.keys().isdisjoint(
             ("wind_speed", "fetch", "swell_speed", "swell_share", "depth")
         ):
-            made = made._with_sizes(self._samples)
+            made = made._with_sizes(self.samples)
         if made.values["tiles"] > 1:
             made._require_tiles()
         made.sea()
@@ -164,6 +193,13 @@ class State:
     def tiles(self) -> tuple[Tile, ...]:
         """(n, size) of the tiles that are shown, the largest first."""
         return self.sizes[: self.values["tiles"]]
+
+    def has_waves_of(self, other: "State") -> bool:
+        """Return True if the waves are those of another state, whatever their choppiness."""
+        free = ("choppiness", "model")
+        return (self.base, self.tiles) == (other.base, other.tiles) and all(
+            value == other.values[name] for name, value in self.values.items() if name not in free
+        )
 
     def job(self) -> Job:
         """Return the job of the sea, on the largest tile."""
@@ -246,9 +282,15 @@ class State:
         return {name: BY_NAME[name].plain(value) for name, value in self.values.items()}
 
     @property
-    def _samples(self) -> int:
+    def samples(self) -> int:
+        """Samples a side of the largest tile, the larger of two."""
         n = self.sizes[0][0]
         return n if isinstance(n, int) else max(n)
+
+    @property
+    def is_square(self) -> bool:
+        """True if every tile is square."""
+        return not any(isinstance(value, tuple) for tile in self.sizes for value in tile)
 
     def _tiles_flag(self) -> str:
         """Return the flag for the tiles of a command, or nothing for one tile."""
