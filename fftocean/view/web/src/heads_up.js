@@ -41,6 +41,11 @@ export function tilesText(tiles) {
   return [...found].map(([n, widths]) => `${n} on ${widths.join(', ')} m`).join('; ');
 }
 
+/** Return the number of waves on all tiles. */
+export function wavesOf({ tiles }) {
+  return tiles.reduce((sum, tile) => sum + (tile.waves ?? 0), 0);
+}
+
 /** Return a number with thin spaces between thousands. */
 export function grouped(value) {
   return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009');
@@ -150,8 +155,7 @@ export class HeadsUp {
     this.source.hidden = !source;
     this.sentence.textContent = sentence;
     const { tiles } = document_;
-    const waves = tiles.reduce((sum, tile) => sum + (tile.waves ?? 0), 0);
-    this.fact('Waves', grouped(waves));
+    this.fact('Waves', grouped(wavesOf(document_)));
     this.fact('Tiles', tilesText(tiles));
     this.fact('Loop', `${Number(document_.loop.toPrecision(6))} s`);
     if (Number.isFinite(tiles[0]?.seed)) this.fact('Seed', String(tiles[0].seed));
