@@ -22,6 +22,42 @@ export class ContextLost extends Error {
   }
 }
 
+/**
+ * Return the WebGL 2 context of a canvas.
+ *
+ * @throws {Error} there is none; the message is a sentence for the screen
+ */
+export function openContext(canvas, attributes = {}) {
+  const gl = canvas.getContext('webgl2', { powerPreference: 'high-performance', ...attributes });
+  if (!gl) {
+    throw new Error(
+      'This browser offers no WebGL 2, which the sea is drawn with: turn on hardware ' +
+        'acceleration in its settings, update the graphics driver, or use another browser.',
+    );
+  }
+  return gl;
+}
+
+/**
+ * Call functions when the context of a canvas is lost, and when a new one can be used.
+ *
+ * What was made in a lost context is gone: dispose of it, and make it again of the data.
+ *
+ * @returns {function()} call it to watch no longer
+ */
+export function watchContext(canvas, { lost, restored }) {
+  const onLost = (event) => {
+    event.preventDefault(); // or the context would never come back
+    lost();
+  };
+  canvas.addEventListener('webglcontextlost', onLost);
+  canvas.addEventListener('webglcontextrestored', restored);
+  return () => {
+    canvas.removeEventListener('webglcontextlost', onLost);
+    canvas.removeEventListener('webglcontextrestored', restored);
+  };
+}
+
 /** Return the formats of the data of a sized internal format. */
 function layout(gl, format) {
   const layouts = {
@@ -296,7 +332,7 @@ export function target(gl, textures, depth = null) {
 }
 
 /**
- * Draw a program over the whole of a target, or of the current viewport if the target is null.
+ * Draw a program over the whole of a target, or of what is bound now if the target is null.
  *
  * Depth test and blending are left as they are.
  */
