@@ -19,9 +19,15 @@ function degrees(value) {
   return `${turned === -180 ? 180 : turned}°`;
 }
 
+/** Return the statistics of a document; a sea of given waves has none that are specified. */
+function statisticsOf(document_) {
+  const { specified, realised } = document_.statistics ?? {};
+  return { specified: specified ?? {}, realised: realised ?? {} };
+}
+
 /** Return the rows of the table of statistics: [label, specified, realised]. */
 export function statisticsRows(document_) {
-  const { specified = {}, realised = {} } = document_?.statistics ?? {};
+  const { specified, realised } = statisticsOf(document_);
   return [
     ['Hs [m]', fixed(specified.hs, 2), fixed(realised.hs, 2)],
     ['Tp [s]', fixed(specified.tp, 1), fixed(realised.tp, 1)],
@@ -147,7 +153,7 @@ export class HeadsUp {
         ),
       ),
     );
-    const { specified = {}, realised = {} } = document_.statistics ?? {};
+    const { specified, realised } = statisticsOf(document_);
     this.text('hs', `Hs ${fixed(realised.hs ?? specified.hs, 2)} m`);
     this.text('tp', `Tp ${fixed(realised.tp ?? specified.tp, 1)} s`);
     this.showQuality(quality);
