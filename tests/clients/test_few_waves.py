@@ -3,7 +3,6 @@ Few-wave models in headless Chromium: vertices read back from the GPU against th
 """
 
 import base64
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from fftocean.view.few_waves import MODELS, few_waves
 
 pytestmark = pytest.mark.client
 
-SOURCE = Path(__file__).resolve().parents[2] / "fftocean" / "view" / "web" / "src"
 SEA = fo.Sea.from_wind(speed=11.0, fetch=150e3, direction=30.0)
 LOOP, TICKS = 64.0, 2**19
 COLUMNS, RINGS = 40, 30
@@ -34,7 +32,6 @@ ROUNDING = 1e-6
 @pytest.fixture(scope="module")
 def seen(browser):
     """Draw every case on one page: {case: vertices}, and their models."""
-    browser.site.folders["source"] = SOURCE
     models = {
         (model, number): few_waves(SEA, model, number=number, loop=LOOP, ticks=TICKS, seed=5)
         for model in MODELS

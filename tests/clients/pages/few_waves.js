@@ -1,6 +1,6 @@
 // Reads the vertices of few-wave models back from the GPU, and pixels of their pictures.
-import { Camera } from '/source/camera.js';
-import { FewWaves } from '/source/few_waves.js';
+import { Camera } from '/live/camera.js';
+import { FewWaves } from '/live/few_waves.js';
 import { base64 } from './common.js';
 
 const canvas = document.getElementById('canvas');
