@@ -92,7 +92,7 @@ class Source:
 
 _INSTEAD = {
     "Eulerian": "an Eulerian, whose fields over places are not linear; give its ocean",
-    "Window": "a Window, which shows a part of a cascade; give its cascade",
+    "Window": "a Window, which shows a part of its source; give its source",
     "Query": "a Query; give the ocean or cascade that it asks",
     "Job": "a Job; give job.ocean()",
     "Sea": "a Sea, which has no waves yet; give Ocean(sea, ...) or Cascade(sea, ...)",

@@ -305,10 +305,10 @@ class State:
         longest = peak_wavelength(made.sea())
         largest = sizes[0][1]
         assert isinstance(largest, float)  # square
-        least = WAVES_ACROSS * longest
-        if not (self.sizes and least <= largest <= _KEPT * max(least, SMALLEST_LARGE_TILE)):
+        least = max(WAVES_ACROSS * longest, SMALLEST_LARGE_TILE)
+        if not (self.sizes and least <= largest <= _KEPT * least):
             steps = math.ceil(math.log(least / SMALLEST_LARGE_TILE, LADDER) - 1e-9)
-            largest = SMALLEST_LARGE_TILE * LADDER ** max(steps, 0)
+            largest = SMALLEST_LARGE_TILE * LADDER**steps
         most = BY_NAME["tiles"].high
         assert most is not None
         return replace(self, sizes=tile_sizes(n, largest, int(most)))
@@ -330,11 +330,15 @@ def tile_sizes(n: int, largest: float, count: int) -> tuple[Tile, ...]:
     """
     Return the tiles of a cascade, each of the same samples, down from the size of the largest.
 
-    The ratio of two sizes is no whole number. It is larger for few samples, so that the largest
-    tile has enough of the waves: about 25 of its shortest wave fit across it.
+    The ratio of two sizes is no whole number, and such that two neighbours overlap in wavenumbers.
+    From 64 samples on, about 25 of the shortest wave of a tile fit across it.
     """
-    ratio = 7.06 if n >= 256 else 11.3
+    ratio = _RATIOS.get(n, 7.06)
     return tuple((n, round(largest / ratio**i, 3 + i)) for i in range(count))
+
+
+_RATIOS: Final = {8: 2.7, 16: 5.3, 64: 11.3, 128: 11.3}
+"""Ratio of the sizes of two tiles by their samples, where it is not 7.06."""
 
 
 def peak_wavelength(sea: Sea) -> float:

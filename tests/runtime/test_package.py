@@ -5,19 +5,17 @@ Bytes of a run-time package, read by a decoder of this file that shares no code 
 import json
 import struct
 
+import builders_of_packages as build
 import numpy as np
 import pytest
 
 import fftocean as fo
 from fftocean import runtime
 
-SEA = fo.Sea.from_wind(speed=12.0, fetch=200e3, depth=30.0, direction=30.0)
-
 
 @pytest.fixture(scope="module")
 def cascade():
-    tiles = [(32, 420.0), ((32, 16), (61.0, 40.0)), (16, 8.3)]
-    return fo.Cascade(SEA, tiles, loop=64.0, seed=3, choppiness=0.9)
+    return build.cascade()
 
 
 def read_container(data):
@@ -107,7 +105,7 @@ def test_planes_become_the_waves_they_were(cascade):
 def test_a_moving_sea_is_packed_from_amplitudes(cascade):
     """What takes time is left out; the waves are the same bytes."""
     source = runtime.Source(
-        tiles=tuple(ocean.amplitudes for ocean in cascade.oceans), choppiness=0.9, sea=SEA
+        tiles=tuple(ocean.amplitudes for ocean in cascade.oceans), choppiness=0.9, sea=build.SEA
     )
     moving = runtime.pack(source, quality="moving")
     exact = runtime.pack(cascade)
@@ -116,7 +114,7 @@ def test_a_moving_sea_is_packed_from_amplitudes(cascade):
     assert set(exact.files) - set(moving.files) == {"check.json"}
     assert moving.document["files"][0]["sha256"] is None
     hs = moving.document["statistics"]["specified"]["hs"]
-    assert hs == pytest.approx(SEA.hs, rel=0.01)
+    assert hs == pytest.approx(build.SEA.hs, rel=0.01)
 
 
 def test_statistics_are_those_measured_on_the_fields(cascade):
@@ -126,4 +124,4 @@ def test_statistics_are_those_measured_on_the_fields(cascade):
     assert realised["hs"] == pytest.approx(measured.hs, rel=1e-5)
     assert realised["direction"] == pytest.approx(measured.mean_direction, abs=1e-3)
     assert realised["tp"] == pytest.approx(measured.tp, rel=1e-4)
-    assert document["statistics"]["specified"]["hs"] == pytest.approx(SEA.hs)
+    assert document["statistics"]["specified"]["hs"] == pytest.approx(build.SEA.hs)

@@ -8,7 +8,7 @@ import { decodeReference, decodeSea } from './container.js';
 import { choiceLabel, Controls, presetList } from './controls.js';
 import { element } from './dom.js';
 import { fileMessage, readFile, takeDrops } from './drop.js';
-import { FrameRate, HeadsUp } from './heads_up.js';
+import { FrameRate, grouped, HeadsUp, wavesOf } from './heads_up.js';
 import { moveByKeys, takePointers } from './input.js';
 import { actionOf, allActions, HeldKeys, isField, keyPlan } from './keys.js';
 import { Layout } from './layout.js';
@@ -26,8 +26,8 @@ const FIGURES_EVERY = 0.25;
 /** Time without an answer after which a verification is given up [s]. */
 const VERIFY_PATIENCE = 60;
 
-/** Pixels of the picture for each of the screen, from fine to coarse. */
-const SCALES = [1, 0.75, 0.5];
+/** Slowest rate at which the picture stays as fine as it is [frames a second]. */
+const SLOWEST = 24;
 
 /** Parameters of the server that a page without one can change itself. */
 const OWN_CHANGES = new Set(['choppiness']);
@@ -93,7 +93,6 @@ export class App {
     this.frameRate = new FrameRate();
     this.rate = null;
     this.frames = 0;
-    this.scaleAt = 0;
     this.dirty = true;
     this.sea = null;
     this.bake = null;
@@ -401,8 +400,7 @@ export class App {
 
   /** Return the few-wave model that is shown beside the sea, or null. */
   fewModel() {
-    if (this.values.model === 'fft' || this.values.model === undefined) return null;
-    return this.sea?.document.few_waves ?? null;
+    return (this.values.model !== 'fft' && this.sea?.document.few_waves) || null;
   }
 
   /** Note that a picture must be drawn. */
@@ -717,13 +715,13 @@ export class App {
 
   /** Return the place of the eye [m]. */
   eye() {
-    return [this.camera.east, this.camera.north, this.camera.height];
+    return { east: this.camera.east, north: this.camera.north };
   }
 
   /** Draw the sea, and few waves beside it. */
   draw() {
     const { canvas, stage } = this;
-    const ratio = Math.min(2, globalThis.devicePixelRatio || 1) * SCALES[this.scaleAt];
+    const ratio = Math.min(2, globalThis.devicePixelRatio || 1) * stage.scale;
     const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
     if (canvas.width !== width || canvas.height !== height)
@@ -731,38 +729,48 @@ export class App {
     const look = this.look();
     stage.render(this.camera, look, width, height);
     const model = this.fewModel();
-    this.root.classList.toggle('split', Boolean(model));
-    if (model) {
-      const half = Math.floor(width / 2);
-      const viewport = [half, 0, width - half, height];
-      stage.renderFew(model, this.clock.tick, this.camera, look, width, height, viewport);
-    }
+    if (model) stage.renderFew(model, this.clock.tick, this.camera, look, width, height);
   }
 
-  /** Note a frame, and draw fewer pixels where the device is too slow for all of them. */
+  /** Note a frame, and draw a cheaper picture where the device is too slow for this one. */
   noteFrame(seconds) {
     if (this.clock.paused) return;
     this.rate = this.frameRate.note(seconds);
-    const enough = this.frameRate.times.length >= 8 || seconds - (this.scaledAt ?? 0) > 3;
-    if (this.rate === null || !enough || seconds - (this.scaledAt ?? 0) < 2) return;
-    if (this.rate < 24 && this.scaleAt < SCALES.length - 1) {
-      this.scaleAt += 1;
-      this.scaledAt = seconds;
-      this.frameRate.clear();
-    }
+    this.levelSince ??= seconds;
+    const settled = seconds - this.levelSince > 3 && this.frameRate.times.length > 2;
+    if (!settled || this.rate === null || this.rate >= SLOWEST) return;
+    this.levelSince = seconds;
+    if (this.stage.coarser()) this.frameRate.clear();
   }
 
   /** Show what changes with time. */
   showTime() {
-    const computed = { gpu: 'GPU', worker: 'JavaScript', playback: 'bake' }[this.stage.kind];
-    const coarse = SCALES[this.scaleAt] < 1 ? ', coarse for speed' : '';
+    const { clock, stage } = this;
+    const by = { gpu: 'GPU', worker: 'JavaScript', playback: 'bake' }[stage.kind] ?? 'none';
+    const software = stage.software ? ', drawn by software' : '';
     this.figures.showTime({
       rate: this.rate,
-      tick: this.clock.tick,
-      ticks: this.clock.ticks,
-      paused: this.clock.paused,
-      picture: `${computed ?? 'none'}, ${this.canvas.width} × ${this.canvas.height}${coarse}`,
+      tick: clock.tick,
+      ticks: clock.ticks,
+      paused: clock.paused,
+      picture: `${by}${software}, ${this.canvas.width} × ${this.canvas.height}`,
     });
+    this.showSplit();
+  }
+
+  /** Name the two halves of the picture while few waves are shown, with the time that each takes. */
+  showSplit() {
+    const model = this.fewModel();
+    const time = (name) => {
+      const found = this.stage.timer?.milliseconds(name) ?? null;
+      return found === null ? '' : `, ${found.toPrecision(2)} ms`;
+    };
+    this.layout.showSplit(
+      model && [
+        `FFT: ${grouped(wavesOf(this.sea.document))} waves${time('sea')}`,
+        `${choiceLabel(model.model)}: ${model.kx.length} waves${time('few')}`,
+      ],
+    );
   }
 
   /** Show an error of the picture, once. */

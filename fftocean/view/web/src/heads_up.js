@@ -19,9 +19,15 @@ function degrees(value) {
   return `${turned === -180 ? 180 : turned}°`;
 }
 
+/** Return the statistics of a document; a sea of given waves has none that are specified. */
+function statisticsOf(document_) {
+  const { specified, realised } = document_.statistics ?? {};
+  return { specified: specified ?? {}, realised: realised ?? {} };
+}
+
 /** Return the rows of the table of statistics: [label, specified, realised]. */
 export function statisticsRows(document_) {
-  const { specified = {}, realised = {} } = document_?.statistics ?? {};
+  const { specified, realised } = statisticsOf(document_);
   return [
     ['Hs [m]', fixed(specified.hs, 2), fixed(realised.hs, 2)],
     ['Tp [s]', fixed(specified.tp, 1), fixed(realised.tp, 1)],
@@ -39,6 +45,11 @@ export function tilesText(tiles) {
     found.get(samples(tile)).push(width(tile));
   }
   return [...found].map(([n, widths]) => `${n} on ${widths.join(', ')} m`).join('; ');
+}
+
+/** Return the number of waves on all tiles. */
+export function wavesOf({ tiles }) {
+  return tiles.reduce((sum, tile) => sum + (tile.waves ?? 0), 0);
 }
 
 /** Return a number with thin spaces between thousands. */
@@ -142,7 +153,7 @@ export class HeadsUp {
         ),
       ),
     );
-    const { specified = {}, realised = {} } = document_.statistics ?? {};
+    const { specified, realised } = statisticsOf(document_);
     this.text('hs', `Hs ${fixed(realised.hs ?? specified.hs, 2)} m`);
     this.text('tp', `Tp ${fixed(realised.tp ?? specified.tp, 1)} s`);
     this.showQuality(quality);
@@ -150,8 +161,7 @@ export class HeadsUp {
     this.source.hidden = !source;
     this.sentence.textContent = sentence;
     const { tiles } = document_;
-    const waves = tiles.reduce((sum, tile) => sum + (tile.waves ?? 0), 0);
-    this.fact('Waves', grouped(waves));
+    this.fact('Waves', grouped(wavesOf(document_)));
     this.fact('Tiles', tilesText(tiles));
     this.fact('Loop', `${Number(document_.loop.toPrecision(6))} s`);
     if (Number.isFinite(tiles[0]?.seed)) this.fact('Seed', String(tiles[0].seed));

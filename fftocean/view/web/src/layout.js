@@ -120,6 +120,7 @@ export class Layout {
       toolButton('help', 'Keys', '?', () => act('help')),
     );
     this.viewLabel = element('p', { class: 'view-label', 'aria-hidden': 'true' });
+    this.split = ['left', 'right'].map((side) => element('p', { class: `half ${side}` }));
     this.spoken = element('p', { class: 'spoken', role: 'status', 'aria-live': 'polite' });
     this.toasts = element('div', { class: 'toasts' });
     this.banner = element('div', { class: 'banner', role: 'alert', hidden: true });
@@ -133,6 +134,7 @@ export class Layout {
       element('h1', { class: 'spoken', text: title }),
       element('div', { class: 'top' }, this.chip, this.figures),
       element('div', { class: 'bottom' }, this.viewLabel, this.bar),
+      ...this.split,
       this.controls,
       this.toasts,
       this.banner,
@@ -181,6 +183,15 @@ export class Layout {
   showView(text) {
     this.viewLabel.textContent = text;
     this.viewLabel.hidden = !text;
+  }
+
+  /** Name the halves of a picture in two parts; null for a whole one. */
+  showSplit(names) {
+    this.root.classList.toggle('split', Boolean(names));
+    this.split.forEach((node, i) => {
+      node.hidden = !names;
+      if (names && node.textContent !== names[i]) node.textContent = names[i];
+    });
   }
 
   /** Show a message for a while; `kind` is "note" or "refusal". */

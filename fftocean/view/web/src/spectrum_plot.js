@@ -105,7 +105,8 @@ export function drawSpectrum(canvas, sea, colours) {
   const edges = edgesOfLoop(sea.document.loop);
   const energy = energyOfWaves(sea, edges);
   const realised = densityOfEnergy(energy, edges);
-  const specified = sea.document.spectrum ?? null;
+  const { spectrum } = sea.document;
+  const specified = spectrum?.density ? spectrum : null; // given waves have no density
   const size = Math.min(height, width * 0.42);
   drawDensity(pen, { width: width - size - 12, height }, specified, realised, colours);
   drawPolar(pen, { left: width - size, size, top: (height - size) / 2 }, sea, edges, colours);

@@ -1,9 +1,12 @@
 // The graphics context with all that lives in it: made, lost, and made again from the same sea.
 
+import { stopsFactor } from './exposure.js';
 import { FewWaves } from './few_waves.js';
+import { GpuTimer } from './gpu_timer.js';
 import { Playback } from './playback.js';
-import { Renderer } from './renderer.js';
+import { DEFAULT_LOOK, Renderer } from './renderer.js';
 import { createSimulation } from './simulation.js';
+import { sunDirection } from './sky.js';
 
 /** Time after which a lost context that does not come back is replaced by a new canvas [s]. */
 const PATIENCE = 1;
@@ -19,6 +22,25 @@ const ATTRIBUTES = {
   stencil: false,
   powerPreference: 'high-performance',
 };
+
+/** Steps from the finest picture to the cheapest; `scale` is pixels for each of the screen. */
+export const LEVELS = [
+  { quality: 'high', scale: 1 },
+  { quality: 'medium', scale: 1 },
+  { quality: 'medium', scale: 0.75 },
+  { quality: 'low', scale: 0.75 },
+  { quality: 'low', scale: 0.5 },
+];
+
+/** Level where a program draws the picture instead of a graphics card. */
+const SOFTWARE_LEVEL = 3;
+
+/** Return true where a program draws the picture instead of a graphics card. */
+function drawnBySoftware(gl) {
+  const found = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = found ? gl.getParameter(found.UNMASKED_RENDERER_WEBGL) : '';
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
 
 /** Return a sentence for a browser without WebGL 2, or an empty text. */
 export function missingGraphics(gl) {
@@ -48,6 +70,8 @@ export class Stage {
     this.playback = null;
     this.renderer = null;
     this.few = null;
+    this.timer = null;
+    this.level = 0;
     this.building = null;
     this.disposed = false;
     this.losses = 0;
@@ -63,6 +87,27 @@ export class Stage {
     canvas.addEventListener('webglcontextlost', (event) => this.lost(event), { signal });
     canvas.addEventListener('webglcontextrestored', () => this.restored(), { signal });
     this.gl = canvas.getContext('webgl2', ATTRIBUTES);
+    this.software = Boolean(this.gl) && drawnBySoftware(this.gl);
+    if (this.software) this.level = Math.max(this.level, SOFTWARE_LEVEL);
+  }
+
+  /** Return the pixels of the picture for each of the screen. */
+  get scale() {
+    return LEVELS[this.level].scale;
+  }
+
+  /** Draw a cheaper picture; return false where there is none. */
+  coarser() {
+    if (this.level === LEVELS.length - 1) return false;
+    const before = LEVELS[this.level].quality;
+    this.level += 1;
+    const { quality } = LEVELS[this.level];
+    if (quality !== before && this.renderer) {
+      this.renderer.dispose();
+      this.renderer = new Renderer(this.gl, { quality });
+      this.foamIsNew = true;
+    }
+    return true;
   }
 
   /** Return true where a picture can be drawn. */
@@ -126,7 +171,8 @@ export class Stage {
       this.onNote(made.note ?? '');
       if (this.sea !== wanted) made.replace(this.sea, 0);
     }
-    this.renderer = new Renderer(gl, { quality: 'high' });
+    this.renderer = new Renderer(gl, { quality: LEVELS[this.level].quality });
+    this.timer = new GpuTimer(gl);
     this.foamIsNew = true;
     this.onChange();
   }
@@ -151,13 +197,33 @@ export class Stage {
 
   /** Draw the picture. */
   render(camera, look, width, height) {
-    this.renderer.render(this.source, camera, look, width, height);
+    this.timer.measure('sea', () => {
+      this.renderer.render(this.source, camera, look, width, height);
+    });
   }
 
-  /** Draw few waves into the right half of the picture. */
-  renderFew(model, tick, camera, look, width, height, viewport) {
-    this.few ??= new FewWaves(this.gl);
-    this.few.render(model, tick, camera, look, width, height, viewport);
+  /** Draw few waves under the same sky over the right half of the picture. */
+  renderFew(model, tick, camera, look, width, height) {
+    const { gl, renderer } = this;
+    this.few ??= new FewWaves(gl);
+    const half = Math.floor(width / 2);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(half, 0, width - half, height);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    this.timer.measure('few', () => this.few.draw(model, tick, camera, look, width / height));
+    const full = { ...DEFAULT_LOOK, ...look };
+    const light = {
+      sun: sunDirection(full.sunElevation, full.sunAzimuth),
+      clouds: full.clouds,
+      plain: null,
+      exposureFactor: stopsFactor(full.exposure),
+      linearLight: false,
+    };
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL); // the sky lies on the far plane
+    renderer.sky.drawBackground(light, camera.matrices(width / height));
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.SCISSOR_TEST);
   }
 
   /** Keep the page alive without a context, and ask for another where none comes back. */
@@ -208,6 +274,7 @@ export class Stage {
       source: null,
       renderer: null,
       few: null,
+      timer: null,
     });
   }
 
@@ -220,6 +287,7 @@ export class Stage {
       source: null,
       renderer: null,
       few: null,
+      timer: null,
     });
   }
 
