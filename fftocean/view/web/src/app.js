@@ -3,7 +3,6 @@
 import { Announcer, describeSea, prefersReducedMotion } from './accessibility.js';
 import { Camera } from './camera.js';
 import { Clock } from './clock.js';
-import { Connection } from './connection.js';
 import { decodeReference, decodeSea } from './container.js';
 import { choiceLabel, Controls, presetList } from './controls.js';
 import { element } from './dom.js';
@@ -71,19 +70,20 @@ export class App {
    * @param {HTMLElement} options.root the element to fill
    * @param {object} options.table of `readTable`
    * @param {EventTarget} [options.keysOn] what hears the keys; the root without it
-   * @param {?{address: string, token: string}} [options.server] where the sea comes from
-   * @param {?{bytes: Uint8Array, about: object}} [options.embedded] the sea itself
-   * @param {?object} [options.link] a connection that is there already, with set and send
+   * @param {?function(object): object} [options.connect] takes the listeners of messages (`status`,
+   *   `state`, `sea`, `refused`, `reference`, `copied`, `bake`, `frame`; see `listeners`) and returns
+   *   a connection: `set(values)`, `send(message)` (true if it was sent), `ready`, `close()`
+   * @param {?{bytes: Uint8Array, about: object}} [options.embedded] the sea itself, without a server
    */
-  constructor({ root, table, keysOn = null, server = null, embedded = null, link = null }) {
+  constructor({ root, table, keysOn = null, connect = null, embedded = null }) {
     this.root = root;
     this.table = table;
     this.rows = new Map(table.parameters.map((row) => [row.name, row]));
     this.values = defaults(table.parameters);
     this.served = {};
-    this.server = server;
+    this.connect = connect;
     this.embedded = embedded;
-    this.connection = link;
+    this.connection = null;
     this.plan = keyPlan(table.parameters, table.actions);
     this.held = new HeldKeys(this.plan);
     this.keysEnabled = true;
@@ -132,7 +132,7 @@ export class App {
     this.layout.showPaused(this.clock.paused);
     this.applyLocal(Object.keys(this.values));
     this.controls.show(this.values, { force: true });
-    if (this.server) this.connect();
+    this.connection = this.connect?.(this.listeners()) ?? null;
     if (this.embedded) await this.showEmbedded();
     this.loop = (now) => {
       this.handle = requestAnimationFrame(this.loop);
@@ -148,8 +148,7 @@ export class App {
       const key = this.table.actions.find((one) => one.name === name)?.key;
       return layout.addAction(label, key, () => this.act(name));
     };
-    action('Copy job', 'copy_job');
-    action('Copy command', 'copy_command');
+    this.copyButtons = [action('Copy job', 'copy_job'), action('Copy command', 'copy_command')];
     this.verifyButton = action('Verify', 'verify');
     if (!this.embedded) this.openButton = action('Open file …', 'open');
     this.fileInput = element('input', {
@@ -171,14 +170,29 @@ export class App {
       onChange: (values) => this.change(values),
       open: this.embedded ? ['Light', 'Water'] : OPEN_GROUPS,
     });
-    if (this.embedded) this.controls.keepOnly(this.ownNames());
     layout.controls.append(this.fileInput, layout.actions);
-    layout.fewButton.hidden = Boolean(this.embedded) || !this.rows.has('model');
+    if (this.embedded) this.keepOwnControls();
+  }
+
+  /** Hide what needs a server that makes seas. */
+  keepOwnControls() {
+    this.controls.keepOnly(this.ownNames());
+    this.layout.fewButton.hidden = true;
+    if (this.presets) this.presets.node.hidden = true;
+    if (this.openButton) this.openButton.hidden = true;
+    if (this.bake) this.verifyButton.hidden = true;
+    if (this.bake) for (const button of this.copyButtons) button.hidden = true;
+  }
+
+  /** True where no server makes seas: the page is one file, or a bake is played. */
+  get fixed() {
+    return Boolean(this.embedded || this.bake);
   }
 
   /** Return the names of parameters that the page can change without a server. */
   ownNames() {
-    const own = (row) => (row.local && !FEW_GROUP.test(row.group)) || OWN_CHANGES.has(row.name);
+    const changes = this.bake ? new Set() : OWN_CHANGES; // a bake has its choppiness in it
+    const own = (row) => (row.local && !FEW_GROUP.test(row.group)) || changes.has(row.name);
     return new Set(this.table.parameters.filter(own).map((row) => row.name));
   }
 
@@ -239,13 +253,6 @@ export class App {
     };
   }
 
-  /** Connect to the server. */
-  connect() {
-    const { address, token } = this.server;
-    this.connection = new Connection({ address, token, listeners: this.listeners() });
-    this.connection.start();
-  }
-
   /** Return what hears the messages of a server. */
   listeners() {
     return {
@@ -255,8 +262,8 @@ export class App {
       refused: (refusal) => this.takeRefusal(refusal),
       reference: (data) => this.takeReference(data),
       copied: ({ what, text }) => this.copy(what, text),
-      bake: (manifest) => this.takeBake(manifest),
-      frame: (data) => this.stage.playback?.receive?.(data),
+      bake: (manifest, message) => this.takeBake(manifest, message),
+      frame: (data) => this.stage.playback?.receive(data),
     };
   }
 
@@ -309,20 +316,24 @@ export class App {
   }
 
   /** Play the maps of a bake. */
-  async takeBake(manifest) {
+  async takeBake(manifest, { source = '' } = {}) {
     this.bake = manifest;
     this.sea = null;
-    await this.stage.setBake(manifest, (tile, frame) =>
-      this.connection.send({ frame: { tile, frame } }),
-    );
-    this.clock.follow(this.stage.source.document);
+    this.source = source;
+    this.clock.follow(manifest);
+    this.keepOwnControls();
     this.showFigures();
+    if (this.stage.playback) return; // after a reconnection the same bake goes on
+    const ask = (tile, frame) => {
+      this.connection.send({ frame: { tile, frame } });
+    };
+    await this.stage.setBake(manifest, ask);
     this.changed();
   }
 
   /** Show what the newest sea is. */
   showFigures() {
-    const shown = this.sea?.document ?? this.stage.source?.document;
+    const shown = this.sea?.document ?? this.bake;
     if (!shown) return;
     const sentence = this.sentence();
     const quality = this.bake ? 'recorded' : (shown.quality ?? 'exact');
@@ -334,7 +345,7 @@ export class App {
   /** Return the sea in words. */
   sentence() {
     return describeSea({
-      document: this.sea?.document ?? this.stage.source?.document,
+      document: this.sea?.document ?? this.bake,
       look: this.look(),
       paused: this.clock.paused,
       few: this.fewModel(),
@@ -445,8 +456,8 @@ export class App {
   /** Change a parameter by one step, and say its value. */
   step(name, direction) {
     const row = this.rows.get(name);
-    if (this.embedded && !row.local && !OWN_CHANGES.has(name)) {
-      this.refuse(`${row.label.toLowerCase()} is fixed on a page without a server`);
+    if (this.fixed && !this.ownNames().has(name)) {
+      this.refuse(`${row.label.toLowerCase()} is fixed: the sea is made already`);
       return;
     }
     const value = stepped(row, this.values[name], direction);
@@ -763,7 +774,7 @@ export class App {
     const model = this.fewModel();
     const time = (name, what) => {
       const found = this.stage.timer?.milliseconds(name) ?? null;
-      return found === null ? '' : `, ${what} ${found.toPrecision(2)} ms`;
+      return found === null ? '' : `, ${what} ${Number(found.toPrecision(2))} ms`;
     };
     this.layout.showSplit(
       model && [

@@ -7,6 +7,9 @@ export const PASS = 5e-7;
 
 const DASH = '–';
 
+/** Facts of the list, in their order. */
+const FACTS = ['Waves', 'Tiles', 'Seed', 'Loop', 'Tick', 'Picture', 'Connection', 'Made by'];
+
 /** Return a number with a fixed number of decimals, or a dash. */
 function fixed(value, decimals) {
   return typeof value === 'number' && Number.isFinite(value) ? value.toFixed(decimals) : DASH;
@@ -138,6 +141,7 @@ export class HeadsUp {
       this.verification,
     );
     this.facts = new Map();
+    for (const label of FACTS) this.fact(label, '');
   }
 
   /** Show what belongs to a sea: statistics, tiles, waves, loop. */
@@ -242,14 +246,16 @@ export class HeadsUp {
     if (this.cells[name].textContent !== text) this.cells[name].textContent = text;
   }
 
-  /** Set a fact of the list, at its end the first time. */
+  /** Set a fact of the list; an empty one is not shown. */
   fact(label, text) {
     let node = this.facts.get(label);
     if (!node) {
-      node = element('dd');
+      node = element('dd', { hidden: true });
       this.facts.set(label, node);
-      this.list.append(element('dt', { text: label }), node);
+      this.list.append(element('dt', { text: label, hidden: true }), node);
     }
-    if (node.textContent !== text) node.textContent = text;
+    if (node.textContent === text) return;
+    node.textContent = text;
+    node.hidden = node.previousSibling.hidden = !text;
   }
 }

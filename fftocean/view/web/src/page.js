@@ -1,12 +1,12 @@
 // Entry of the page that the server sends: a socket brings the sea, the server keeps its state.
 
 import { startApp } from './app.js';
-import { socketAddress } from './connection.js';
+import { Connection, socketAddress } from './connection.js';
 import { readTable } from './table.js';
 
 /** Start the page in its main element. */
 async function start() {
-  const root = document.getElementById('fftocean');
+  const root = document.getElementById('live-page');
   const answer = await fetch('parameters.json', { credentials: 'omit' });
   const table = readTable(await answer.json());
   const token = decodeURIComponent(location.hash.slice(1));
@@ -14,7 +14,11 @@ async function start() {
     root,
     table,
     keysOn: globalThis,
-    server: { address: socketAddress(location), token },
+    connect(listeners) {
+      const connection = new Connection({ address: socketAddress(location), token, listeners });
+      connection.start();
+      return connection;
+    },
   });
 }
 

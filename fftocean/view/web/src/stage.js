@@ -155,7 +155,8 @@ export class Stage {
     this.free();
     const { gl } = this;
     if (this.bake) {
-      this.playback = new Playback(gl, this.bake.manifest, this.bake.requestFrame);
+      const { manifest, requestFrame } = this.bake;
+      this.playback = new Playback(gl, manifest, requestFrame, { onChange: this.onChange });
       this.source = this.playback;
     } else {
       const wanted = this.sea;

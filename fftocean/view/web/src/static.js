@@ -17,7 +17,7 @@ function bytesOf(text) {
 /** Start the page in its main element. */
 async function start() {
   globalThis.fftocean = await startApp({
-    root: document.getElementById('fftocean'),
+    root: document.getElementById('live-page'),
     table: readTable(JSON.parse(carried('parameters'))),
     keysOn: globalThis,
     embedded: {

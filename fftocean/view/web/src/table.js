@@ -14,13 +14,22 @@ export function sentenceCase(text) {
 /** Units as they are printed. */
 const PRINTED_UNITS = { '-': '', degrees: '°', 'mg/m^3': 'mg/m³' };
 
+/** Length from which the upper end of a range in metres is printed in kilometres [m]. */
+const LONG = 1e5;
+
+/** Return the unit in which a row is printed, and how many of the row's own units it has. */
+function printed({ unit = '', high }) {
+  if (unit === 'm' && high >= LONG) return { unit: 'km', size: 1000 };
+  return { unit: PRINTED_UNITS[unit] ?? unit, size: 1 };
+}
+
 /** Return one row of the table with every property present. */
 function complete(row) {
   const kind = row.kind ?? (row.choices ? 'choice' : row.unit === undefined ? 'switch' : 'number');
   return Object.freeze({
     name: row.name,
     label: sentenceCase(row.label ?? row.name),
-    unit: PRINTED_UNITS[row.unit] ?? row.unit ?? '',
+    ...printed(row),
     help: row.help ?? '',
     group: row.group ?? 'Other',
     low: row.low ?? 0,
@@ -127,8 +136,9 @@ export function valueAt(row, place) {
 export function numberText(row, value) {
   if (value === null) return row.infinite ? '∞' : '';
   if (value === undefined) return '';
-  if (row.logarithmic) return String(Number(Number(value).toPrecision(3)));
-  return String(Number(Number(value).toFixed(Math.max(2, decimals(row.step)))));
+  const shown = Number(value) / row.size;
+  if (row.logarithmic) return String(Number(shown.toPrecision(3)));
+  return String(Number(shown.toFixed(Math.max(2, decimals(row.step)))));
 }
 
 /** Return a number with its unit; a sign of degrees follows without a space. */
@@ -149,7 +159,7 @@ export function valueText(row, value) {
 export function parsed(row, text) {
   const given = text.trim().toLowerCase();
   if (row.infinite && ['∞', 'inf', 'infinity', 'deep', row.infinite].includes(given)) return null;
-  const value = Number(given.replace(',', '.').replace('\u2212', '-'));
+  const value = Number(given.replace(',', '.').replace('\u2212', '-')) * row.size;
   if (given === '' || !Number.isFinite(value)) return undefined;
   if (value < row.low || value > row.high) return undefined;
   if (row.whole && !Number.isInteger(value)) return undefined;
