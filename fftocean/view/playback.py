@@ -29,6 +29,7 @@ from fftocean.constants import GRAVITY
 from fftocean.errors import IntegrityError, JobError, ParameterError
 from fftocean.fields import potential_factor
 from fftocean.files import digest, path_of, read_whole
+from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.limits import Count
 
@@ -170,6 +171,16 @@ class Playback:
             else:
                 self._frames.move_to_end((tile, place))
         return data
+
+    def fields(self, frame: int) -> list[Frame]:
+        """Return the eight fields of every tile at a frame of the bake, choppiness applied."""
+        place = frame % len(self)
+        found = []
+        for tile in self._tiles:
+            (arrays,) = _fields(tile, [place])
+            t = tile.contents.manifest["frames"][place]["t"]
+            found.append(Frame(t, tile.grid, 1.0, arrays))
+        return found
 
     def _read(self, number: int, place: int) -> bytes:
         """Return a frame from the files, and keep it and others that come with it."""

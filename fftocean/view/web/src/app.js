@@ -278,7 +278,7 @@ export class App {
     this.figures.showConnection('embedded', 'none: one file');
     if (about.version) this.figures.fact('Made by', `fftocean ${about.version}`);
     await this.showSea(sea);
-    await this.verify();
+    await this.checkItself();
   }
 
   /** Take the state of the server: its values, unless the hand is ahead of them. */
