@@ -48,9 +48,9 @@ def seen(browser):
         }
         for model, number, place in CASES
     ]
-    views.append({**views[0], "fade": True})
+    views.append({**views[0], "fade": True, "part": [0, 0, 96, 64]})
     views.append({**views[0], "look": {"choppiness": 0.5}})
-    views.append({**views[0], "fade": True, "scissor": [0, 0, 48, 64]})
+    views.append({**views[0], "fade": True, "part": [0, 0, 48, 64]})
     value, log = browser.run(
         "few_waves.html",
         {
@@ -121,12 +121,17 @@ def test_waves_that_the_mesh_cannot_hold_are_left_out(seen):
     assert np.array_equal(faded[dense], whole[dense])
 
 
-def test_the_picture_is_drawn_over_its_part_alone(seen):
-    """Water from the horizon down; the part outside the scissor keeps its colour."""
+def test_the_picture_is_drawn_into_its_part_alone(seen):
+    """Water below the horizon and sky above it; the other part keeps its colour."""
     one = seen[1][len(CASES) + 2]
     width, height = one["size"]
     pixels = np.frombuffer(base64.b64decode(one["picture"]), np.uint8).reshape(height, width, 4)
     red = np.all(pixels[..., :3] == [255, 0, 0], axis=-1)
-    assert np.all(red[:, 48:])  # beyond the scissor
-    assert not np.any(red[: height // 3, :48])  # below the horizon there is no hole
-    assert np.all(red[-height // 4 :, :48])  # the sky is another's
+    assert np.all(red[:, 48:])
+    assert not np.any(red[:, :48])
+    whole = np.frombuffer(base64.b64decode(seen[1][len(CASES)]["picture"]), np.uint8)
+    assert np.array_equal(pixels[:, :48], whole.reshape(height, width, 4)[:, :48])
+    sky, water = (
+        part.astype(float).mean(axis=(0, 1)) for part in (pixels[-9:, :48], pixels[:9, :48])
+    )
+    assert sky.sum() > 1.3 * water.sum()

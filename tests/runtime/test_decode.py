@@ -1,5 +1,6 @@
 """Packages that are read back: the same frames, and refusals of what no package holds."""
 
+import contextlib
 import struct
 
 import builders_of_packages as build
@@ -10,6 +11,7 @@ import fftocean as fo
 from fftocean import noise, runtime
 from fftocean.errors import IntegrityError
 from fftocean.fields import EIGHT
+from fftocean.runtime.contents import Contents
 
 TICKS = 2**20
 
@@ -199,8 +201,8 @@ def test_ticks_that_were_asked_for_are_checked():
         match=r"below 2\^32 for exact phases, got 4096 cycles .* 1048576 ticks; at most 524288",
     ):
         runtime.pack(waves_of_period(4096), ticks=2**20)
-    for wrong in (0, 1000, 2**21, 16.0, True, "16"):
-        with pytest.raises(fo.ParameterError, match="ticks must be a power of two between 1 and"):
+    for wrong in (0, 1, 1000, 2**21, 16.0, True, "16"):
+        with pytest.raises(fo.ParameterError, match="ticks must be a power of two between 2 and"):
             runtime.pack(waves_of_period(4096), ticks=wrong)
 
 
@@ -259,6 +261,8 @@ def refused(package, words):
         (["tiles", 0, "most_cycles"], 0, r"tiles\[0\].waves must fit"),
         (["tiles", 0, "most_cycles"], 3, "record .* of tile0.waves must have 1 to 3 cycles"),
         (["tiles", 0, "most_cycles"], 99, "the fastest wave of tile0.waves must have 99 cycles"),
+        (["tiles", 0, "mixed"], 3.0, r"tiles\[0\].mixed must be a power of two, got 3.0"),
+        (["tiles", 0, "mixed"], 0, r"tiles\[0\].mixed must be between"),
         (["files"], [], "files must be a list of 1"),
         (["files", 0, "name"], "tile1.waves", "files must have names of their own"),
         (["files", 0, "name"], "TILE1.waves", "files must have names of their own"),
@@ -325,6 +329,27 @@ def test_cycles_that_are_not_those_of_the_dispersion_relation_are_refused():
     i = next(i for i, r in enumerate(records) if r[2] > 4)
     data = record(i, cycles=records[i][2] - 2)
     refused(build.with_file("tile0.waves", data), r"along \(mx, my\) = .* must have .* cycles")
+
+
+ODD = [None, True, -1, 0, 7, 0.5, 1e308, 2**70, -(2**70), "", "../x", [], {}, [[None]], [1, 2]]
+
+
+def paths(tree, at=()):
+    """Yield the path of every entry of a document."""
+    items = tree.items() if isinstance(tree, dict) else enumerate(tree)
+    for key, value in items:
+        yield (*at, key)
+        if isinstance(value, (dict, list)):
+            yield from paths(value, (*at, key))
+
+
+@pytest.mark.parametrize("value", ODD, ids=repr)
+def test_any_entry_of_any_kind_is_taken_or_refused(value):
+    """No value in any place of the document is another error, or a crash."""
+    document = build.packed().document
+    for path in paths({key: document[key] for key in document if key != "spectrum"}):
+        with contextlib.suppress(IntegrityError):
+            Contents.of(build.changed(path, value).document)
 
 
 # Containers

@@ -772,14 +772,15 @@ export class App {
   /** Name the two halves of the picture while few waves are shown, with the time that each takes. */
   showSplit() {
     const model = this.fewModel();
-    const time = (name) => {
+    const time = (name, what) => {
       const found = this.stage.timer?.milliseconds(name) ?? null;
-      return found === null ? '' : `, ${Number(found.toPrecision(2))} ms`;
+      return found === null ? '' : `, ${what} ${Number(found.toPrecision(2))} ms`;
     };
     this.layout.showSplit(
       model && [
-        `FFT: ${grouped(wavesOf(this.sea.document))} waves${time('sea')}`,
-        `${choiceLabel(model.model)}: ${model.kx.length} waves${time('few')}`,
+        `FFT: ${grouped(wavesOf(this.sea.document))} waves` +
+          `${time('waves', 'transforms')}${time('sea', 'picture')}`,
+        `${choiceLabel(model.model)}: ${model.kx.length} waves${time('few', 'half a picture')}`,
       ],
     );
   }

@@ -1,12 +1,10 @@
 // The graphics context with all that lives in it: made, lost, and made again from the same sea.
 
-import { stopsFactor } from './exposure.js';
 import { FewWaves } from './few_waves.js';
 import { GpuTimer } from './gpu_timer.js';
 import { Playback } from './playback.js';
-import { DEFAULT_LOOK, Renderer } from './renderer.js';
+import { Renderer } from './renderer.js';
 import { createSimulation } from './simulation.js';
-import { sunDirection } from './sky.js';
 
 /** Time after which a lost context that does not come back is replaced by a new canvas [s]. */
 const PATIENCE = 1;
@@ -180,8 +178,11 @@ export class Stage {
 
   /** Bring the maps to a tick. */
   async step(tick, choppiness) {
-    if (this.simulation) await this.simulation.step(tick, choppiness);
-    else await this.playback?.step?.(tick, choppiness);
+    let done = null;
+    this.timer.measure('waves', () => {
+      done = (this.simulation ?? this.playback)?.step(tick, choppiness);
+    });
+    await done;
   }
 
   /** Let foam grow over the seconds before a tick, once after each building. */
@@ -205,26 +206,13 @@ export class Stage {
 
   /** Draw few waves under the same sky over the right half of the picture. */
   renderFew(model, tick, camera, look, width, height) {
-    const { gl, renderer } = this;
-    this.few ??= new FewWaves(gl);
+    this.few ??= new FewWaves(this.gl);
     const half = Math.floor(width / 2);
-    gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(half, 0, width - half, height);
-    gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.timer.measure('few', () => this.few.draw(model, tick, camera, look, width / height));
-    const full = { ...DEFAULT_LOOK, ...look };
-    const light = {
-      sun: sunDirection(full.sunElevation, full.sunAzimuth),
-      clouds: full.clouds,
-      plain: null,
-      exposureFactor: stopsFactor(full.exposure),
-      linearLight: false,
-    };
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.LEQUAL); // the sky lies on the far plane
-    renderer.sky.drawBackground(light, camera.matrices(width / height));
-    gl.disable(gl.DEPTH_TEST);
-    gl.disable(gl.SCISSOR_TEST);
+    const viewport = [half, 0, width - half, height];
+    const { sky } = this.renderer;
+    this.timer.measure('few', () => {
+      this.few.render(model, tick, camera, look, width, height, viewport, sky);
+    });
   }
 
   /** Keep the page alive without a context, and ask for another where none comes back. */
