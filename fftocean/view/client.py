@@ -53,6 +53,11 @@ class Client:
         """Length of all messages that wait here for the socket."""
         return sum(map(len, (*self._texts, *self._newest.values())))
 
+    @property
+    def requests(self) -> int:
+        """Number of requests that wait here for the socket."""
+        return len(self._frames) + (self._verify is not None)
+
     def tell(self, text: str) -> None:
         """Answer a message with text."""
         self._texts.append(text)
