@@ -78,6 +78,17 @@ INNER = {
         ["cascade"],
         ["dry_run", "repair"],
     ],
+    "runtime": [
+        ["layout"],
+        ["contents", "planes", "source"],
+        ["records"],
+        ["describe", "reference"],
+        ["document"],
+        ["package", "readme"],
+        ["container", "decode"],
+        ["folder"],
+        ["check"],
+    ],
 }
 
 ONLY = {

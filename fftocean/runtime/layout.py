@@ -24,7 +24,9 @@ PHASES = 2**32
 """Cycles times ticks stay below this, so that a phase is exact in unsigned integers of 32 bits."""
 MOST_TILES = 16
 MOST_DOCUMENT = 2**20  # bytes
-MOST_BYTES = 2**29  # of all files: far more than 16 tiles of 1024 x 1024 waves and their textures
+MOST_JOB = 2**16  # characters, of which a job file has no more either
+MOST_POINTS = 4096  # of a tile, at which check.json has the fields
+MOST_BYTES = 2**30  # of all files: 16 tiles of 1024 x 1024 waves and their textures have 640 MB
 
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*", re.ASCII)
 _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.ASCII | re.IGNORECASE)

@@ -24,7 +24,10 @@ class Source:
     given: Ocean | Cascade | None = None  # of which these are the waves
 
     def __post_init__(self) -> None:
-        CHOPPINESS.check("choppiness", self.choppiness)
+        object.__setattr__(self, "choppiness", CHOPPINESS.check("choppiness", self.choppiness))
+        for tile in self.tiles:
+            if not isinstance(tile, Amplitudes):
+                raise ParameterError(f"tiles must be Amplitudes, got {described(tile)}")
         seeds = self.seeds or (None,) * len(self.tiles)
         object.__setattr__(self, "seeds", seeds)
         if not 1 <= len(self.tiles) <= MOST_TILES or len(seeds) != len(self.tiles):

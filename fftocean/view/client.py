@@ -41,12 +41,22 @@ class Client:
         socket: Socket,
         answer: Answer,
     ) -> None:
-        self._socket, self._answer = socket, answer
+        self.socket, self._answer = socket, answer
         self._texts: deque[str] = deque(maxlen=MOST_ANSWERS)
         self._newest: OrderedDict[str, str | bytes] = OrderedDict()
         self._verify: Verify | None = None
         self._frames: OrderedDict[BakedFrame, None] = OrderedDict()
         self._wake = asyncio.Event()
+
+    @property
+    def waiting(self) -> int:
+        """Length of all messages that wait here for the socket."""
+        return sum(map(len, (*self._texts, *self._newest.values())))
+
+    @property
+    def requests(self) -> int:
+        """Number of requests that wait here for the socket."""
+        return len(self._frames) + (self._verify is not None)
 
     def tell(self, text: str) -> None:
         """Answer a message with text."""
@@ -75,12 +85,12 @@ class Client:
             self._wake.clear()
             while True:
                 if self._texts:
-                    await self._socket.send(self._texts.popleft())
+                    await self.socket.send(self._texts.popleft())
                 elif self._newest:
-                    await self._socket.send(self._newest.popitem(last=False)[1])
+                    await self.socket.send(self._newest.popitem(last=False)[1])
                 elif (request := self._request()) is not None:
                     for message in await self._answer(request):
-                        await self._socket.send(message)
+                        await self.socket.send(message)
                 else:
                     break
 

@@ -75,9 +75,9 @@ class Parameter:
         """Permitted values, in words."""
         if (allowed := self.range) is None:
             return f"one of {', '.join(self.choices)}" if self.choices else "true or false"
-        whole = "a whole number " if isinstance(allowed, Count) else ""
+        noun = "a whole number" if isinstance(allowed, Count) else "a number"
         end = f", or null for {self.infinite}" if self.infinite else ""
-        return f"{whole}{allowed.rule}{end}"
+        return f"{noun} {allowed.rule}{end}"
 
     def check(self, value: Any) -> Any:
         """
@@ -94,10 +94,10 @@ class Parameter:
             return value
         if value is None and self.infinite:
             return math.inf
-        if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        long = isinstance(value, int) and value.bit_length() > 64  # hundreds of digits in a message
+        if long or not isinstance(value, numbers.Real) or isinstance(value, bool):
             raise ParameterError(
-                f"{self.name} must be a number {self.rule}, got {value!r:.60} "
-                f"({type(value).__name__})"
+                f"{self.name} must be {self.rule}, got {value!r:.60} ({type(value).__name__})"
             )
         return allowed.check(self.name, value)
 

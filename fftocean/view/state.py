@@ -47,6 +47,11 @@ _KEYS: Final = {
 }
 """Parameters that are keys of a job."""
 
+_OF_THE_SEA: Final = frozenset(
+    p.name for p in SENT if p.name not in ("choppiness", "loop", "seed", "tiles", "model")
+)
+"""Parameters on which the specified sea depends; the others are those of its realisation."""
+
 
 @dataclass(frozen=True, slots=True)
 class State:
@@ -180,14 +185,12 @@ class State:
             ParameterError: no sea can be made of the values.
         """
         made = replace(self, values=MappingProxyType({**self.values, **changes}))
-        if not self.chosen and not changes.keys().isdisjoint(
-            ("wind_speed", "fetch", "swell_speed", "swell_share", "depth")
-        ):
-            made = made._with_sizes(self.samples)
         if made.values["tiles"] > 1:
             made._require_tiles()
+        if changes.keys().isdisjoint(_OF_THE_SEA):
+            return made
         made.sea()
-        return made
+        return made if self.chosen else made._with_sizes(self.samples)
 
     @property
     def tiles(self) -> tuple[Tile, ...]:

@@ -251,6 +251,7 @@ class Viewer:
             source=state.source,
             busy=self._maker.busy,
             notes=self._sea.notes if self._sea is not None and current else (),
+            sea=self._sea.number if self._sea is not None and current else None,
         )
 
 

@@ -7,6 +7,7 @@ import socket
 import struct
 import threading
 
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from fftocean.view.page_files import served_files
@@ -146,14 +147,15 @@ class Running:
 class Talk:
     """One client of the server: a real WebSocket, whose messages are sorted by kind."""
 
-    def __init__(self, socket):
-        self.socket = socket
+    def __init__(self, connecting):
+        self._connecting = connecting
 
     def __enter__(self):
+        self.socket = self._connecting.__enter__()
         return self
 
-    def __exit__(self, *_):
-        self.socket.close()
+    def __exit__(self, *error):
+        self._connecting.__exit__(*error)
 
     def send(self, message):
         """Send a message as JSON, or text as it is."""
@@ -174,14 +176,30 @@ class Talk:
                 if kind in tree and good(tree):
                     return tree
 
-    def exact(self, **values):
-        """Return the next exact sea and the state, which has certain values."""
+    def closed(self, wait=20.0):
+        """Read until the server closes; return the exception that says so."""
         while True:
-            header, body = self.next("FFTO")
-            state = self.next("state")
-            if header["quality"] == "exact" and not state["busy"]:
-                if all(state["state"][name] == value for name, value in values.items()):
-                    return header, body
+            try:
+                self.socket.recv(timeout=wait)
+            except ConnectionClosed as error:
+                return error
+
+    def exact(self, wait=30.0, **values):
+        """Return the next exact sea whose state has certain values: (document, files)."""
+        header, body, state = {}, b"", {}
+        while True:
+            message = self.socket.recv(timeout=wait)
+            if isinstance(message, bytes):
+                header, body = opened(message)
+            elif "state" in (tree := json.loads(message)):
+                state = tree
+            if (
+                header.get("quality") == "exact"
+                and not state.get("busy", True)
+                and state["sea"] == header["id"]
+                and all(state["state"][name] == value for name, value in values.items())
+            ):
+                return header, body
 
 
 def opened(message):

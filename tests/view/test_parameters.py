@@ -54,7 +54,7 @@ def test_rows_are_complete(parameter):
     row = parameter.as_row()
     json.dumps(row, allow_nan=False)
     assert re.fullmatch(r"[a-z_]+", parameter.name)
-    assert row["label"] and row["help"] and row["group"]
+    assert all(row[name] for name in ("label", "help", "group"))
     assert parameter.check(row["default"]) == parameter.default
     if row["kind"] == "number":
         assert parameter.quantity.low <= row["low"] < row["high"] <= parameter.quantity.high
@@ -82,7 +82,7 @@ def test_wrong_values_of_a_number_are_refused(value):
 
 @pytest.mark.parametrize("value", [7.0, 0.5, -1, 10**6, True, "7", None])
 def test_a_seed_is_a_whole_number(value):
-    with pytest.raises(ParameterError, match="seed must be a .*whole number"):
+    with pytest.raises(ParameterError, match="seed must be a whole number"):
         BY_NAME["seed"].check(value)
 
 

@@ -5,6 +5,7 @@ import math
 import shlex
 import subprocess
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -240,7 +241,7 @@ def test_tiles_keep_their_sizes_while_the_sea_changes_little():
 def test_tiles_of_every_number_make_a_cascade_without_whole_ratios(n, recwarn):
     sizes = tile_sizes(n, 960.0, 4)
     state = State.default(n=16, tiles=[(16, size) for _, size in sizes])
-    assert all(a > b for (_, a), (_, b) in zip(sizes, sizes[1:], strict=False))
+    assert all(a > b for (_, a), (_, b) in pairwise(sizes))
     if n <= 64:
         fo.Cascade(state.sea(), sizes)
     assert not [w for w in recwarn if "times as wide" in str(w.message)]

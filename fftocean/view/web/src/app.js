@@ -12,7 +12,7 @@ import { moveByKeys, takePointers } from './input.js';
 import { actionOf, allActions, HeldKeys, isField, keyPlan } from './keys.js';
 import { Layout } from './layout.js';
 import { drawSpectrum } from './spectrum_plot.js';
-import { missingGraphics, Stage } from './stage.js';
+import { cannotDraw, missingGraphics, Stage } from './stage.js';
 import { defaults, stepped, valueText } from './table.js';
 import { compareReference, exactSea, SelfCheck } from './verification.js';
 
@@ -98,6 +98,7 @@ export class App {
     this.bake = null;
     this.source = '';
     this.busy = false;
+    this.notes = { sea: [], picture: [] };
     this.verifying = null;
     this.ending = new AbortController();
     this.canvas = element('canvas', {
@@ -111,7 +112,8 @@ export class App {
     this.figures = new HeadsUp({ chip: this.layout.chip, body: this.layout.figures });
     this.stage = new Stage(this.canvas, {
       onChange: () => this.changed(),
-      onNote: (text) => this.layout.showBanner(text),
+      onTrouble: (text) => this.layout.showBanner(text),
+      onNote: (text) => this.showNotes({ picture: text ? [text] : [] }),
       onCanvas: (canvas) => this.takeCanvas(canvas),
     });
     this.buildControls();
@@ -282,7 +284,7 @@ export class App {
   }
 
   /** Take the state of the server: its values, unless the hand is ahead of them. */
-  takeState(state, { source = '', busy = false }) {
+  takeState(state, { source = '', busy = false, notes = [] }) {
     this.served = { ...state };
     this.busy = busy;
     this.source = source;
@@ -291,8 +293,17 @@ export class App {
       if (!waiting.has(name)) this.values[name] = value;
     }
     this.controls.show(this.values);
-    this.root.classList.toggle('busy', busy);
+    if (!busy) this.showNotes({ sea: notes });
     this.changed();
+  }
+
+  /** Show notes on the sea or on the picture, and say once those that are new. */
+  showNotes(notes) {
+    const before = new Set(Object.values(this.notes).flat());
+    Object.assign(this.notes, notes);
+    const all = Object.values(this.notes).flat();
+    this.figures.showNotes(all);
+    for (const note of all) if (!before.has(note)) this.layout.toast(note);
   }
 
   /** Take a sea of the server. */
@@ -525,11 +536,19 @@ export class App {
     }
   }
 
+  /** Return the picture of this moment as a PNG, or null where there is none. */
+  async still() {
+    return this.alone(async () => {
+      if (!this.stage.ready) return null;
+      await this.picture(0, 0);
+      // A canvas keeps what was drawn only until the browser shows it.
+      return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+    });
+  }
+
   /** Save the picture as a PNG. */
   async screenshot() {
-    if (!this.stage.ready) return;
-    this.draw();
-    const blob = await new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+    const blob = await this.still();
     if (!blob) return;
     const address = URL.createObjectURL(blob);
     const name = `fftocean-${String(this.clock.tick)}.png`;
@@ -789,8 +808,16 @@ export class App {
   failed(error) {
     if (this.stage.gl?.isContextLost() || this.failure === error.message) return;
     this.failure = error.message;
-    this.layout.showBanner(`The picture cannot be drawn: ${error.message}`);
+    this.layout.showBanner(cannotDraw(error));
     console.error(error);
+  }
+
+  /** True when the picture shows the exact sea of the newest values; for tests. */
+  get settled() {
+    const { connection, stage } = this;
+    const waiting = Boolean(connection?.pending?.size) || this.busy;
+    const shown = stage.ready && (stage.simulation?.weight ?? 1) === 1 && !this.dirty && !this.turn;
+    return shown && !waiting && this.sea?.document.quality !== 'moving';
   }
 
   /** Return the error of the graphics context, 0 for none; for tests. */

@@ -157,8 +157,9 @@ export class Connection {
     } catch {
       return;
     }
-    for (const kind of ['state', 'refused', 'copied', 'bake', 'few_waves']) {
-      if (kind in message) this.tell(kind, message[kind], message);
+    for (const kind of ['state', 'refused', 'copied', 'bake']) {
+      const content = message?.[kind];
+      if (content) this.tell(kind, content, message);
     }
   }
 

@@ -5,8 +5,8 @@
  * may reach. Without the second a low sun, which gives little light to the sea but a bright sky
  * around it, burns the sky out.
  */
-const KEY = 0.62;
-const CAP = 0.95;
+const KEY = 3.2;
+const CAP = 1.5;
 
 /** Put the two constants into the source of a shader. */
 export function withExposure(source) {
@@ -19,7 +19,8 @@ export function stopsFactor(stops) {
 }
 
 // Channels leak into each other before the curve and are separated after it, so that what is very
-// bright turns white instead of a pure colour. The curve is Narkowicz' fit to ACES (2015, CC0).
+// bright turns white instead of a pure colour. The curve has the form of Narkowicz' fit to ACES
+// (2015, CC0), with hardly a toe: the sea is dark, and its colours live there.
 const LEAK = 0.12;
 
 /** The tone curve, the code of sRGB, and noise of half a step against bands. */
@@ -33,10 +34,10 @@ float grain(vec2 at, float shift) {
 }
 
 vec3 curve(vec3 light) {
-  vec3 x = 0.6 * light;
+  vec3 x = 0.5 * light;
   float grey = dot(x, vec3(0.3333));
   x = mix(x, vec3(grey), ${LEAK.toFixed(3)});
-  x = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  x = clamp(x * (2.4 * x + 0.3) / (x * (2.4 * x + 0.85) + 0.33), 0.0, 1.0);
   grey = dot(x, vec3(0.3333));
   return clamp((x - ${LEAK.toFixed(3)} * grey) / (1.0 - ${LEAK.toFixed(3)}), 0.0, 1.0);
 }
@@ -58,11 +59,11 @@ vec4 shown(vec3 radiance, float exposure) {
 /** Return the numbers of sRGB in 0..1 of a radiance times exposure: the twin of the shader. */
 export function toneCurve(light) {
   const mean = (colour) => colour.reduce((sum, value) => sum + value, 0) / 3;
-  const scaled = light.map((value) => 0.6 * value);
+  const scaled = light.map((value) => 0.5 * value);
   const grey = mean(scaled);
   const bent = scaled.map((value) => {
     const x = value + LEAK * (grey - value);
-    return Math.min(Math.max((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0), 1);
+    return Math.min(Math.max((x * (2.4 * x + 0.3)) / (x * (2.4 * x + 0.85) + 0.33), 0), 1);
   });
   const after = mean(bent);
   return bent.map((value) => {

@@ -7,7 +7,10 @@ import { tileUniforms } from './tiles.js';
 export const WINDOWS = [256, 2048];
 
 /** Side of a tile of the break-up noise [m]. */
-export const BREAK_UP_SIZE = 13;
+export const BREAK_UP_SIZE = 11;
+
+// Enlargement of the noise for the view from afar, no whole number lest the two fall into step.
+const LARGER = 6.7;
 
 // Kept in 0..1 of eight bits; the shader reads them back.
 const NOISE_RANGE = 4;
@@ -90,7 +93,7 @@ export function breakUpNoise(n) {
       const fine = nearBorder(u + bend, v, 27, 3) ** 2;
       const finest = nearBorder(u, v + bend, 61, 5);
       const broad = smoothNoise(x, y, 4, 7) + 0.6 * smoothNoise(x, y, 9, 8);
-      values[j * n + i] = 0.34 * lace + 0.24 * fine + 0.13 * finest + 0.5 * broad;
+      values[j * n + i] = 0.34 * lace + 0.3 * fine + 0.2 * finest + 0.22 * broad;
     }
   }
   // By rank: the shape of the noise stays, its distribution becomes normal.
@@ -169,10 +172,10 @@ class FoamWindow {
 
 /** The foam of a sea. */
 export class FoamField {
-  /** Make the windows, `samples` a side, and the noise, `noise` a side. */
+  /** Make the windows, of so many samples a side each, and the noise, `noise` a side. */
   constructor(gl, samples, noise, anisotropy) {
     this.gl = gl;
-    this.windows = WINDOWS.map((size) => new FoamWindow(gl, size, samples));
+    this.windows = WINDOWS.map((size, i) => new FoamWindow(gl, size, samples[i]));
     this.breakUp = texture(gl, {
       format: 'RGBA8',
       width: noise,
@@ -202,14 +205,25 @@ export class FoamField {
   }
 
   /** Return the uniforms that `FOAM_LOOKUP` needs. */
-  uniforms(eye) {
-    const place = eye.map((at) => at / BREAK_UP_SIZE - Math.floor(at / BREAK_UP_SIZE));
+  uniforms([east, north], wind) {
+    // Patches are drawn out along the wind, in a storm to streaks.
+    const longer = 1 + Math.min((wind?.speed ?? 0) / 14, 2);
+    const angle = ((wind?.direction ?? 0) * Math.PI) / 180;
+    const [c, s] = [Math.cos(angle) / BREAK_UP_SIZE, Math.sin(angle) / BREAK_UP_SIZE];
+    const rows = [
+      [c / longer, s / longer],
+      [-s, c],
+    ];
+    const place = rows.map(([x, y]) => x * east + y * north);
+    const wrapped = (scale) => place.map((at) => at / scale - Math.floor(at / scale));
     return {
       foam_near: this.windows[0].map,
       foam_far: this.windows[1].map,
-      foam_frames: this.windows.map((one) => one.frame(eye)),
+      foam_frames: this.windows.map((one) => one.frame([east, north])),
       break_up: this.breakUp,
-      break_up_frame: [...place, 1 / BREAK_UP_SIZE],
+      break_up_axes: [rows[0][0], rows[1][0], rows[0][1], rows[1][1]],
+      break_up_places: [wrapped(1), wrapped(LARGER)],
+      break_up_larger: LARGER,
     };
   }
 

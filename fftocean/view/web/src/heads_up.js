@@ -108,6 +108,7 @@ export class HeadsUp {
       'aria-label': 'The spectrum by frequency and by direction, specified beside realised',
     });
     this.list = element('dl', { class: 'facts' });
+    this.notes = element('div', { class: 'notes' });
     this.verification = element('div', { class: 'verification', role: 'status' });
     this.source = element('p', { class: 'source' });
     this.sentence = element('p', { class: 'sentence' });
@@ -138,6 +139,7 @@ export class HeadsUp {
       this.plot,
       this.list,
       this.words,
+      this.notes,
       this.verification,
     );
     this.facts = new Map();
@@ -175,6 +177,11 @@ export class HeadsUp {
   showQuality(quality) {
     this.text('quality', quality ?? '');
     this.cells.quality.dataset.quality = quality ?? '';
+  }
+
+  /** Show what is worth knowing of the sea and of the picture. */
+  showNotes(notes) {
+    this.notes.replaceChildren(...notes.map((text) => element('p', { class: 'note', text })));
   }
 
   /** Show what changes with time. */

@@ -132,10 +132,14 @@ export class Layout {
     root.prepend(canvas);
     root.append(
       element('h1', { class: 'spoken', text: title }),
-      element('div', { class: 'top' }, this.chip, this.figures),
-      element('div', { class: 'bottom' }, this.viewLabel, this.bar),
+      element(
+        'div',
+        { class: 'frame' },
+        element('div', { class: 'top' }, this.chip, this.figures),
+        this.controls,
+        element('div', { class: 'bottom' }, this.viewLabel, this.bar),
+      ),
       ...this.split,
-      this.controls,
       this.toasts,
       this.banner,
       this.dropHint,

@@ -13,12 +13,20 @@ import { Water } from './water.js';
  * picture for one of the page.
  */
 export const QUALITIES = {
-  low: { columns: 96, rings: 112, sky: 256, foam: 128, noise: 128, anisotropy: 2, pixelRatio: 1 },
+  low: {
+    columns: 96,
+    rings: 112,
+    sky: 256,
+    foam: [128, 256],
+    noise: 128,
+    anisotropy: 2,
+    pixelRatio: 1,
+  },
   medium: {
     columns: 192,
     rings: 224,
     sky: 512,
-    foam: 512,
+    foam: [512, 1024],
     noise: 256,
     anisotropy: 8,
     pixelRatio: 1,
@@ -27,7 +35,7 @@ export const QUALITIES = {
     columns: 384,
     rings: 384,
     sky: 512,
-    foam: 1024,
+    foam: [1024, 2048],
     noise: 512,
     anisotropy: 16,
     pixelRatio: 2,
@@ -130,7 +138,7 @@ export class Renderer {
     const exposureFactor = stopsFactor(full.exposure);
     const shared = {
       ...tiles,
-      ...this.foam.uniforms([camera.east, camera.north]),
+      ...this.foam.uniforms([camera.east, camera.north], source.document.wind),
       floating: this.floating.position,
       floating_tilt: this.floating.tilt,
       eye_height: camera.height,

@@ -49,15 +49,22 @@ export function missingGraphics(gl) {
   );
 }
 
+/** Return the sentence for an error of the picture. */
+export function cannotDraw(error) {
+  return `The picture cannot be drawn: ${error.message}`;
+}
+
 /** A canvas, its WebGL context, the simulation or the playback, and the renderer. */
 export class Stage {
   /**
    * Ask for a context on a canvas.
-   * `onChange()` hears that a picture must be drawn, `onNote(text)` a sentence for the screen,
-   * `onCanvas(canvas)` that another canvas has taken the place of the old one.
+   * `onChange()` hears that a picture must be drawn, `onTrouble(text)` why there is none,
+   * `onNote(text)` what is worth knowing of the one there is, `onCanvas(canvas)` that another
+   * canvas has taken the place of the old one.
    */
-  constructor(canvas, { onChange, onNote, onCanvas, prefer = 'gpu' }) {
+  constructor(canvas, { onChange, onTrouble, onNote, onCanvas, prefer = 'gpu' }) {
     this.onChange = onChange;
+    this.onTrouble = onTrouble;
     this.onNote = onNote;
     this.onCanvas = onCanvas;
     this.prefer = prefer;
@@ -173,6 +180,7 @@ export class Stage {
     this.renderer = new Renderer(gl, { quality: LEVELS[this.level].quality });
     this.timer = new GpuTimer(gl);
     this.foamIsNew = true;
+    this.onTrouble('');
     this.onChange();
   }
 
@@ -220,7 +228,7 @@ export class Stage {
     event.preventDefault();
     this.losses += 1;
     this.forget();
-    this.onNote('The graphics context was lost; the picture comes back.');
+    this.onTrouble('The graphics context was lost; the picture comes back.');
     clearTimeout(this.waiting);
     this.waiting = setTimeout(() => this.replaceCanvas(), 1000 * PATIENCE);
   }
@@ -233,12 +241,8 @@ export class Stage {
 
   /** Make everything again, and show why where that fails. */
   rebuild() {
-    if (!this.sea && !this.bake) {
-      this.onNote('');
-      return;
-    }
-    this.onNote('');
-    this.build().catch((error) => this.onNote(`The picture cannot be drawn: ${error.message}`));
+    if (!this.sea && !this.bake) this.onTrouble('');
+    else this.build().catch((error) => this.onTrouble(cannotDraw(error)));
   }
 
   /** Put a new canvas in the place of one whose context does not come back. */
@@ -251,7 +255,7 @@ export class Stage {
     this.onCanvas(fresh);
     if (focused) fresh.focus();
     if (this.gl) this.rebuild();
-    else this.onNote(missingGraphics(null));
+    else this.onTrouble(missingGraphics(null));
   }
 
   /** Forget objects of a lost context: there is nothing to free. */

@@ -1,4 +1,5 @@
 // Where the eye stands in each tile of a sea, in double precision.
+import { SHRUNK } from './shaders/tiles.js';
 
 // The shears that keep tiles from repeating: wave vectors in tiles, and the gradient of each.
 const SHEARS = [
@@ -49,7 +50,11 @@ export function tileUniforms(tiles, east, north) {
     shifts.push(shear);
     phases.push(phase);
   }
+  const { lx, ly } = tiles.at(-1);
+  const size = Math.max(lx, ly);
+  const ripple = [0.8 * east - 0.6 * north, 0.6 * east + 0.8 * north];
   return {
+    ripple_frame: [...ripple.map((at) => fraction((SHRUNK * at) / size)), 1 / size],
     tile_frames: frames,
     shear_waves: waves,
     shear_shifts: shifts,

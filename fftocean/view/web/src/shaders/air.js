@@ -205,9 +205,9 @@ void main() {
       float up = (1.0 - square) / (1.0 + square);
       vec3 radiance = textureLod(sky, at, log2(float(textureSize(sky, 0).x) / 32.0)).rgb;
       irradiance += radiance * solid * up;
-      // The fourth power weighs the brightest parts: what would be burnt out first.
+      // The eighth power weighs the brightest parts: what would be burnt out first.
       float level = luminance(radiance), seen = up < 0.6 ? solid : 0.0;
-      bright += level * level * level * level * seen;
+      bright += pow(level, 8.0) * seen;
       area += seen;
     }
   }
@@ -219,8 +219,8 @@ void main() {
   }
   float from_sun = luminance(SUN_IRRADIANCE * sunlight(vec3(0.0, 0.0, EARTH + 20.0)));
   float middle = luminance(irradiance) + (0.25 * max(sun.z, 0.0) + 0.02) * from_sun;
-  float burnt = pow(bright / area, 0.25);
-  light = vec4(min(EXPOSURE_KEY / middle, EXPOSURE_CAP / burnt), irradiance);
+  float burnt = pow(bright / area, 0.125);
+  light = vec4(min(EXPOSURE_KEY / (middle + 0.25), EXPOSURE_CAP / (burnt + 0.15)), irradiance);
 }`;
 
 /** The sky behind the water, with the sun's disc. */

@@ -57,7 +57,9 @@ void main() {
 export const FOAM_LOOKUP = `
 uniform sampler2D foam_near, foam_far, break_up;
 uniform vec4 foam_frames[2]; // place of the eye in the window, 1 / size, distance of the edge [m]
-uniform vec3 break_up_frame; // place of the eye in the noise, 1 / size
+uniform mat2 break_up_axes; // from places on the water to the noise, which wind draws out
+uniform vec2 break_up_places[2]; // of the eye, in the noise and in its enlargement
+uniform float break_up_larger;
 
 // The normal distribution and its inverse by Winitzki's (2008) error function, a pair.
 float above(float x) {
@@ -71,22 +73,41 @@ float threshold_of(float share) {
   return 1.4142136 * sign(twice) * sqrt(max(sqrt(part * part - logarithm / 0.147) - part, 0.0));
 }
 
-// (coverage, patches of foam in 0..1, coverage drawn out in time)
+// Coverage, part of it spread over the water around: averages of coverage keep its mean, and the
+// noise makes streaks of what they spread.
+float spread_cover(sampler2D window, vec2 place, float level) {
+  vec2 cells = place * float(textureSize(window, 0).x), along = dFdx(cells), across = dFdy(cells);
+  float pixel = 0.5 * log2(max(max(dot(along, along), dot(across, across)), 1e-8));
+  return mix(texture(window, place).y, textureLod(window, place, max(pixel, level)).y, 0.6);
+}
+
+// (coverage, share of the pixel that foam covers, variation of its white about 1)
 vec3 foam_at(vec2 rest) {
   float out_near = max(abs(rest.x), abs(rest.y)) / foam_frames[0].w;
   float out_far = max(abs(rest.x), abs(rest.y)) / foam_frames[1].w;
   vec2 place_far = foam_frames[1].xy + rest * foam_frames[1].z;
   vec2 place_near = foam_frames[0].xy + rest * foam_frames[0].z;
-  float far_cover = texture(foam_far, place_far).y, near_cover = texture(foam_near, place_near).y;
+  float far_cover = spread_cover(foam_far, place_far, 0.8);
+  float near_cover = spread_cover(foam_near, place_near, 2.6);
   float mean_cover = textureLod(foam_far, vec2(0.5), 20.0).y;
   float cover = mix(far_cover, mean_cover, smoothstep(0.8, 1.0, out_far));
   cover = mix(near_cover, cover, smoothstep(0.75, 1.0, out_near));
-  vec2 place = break_up_frame.xy + rest * break_up_frame.z;
-  vec2 noise = (texture(break_up, place).xy - vec2(0.5, 0.0)) * vec2(8.0, 16.0);
-  float lost = max(noise.y - noise.x * noise.x, 0.0);
-  float patches = above((threshold_of(cover) - noise.x) / sqrt(lost + 0.02));
+  vec2 place = break_up_axes * rest, far_place = break_up_places[1] + place / break_up_larger;
+  vec2 along = dFdx(place), across = dFdy(place);
+  float pixel = sqrt(max(dot(along, along), dot(across, across))) * float(textureSize(break_up, 0).x);
+  vec2 fine = (texture(break_up, break_up_places[0] + place).xy - vec2(0.5, 0.0)) * vec2(8.0, 16.0);
+  vec2 broad = (texture(break_up, far_place).xy - vec2(0.5, 0.0)) * vec2(8.0, 16.0);
+  // From afar an enlargement takes over; a weighted sum of normal variables is normal.
+  float larger = smoothstep(0.5, 4.0, log2(max(pixel, 1e-4)));
+  vec2 weights = normalize(vec2(1.0 - 0.85 * larger, 0.3 + 0.7 * larger));
+  float noise = weights.x * fine.x + weights.y * broad.x;
+  vec2 lost_each = max(vec2(fine.y, broad.y) - vec2(fine.x, broad.x) * vec2(fine.x, broad.x), 0.0);
+  float lost = min(dot(weights * weights, lost_each), 1.0);
+  // A soft edge adds to the variance, and moves the threshold by as much.
+  float soft = 0.45;
+  float patches = above((threshold_of(cover) * sqrt(1.0 + soft) - noise) / sqrt(lost + soft));
   // Where almost none of the noise is left, nothing is: the rest of the pair's error goes too.
   patches = mix(patches, cover, smoothstep(0.75, 0.95, lost));
-  return vec3(cover, cover < 2e-4 ? cover : patches, 0.0);
+  return vec3(cover, cover < 2e-4 ? cover : patches, 1.0 + 0.12 * noise);
 }
 `;

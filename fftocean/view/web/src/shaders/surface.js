@@ -2,7 +2,7 @@
 import { FRAGMENT_HEAD } from '../gl.js';
 import { SKY_LOOKUP } from './air.js';
 import { FOAM_LOOKUP } from './breaking.js';
-import { displacementSum, slopeSum, tilePlaces } from './tiles.js';
+import { displacementSum, rippleSum, slopeSum, tilePlaces } from './tiles.js';
 
 const VERTEX_HEAD = `#version 300 es
 precision highp float;
@@ -123,7 +123,7 @@ Surface displaced_surface(Sums sums, vec3 beyond) {
   float jacobian = max(a * b - c * c, 0.15);
   vec2 slope = vec2(b * sums.slope.x - c * sums.slope.y, a * sums.slope.y - c * sums.slope.x) / jacobian;
   slope *= min(1.0, 2.2 / max(length(slope), 1e-4));
-  vec3 variance = sums.variance + beyond;
+  vec3 variance = max(sums.variance + beyond, vec3(2e-5, 2e-5, -1.0));
   // A covariance cannot exceed what the variances allow; filtering of half floats may say so.
   float most = 0.98 * sqrt(variance.x * variance.y);
   variance.z = clamp(variance.z, -most, most);
@@ -144,7 +144,8 @@ out vec4 colour;
 /** Return the source of the fragment shader that lights the water. */
 export function waterShader(count, tone) {
   return `${FRAGMENT_HEAD}${SKY_LOOKUP}${tone}${tilePlaces(count)}${slopeSum(count)}
-${VISIBLE_SLOPES}${SURFACE}${FOAM_LOOKUP}${LIFTED_EYE}${INPUTS}
+uniform vec3 ripple_frame; // place of the eye in the ripples, and 1 / size of their tile
+${rippleSum(count)}${VISIBLE_SLOPES}${SURFACE}${FOAM_LOOKUP}${LIFTED_EYE}${INPUTS}
 uniform sampler2D sky, light;
 uniform vec3 sunward, absorption, backscattering, reflectance;
 uniform float wave_height, air_extinction, crest_light;
@@ -169,7 +170,9 @@ void main() {
   float distance_ = length(place);
   vec3 to_eye = -place / distance_;
   Sums sums = summed(rest);
-  Surface surface = displaced_surface(sums, beyond);
+  vec3 unseen = beyond;
+  add_ripples(rest, sums, unseen);
+  Surface surface = displaced_surface(sums, unseen);
 
   // Along and across the line of sight.
   float level_part = max(length(to_eye.xy), 1e-4);
@@ -244,7 +247,7 @@ void main() {
   // Foam: white patches, and the bubbles below them that make the water pale.
   vec3 foam = foam_at(rest);
   float sunlit = smoothstep(-0.02, 0.06, sunward.z) * (0.3 + 0.7 * max(dot(facet, sunward), 0.0));
-  vec3 white = 0.55 / PI * (sun_light * sunlit + sky_light);
+  vec3 white = 0.55 / PI * foam.z * (sun_light * sunlit + sky_light);
   vec3 bubbles = body + 0.12 / PI * falling * exp(-(absorption + backscattering) * 5.0);
   radiance = mix(radiance, mix(radiance, bubbles, 0.75), smoothstep(0.0, 0.6, foam.x) * (1.0 - share) * 0.8);
   radiance = mix(radiance, white, foam.y * 0.9);

@@ -1,5 +1,8 @@
 // Sums over the tiles of a sea, at a place of the water at rest.
 
+/** How much smaller the ripples are than the last tile that they are a copy of. */
+export const SHRUNK = 5.3;
+
 /** Return numbered lines of a shader: samplers can be indexed with constants only. */
 export function eachTile(count, line) {
   return Array.from({ length: count }, (_, i) => line.replaceAll('TILE', String(i))).join('\n');
@@ -83,6 +86,35 @@ Sums summed(vec2 rest${spaced ? ', float spacing' : ''}) {
   ${spaced ? 'float level;' : ''}
   ${eachTile(count, line)}
   return sums;
+}
+`;
+}
+
+/**
+ * Return the source of a function that adds ripples to the sums of \`slopeSum\`: part of the slope
+ * variance of the waves that no tile holds is drawn, as the last tile shrunk and turned.
+ *
+ * What is drawn leaves the variance that is not: the total stays, and filtering gives it back.
+ */
+export function rippleSum(count) {
+  const last = count - 1;
+  return `
+void add_ripples(vec2 rest, inout Sums sums, inout vec3 beyond) {
+  vec3 whole = textureLod(moment_maps[${last}], vec2(0.5), 20.0).xyz;
+  if (min(whole.x, whole.y) < 1e-6) return;
+  float share = min(0.6 * min(beyond.x / whole.x, beyond.y / whole.y), 0.5);
+  const mat2 TURN = mat2(0.8, 0.6, -0.6, 0.8);
+  float shrunk = ${SHRUNK.toFixed(1)};
+  vec2 at = ripple_frame.xy + shrunk * ripple_frame.z * (TURN * rest);
+  vec4 slopes = texture(slope_maps[${last}], at);
+  vec3 moments = texture(moment_maps[${last}], at).xyz;
+  vec2 slope = slopes.xy * TURN; // turned back
+  mat2 second = transpose(TURN) * mat2(moments.x, moments.z, moments.z, moments.y) * TURN;
+  mat2 all = transpose(TURN) * mat2(whole.x, whole.z, whole.z, whole.y) * TURN;
+  float root = sqrt(share);
+  sums.slope += root * slope;
+  vec3 lost = vec3(second[0][0], second[1][1], second[0][1]) - vec3(slope * slope, slope.x * slope.y);
+  beyond += share * (lost - vec3(all[0][0], all[1][1], all[0][1]));
 }
 `;
 }
