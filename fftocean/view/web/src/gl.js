@@ -77,6 +77,13 @@ function layout(gl, format) {
   return layouts[format];
 }
 
+/** Delete the object of a context, unless it went with a context that was lost. */
+function free(owner, kind) {
+  const { gl, handle } = owner;
+  if (handle && gl[`is${kind}`](handle)) gl[`delete${kind}`](handle);
+  owner.handle = null;
+}
+
 /** A linked program; its uniforms are set by name. */
 export class Program {
   /**
@@ -145,8 +152,7 @@ export class Program {
 
   /** Free the program. */
   dispose() {
-    this.gl.deleteProgram(this.handle);
-    this.handle = null;
+    free(this, 'Program');
   }
 }
 
@@ -265,8 +271,7 @@ export class Texture {
 
   /** Free the texture. */
   dispose() {
-    this.gl.deleteTexture(this.handle);
-    this.handle = null;
+    free(this, 'Texture');
   }
 }
 
@@ -318,8 +323,7 @@ export class Target {
 
   /** Free the framebuffer, and its textures too unless they are kept. */
   dispose({ keepTextures = false } = {}) {
-    this.gl.deleteFramebuffer(this.handle);
-    this.handle = null;
+    free(this, 'Framebuffer');
     if (keepTextures) return;
     for (const one of this.textures) one.dispose();
     this.depth?.dispose();

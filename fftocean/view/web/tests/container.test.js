@@ -53,13 +53,19 @@ test('files follow each other with their padding, in a view that does not begin 
   assert.equal(kindOf(shifted.subarray(3)), 'FFTO');
 });
 
-test('the lift of stretch_xy is that of the document, or follows from the size', () => {
-  const lift = (about, size) => {
-    const bytes = container([{ ...TILE, size }], about);
-    return decodeSea(bytes).tiles[0].mixed;
-  };
-  assert.equal(lift({}, [500, 500]), 8);
-  assert.equal(lift({ tiles: [{ n: [8, 4], size: [9, 9], mixed: 0.25 }] }, [9, 9]), 0.25);
+test('lifts bring the second of two fields to the size of the first, in powers of two', () => {
+  const lifts = (size, waves) => decodeSea(container([{ ...TILE, size, waves }])).tiles[0].lifts;
+  const wave = (mx, my) => [[mx, my, 4, 0.3, 0.4]];
+  // displacements are as kx : ky, height and stretch_xy as k : kx ky, here sqrt(2) : 1 times 2,
+  // 1/2 and 32 metres; slopes as kx : ky, stretches as kx^2 : ky^2
+  assert.deepEqual(lifts([4 * Math.PI, 4 * Math.PI], wave(1, 1)), [1, 4, 1, 1]);
+  assert.deepEqual(lifts([Math.PI, Math.PI], wave(1, 1)), [1, 1, 1, 1]);
+  assert.deepEqual(lifts([64 * Math.PI, 64 * Math.PI], wave(1, 1)), [1, 64, 1, 1]);
+  assert.deepEqual(lifts([2 * Math.PI, 8 * Math.PI], wave(1, 1)), [4, 4, 4, 16]);
+  // waves along an axis have no displacement, slope or stretch across it
+  assert.deepEqual(lifts([4, 4], wave(1, 0)), [2 ** 40, 2 ** 40, 2 ** 40, 2 ** 40]);
+  assert.deepEqual(lifts([4, 4], wave(0, 1)), [2 ** -40, 2 ** 40, 2 ** -40, 2 ** -40]);
+  assert.deepEqual(lifts([4, 4], []), [1, 1, 1, 1]);
 });
 
 test('a reference answer is a list of fields by name', () => {
