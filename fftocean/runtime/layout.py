@@ -24,7 +24,7 @@ PHASES = 2**32
 """Cycles times ticks stay below this, so that a phase is exact in unsigned integers of 32 bits."""
 MOST_TILES = 16
 MOST_DOCUMENT = 2**20  # bytes
-MOST_JOB = 2**16  # characters, of which a job file has no more either
+MOST_JOB = 2**18  # characters: four times those of the longest job file
 MOST_POINTS = 4096  # of a tile, at which check.json has the fields
 MOST_BYTES = 2**30  # of all files: 16 tiles of 1024 x 1024 waves and their textures have 640 MB
 

@@ -50,10 +50,14 @@ def test_tiles_are_a_cascade_with_the_settings_of_the_job(run):
     (event,) = events(out)
     assert (event["event"], event["folder"], event["tiles"]) == ("done", "out", 2)
     assert Path("out/tile1_wave.bin").stat().st_size == 16 * 16 * 8
-    loaded = fo.load_sea("out")
-    job = fo.Job.default()
+    loaded, job = fo.load_sea("out"), fo.Job.default()
     expected = fo.Cascade(job.sea(), [(16, 100.0), (16, 17.0)], loop=40.0, seed=5, choppiness=0.8)
     assert loaded.choppiness == 0.8
+    text = json.loads(Path("out/sea.json").read_text())["job"]
+    assert text.startswith("# fftocean export-sea job.toml -o sea --tiles 16:100,16:17\n")
+    again = fo.Job.from_toml(text)
+    changes = {"ocean.loop": 40.0, "ocean.seed": 5, "ocean.choppiness": 0.8}
+    assert again.settings == job.replaced(changes).settings
     for found, tile in zip(loaded.loop_frame(3, 8), expected.loop_frame(3, 8), strict=True):
         assert found.height == pytest.approx(tile.height, abs=1e-6)
     assert json.loads(Path("out/sea.json").read_text())["ticks"] == 1024

@@ -143,7 +143,7 @@ def test_seas_of_several_systems_and_of_none_are_packed():
         ("quality", "fast", "quality must be 'exact' or 'moving'"),
         ("foam", 0.7, "foam must be a Foam"),
         ("job", fo.Job.default(), "job must be TOML text"),
-        ("job", "#" * 70_000, "job must be TOML text of at most 65536 characters"),
+        ("job", "#" * 300_000, "job must be TOML text of at most 262144 characters"),
         ("wind", 8.0, r"wind must be \(speed, direction\)"),
         ("wind", (float("nan"), 0.0), r"wind\[0\] must be between 0 and 150 m/s"),
         ("wind", (8.0, "N"), r"wind\[1\] must be a number"),
