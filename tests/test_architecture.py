@@ -78,6 +78,17 @@ INNER = {
         ["cascade"],
         ["dry_run", "repair"],
     ],
+    "runtime": [
+        ["layout"],
+        ["contents", "planes", "source"],
+        ["records"],
+        ["describe", "reference"],
+        ["document"],
+        ["package", "readme"],
+        ["container", "decode"],
+        ["folder"],
+        ["check"],
+    ],
 }
 
 ONLY = {
@@ -116,6 +127,13 @@ def declared(module: str) -> str:
     return module
 
 
+def step_of(module: str, *, across: bool) -> tuple[int, int] | None:
+    """
+    Return the stair and the step of a module; across rooms, that of its room if it has none.
+    """
+    return STEP.get(module) or (STEP.get(room(module)) if across else None)
+
+
 def imports(module: str, source: str, known: set[str], is_package: bool = False) -> set[str]:
     """Return the modules of the package that a source imports, but for its declared doors."""
     return imports_in(module, source, known | FLOOR.keys(), is_package, DOORS)
@@ -147,8 +165,9 @@ def objection(importer: str, imported: str) -> str | None:
         return f"floor {FLOOR[b]} lies above floor {FLOOR[a]}"
     if importer == imported:  # the modules of one package
         return None
-    if importer in STEP and imported in STEP and STEP[importer][0] == STEP[imported][0]:
-        return None if STEP[imported][1] < STEP[importer][1] else "it is no step further down"
+    above, below = (step_of(module, across=a != b) for module in (importer, imported))
+    if above and below and above[0] == below[0]:
+        return None if below[1] < above[1] else "it is no step further down"
     return None if a == b else f"both are on floor {FLOOR[a]}"
 
 

@@ -131,7 +131,7 @@ def _report(
 COMMAND = Command(
     name="check",
     arguments="DIR",
-    summary="find files of a bake or package that are missing or changed, and maps that fail "
+    summary="find missing or changed files of a bake or package, and maps that fail "
     "physical checks (seam, loop, range, normals)",
     examples=("fftocean check sea", "fftocean check sea --repair"),
     run=run,

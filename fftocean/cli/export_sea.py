@@ -63,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
             _water(job, options.tiles),
             options.output,
             textures=options.textures,
+            job=_job_text(job, options.tiles),
             ticks=options.ticks,
             foam=Foam(**job.foam),
             wind=wind,
@@ -108,6 +109,15 @@ def _water(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Cascad
         raise
     except ParameterError as error:
         raise JobError(f"{job.source}: {error}") from None
+
+
+def _job_text(job: "Job", tiles: list[tuple[int, float]] | None) -> str:
+    """Return the job as TOML; tiles, which a job does not have, in a comment."""
+    from fftocean.view.job_text import job_text
+
+    given = ",".join(f"{n}:{size:g}" for n, size in tiles or ())
+    flags = f" --tiles {given}" if tiles else ""
+    return job_text(job, comments=[f"fftocean export-sea job.toml -o sea{flags}"])
 
 
 def _sizes(document: Mapping[str, Any]) -> dict[str, int]:

@@ -30,7 +30,6 @@ TOLERANCE = 1e-6
 Largest error of a field at a point, relative to the largest of the tile's values: the amplitudes
 are rounded to float32, each by up to 6e-8.
 """
-_MOST_POINTS = 4096
 _MOST_MOMENTS = 64
 
 
@@ -89,6 +88,9 @@ def _files(folder: Path, contents: Contents) -> tuple[dict[str, bytes], list[Fin
     names = {file.sha256: file.name for file in contents.files}
     for file in contents.files:
         path = folder / file.name
+        if path.is_file() and path.stat().st_size > layout.MOST_BYTES:
+            found.append(Finding("changed", file.name, f"it has more than {file.bytes} bytes"))
+            continue
         data = None if path.is_symlink() else read_whole(path, layout.MOST_BYTES)
         if data is None:
             found.append(Finding("missing", file.name, "it does not exist"))
@@ -154,7 +156,11 @@ def _worst(
     """Return the largest relative error of any field of a tile, and the name of that field."""
     grid = ocean.grid
     columns, rows = (np.array(tile[name], dtype=np.int64) for name in ("columns", "rows"))
-    if columns.shape != rows.shape or columns.size > _MOST_POINTS or len(moments) > _MOST_MOMENTS:
+    if (
+        columns.shape != rows.shape
+        or columns.size > layout.MOST_POINTS
+        or len(moments) > _MOST_MOMENTS
+    ):
         raise ValueError("columns and rows must be lists of one length")
     assert ocean.loop is not None  # a package has one
     sums = [

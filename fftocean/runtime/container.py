@@ -78,9 +78,13 @@ def parsed(data: bytes) -> Any:
         IntegrityError: it is none.
     """
     try:
-        return json.loads(data)
+        return json.loads(data, parse_constant=_refuse)
     except (ValueError, RecursionError) as error:
         raise IntegrityError(f"{DOCUMENT} is not JSON: {error!s:.80}") from None
+
+
+def _refuse(constant: str) -> Any:
+    raise ValueError(f"{constant} is no number in JSON")
 
 
 def require_same(data: bytes, file: File) -> None:

@@ -18,12 +18,14 @@ from fftocean.limits import (
     SIZE,
     SURFACE_TENSION,
     Count,
+    Quantity,
 )
 from fftocean.runtime import layout
 
 Checked = TypeVar("Checked")
 
 _SIDE = Count("", layout.SIDES[0], layout.SIDES[-1])
+_LIFT = Quantity("", 2.0**-40, 2.0**40)
 _CYCLES = Count("", 0, layout.MOST_CYCLES)
 _WAVES = Count("", 0, layout.SIDES[-1] ** 2)
 _BYTES = Count("", 0, layout.MOST_BYTES)
@@ -165,6 +167,9 @@ def _tile(entries: _Entries) -> Tile:
             f"{entries.name('waves')} must fit the tile and its most_cycles, "
             f"got {waves} waves of up to {most} cycles on {nx} x {ny}"
         )
+    lift = entries.take("mixed", _LIFT.check)
+    if math.frexp(lift)[0] != 0.5:
+        raise ParameterError(f"{entries.name('mixed')} must be a power of two, got {lift!r}")
     return Tile(grid, band, entries.optional("seed", SEED.check), waves, most)
 
 

@@ -81,7 +81,8 @@ def amplitudes_of(data: bytes, tile: Tile, contents: Contents, name: str) -> Amp
     records = np.frombuffer(data, RECORD)
     _require_records(records, tile, name)
     h0 = np.zeros(grid.shape, np.complex64)
-    h0[records["my"], records["mx"]] = records["re"] + np.complex64(1j) * records["im"]
+    for part, key in ((h0.real, "re"), (h0.imag, "im")):  # as they are, signs of 0 too
+        part[records["my"], records["mx"]] = records[key]
     try:
         made = waves_from_planes(
             h0,

@@ -60,23 +60,26 @@ def realised_state(waves: WaveTable, loop: float) -> dict[str, float]:
     }
 
 
-def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float | None] | None:
+def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float] | None:
     """
     Return Hs [m], Tp [s] and mean direction [degrees] of a sea; None for given waves.
 
-    Unless `exact`, Hs is a sum over a fixed grid of frequencies, good to 1 %, and the direction,
-    which takes an integral over all of the spectrum, is None.
+    Unless `exact`, integrals are sums over a fixed grid of frequencies, good to 1 %, and the
+    direction is the mean of the systems' own directions, weighted with energy.
     """
     if sea is None:
         return None
     if exact:
         state = specified(sea)
         return {"hs": state.hs, "tp": state.tp, "direction": state.mean_direction}
-    m0 = 0.0
-    for system in sea.systems:
+    energy = np.zeros(len(sea.systems))
+    for i, system in enumerate(sea.systems):
         omega = np.geomspace(_LOWEST, _HIGHEST, _FREQUENCIES) * system.spectrum.peak
-        m0 += float(np.trapezoid(system.spectrum(omega) * omega, np.log(omega)))
-    return {"hs": 4.0 * math.sqrt(m0), "tp": sea.tp, "direction": None}
+        energy[i] = np.trapezoid(system.spectrum(omega) * omega, np.log(omega))
+    direction, _ = moments.mean_direction_and_spread(
+        energy, np.radians([system.direction for system in sea.systems])
+    )
+    return {"hs": 4.0 * math.sqrt(float(np.sum(energy))), "tp": sea.tp, "direction": direction}
 
 
 def captured_slopes(waves: WaveTable) -> list[float]:

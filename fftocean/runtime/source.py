@@ -24,7 +24,10 @@ class Source:
     given: Ocean | Cascade | None = None  # of which these are the waves
 
     def __post_init__(self) -> None:
-        CHOPPINESS.check("choppiness", self.choppiness)
+        object.__setattr__(self, "choppiness", CHOPPINESS.check("choppiness", self.choppiness))
+        for tile in self.tiles:
+            if not isinstance(tile, Amplitudes):
+                raise ParameterError(f"tiles must be Amplitudes, got {described(tile)}")
         seeds = self.seeds or (None,) * len(self.tiles)
         object.__setattr__(self, "seeds", seeds)
         if not 1 <= len(self.tiles) <= MOST_TILES or len(seeds) != len(self.tiles):
@@ -92,7 +95,7 @@ class Source:
 
 _INSTEAD = {
     "Eulerian": "an Eulerian, whose fields over places are not linear; give its ocean",
-    "Window": "a Window, which shows a part of a cascade; give its cascade",
+    "Window": "a Window, which shows a part of its source; give its source",
     "Query": "a Query; give the ocean or cascade that it asks",
     "Job": "a Job; give job.ocean()",
     "Sea": "a Sea, which has no waves yet; give Ocean(sea, ...) or Cascade(sea, ...)",
