@@ -27,14 +27,18 @@ export class AmplitudeBlend {
     this.scaleFrom = 0;
     this.scaleTo = 1;
     this.duration = 0;
+    this.numbers = null; // of the document, while they change
     this.next = null; // a sea that rises after this one has come to rest
     this.pending = null; // tiles whose phases are brought to those of `sea` at the next tick
     this.revision++;
   }
 
-  /** The document of the sea whose loop and ticks are in use. */
+  /**
+   * The document of the sea whose loop and ticks are in use; its numbers for shading change as the
+   * amplitudes do.
+   */
   get document() {
-    return this.sea.document;
+    return this.numbers ? { ...this.sea.document, ...this.numbers.now } : this.sea.document;
   }
 
   /** The newest sea, which will be shown alone in the end. */
@@ -57,6 +61,7 @@ export class AmplitudeBlend {
     const seen = this.pending ?? { sea: this.sea, tiles: this.shown(), tick: this.lastTick };
     this.from = seen.tiles;
     this.revision++;
+    const numbers = { from: this.document, to: sea.document, total: seconds, passed: 0 };
     if (alike(seen.sea, sea)) {
       this.pending = seen;
       this.sea = sea;
@@ -69,6 +74,19 @@ export class AmplitudeBlend {
       this.to = seen.tiles;
       this.next = sea;
       this.begin(1, 0, 0, 0, seconds / 2);
+    }
+    this.numbers = numbers;
+    this.average();
+  }
+
+  /** Bring the numbers of the document to the time that has passed. */
+  average() {
+    const { from, to, passed, total } = this.numbers;
+    this.numbers.now = {};
+    for (const name of SHADING) {
+      if (name in from && name in to) {
+        this.numbers.now[name] = between(from[name], to[name], Math.min(1, passed / total));
+      }
     }
   }
 
@@ -90,17 +108,20 @@ export class AmplitudeBlend {
   advance(seconds) {
     if (this.duration === 0 || !(seconds > 0)) return;
     this.elapsed += seconds;
+    this.numbers.passed += seconds;
+    this.average();
     const share = Math.min(1, this.elapsed / this.duration);
     const { scaleFrom, scaleTo } = this.ends;
     this.scaleFrom = scaleFrom + share * (this.lastFrom - scaleFrom);
     this.scaleTo = scaleTo + share * (this.lastTo - scaleTo);
     if (share < 1) return;
-    const { next } = this;
-    if (next) {
-      const { duration } = this;
+    if (this.next) {
+      const { duration, next, numbers } = this;
       this.show(next);
+      this.numbers = numbers;
       this.begin(0, 0, 0, 1, duration);
     } else {
+      this.numbers = null;
       this.scaleFrom = 0; // exactly
       this.scaleTo = 1;
       this.duration = 0;
@@ -124,6 +145,17 @@ export class AmplitudeBlend {
   }
 }
 
+/** Members of a document that a renderer shades by. */
+const SHADING = ['choppiness', 'slope_variance', 'foam'];
+
+/** Return what lies between two numbers, or two lists or objects of them. */
+function between(from, to, share) {
+  if (typeof from === 'number' && typeof to === 'number') return from + share * (to - from);
+  if (!from || !to || typeof from !== 'object') return to;
+  const entries = Object.keys(to).map((name) => [name, between(from[name], to[name], share)]);
+  return Array.isArray(to) ? entries.map(([, value]) => value) : Object.fromEntries(entries);
+}
+
 /** Return true if a tick of both documents is the same share of the same loop. */
 function sameTicks(a, b) {
   return a.loop === b.loop && a.ticks === b.ticks;
@@ -134,7 +166,7 @@ export function alike(a, b) {
   return (
     a.tiles.length === b.tiles.length &&
     a.tiles.every((tile, i) =>
-      ['nx', 'ny', 'lx', 'ly', 'mixed'].every((name) => tile[name] === b.tiles[i][name]),
+      ['nx', 'ny', 'lx', 'ly'].every((name) => tile[name] === b.tiles[i][name]),
     )
   );
 }

@@ -13,6 +13,7 @@ export const FIELDS = [
 ];
 
 const ALIGNMENT = 16;
+const MOST_LIFT = 40; // a power of two that leaves single precision enough of its range
 const WAVE_BYTES = 14; // int16 mx, my; uint16 cycles; float32 re, im
 
 /** Return the number of bytes with its padding. */
@@ -137,8 +138,41 @@ export function decodeTile(about, waves, depth) {
     h0[4 * opposite + 3] = -im;
     wave[2 * here] = wave[2 * opposite] = view.getUint16(at + 4, true);
   }
-  const mixed = about.mixed ?? 2 ** Math.round(Math.log2(lx / 64));
-  return { nx, ny, lx, ly, mixed, h0, wave };
+  return { nx, ny, lx, ly, lifts: liftsOf(h0, wave, nx, ny, lx, ly), h0, wave };
+}
+
+/**
+ * Return the powers of two that lift the second of two fields to the size of the first.
+ *
+ * Two real fields are the parts of one complex one, whose rounding errors are those of the larger
+ * part: without a lift the smaller field would drown in them, where waves run along an axis, say.
+ *
+ * @returns {number[]} for displace_y, stretch_xy, slope_y and stretch_yy, beside displace_x,
+ *   height, slope_x and stretch_xx
+ */
+function liftsOf(h0, wave, nx, ny, lx, ly) {
+  const firsts = [0, 0, 0, 0]; // variances, but for a common factor
+  const seconds = [0, 0, 0, 0];
+  for (let j = 0; j < ny; j++) {
+    const ky = (2 * Math.PI * (2 * j < ny ? j : j - ny)) / ly;
+    for (let i = 0; i < nx; i++) {
+      const at = j * nx + i;
+      const square = h0[4 * at] ** 2 + h0[4 * at + 1] ** 2;
+      if (square === 0) continue;
+      const kx = (2 * Math.PI * (2 * i < nx ? i : i - nx)) / lx;
+      const moved = square * wave[2 * at + 1] ** 2;
+      const [xx, yy] = [kx * kx, ky * ky];
+      [moved * xx, square, square * xx, moved * xx * xx].forEach((v, n) => (firsts[n] += v));
+      [moved * yy, moved * xx * yy, square * yy, moved * yy * yy].forEach(
+        (v, n) => (seconds[n] += v),
+      );
+    }
+  }
+  // Where one of them is 0 the ratio is 0 or infinite, or no number without any waves.
+  return firsts.map((first, n) => {
+    const exponent = Math.round(Math.log2(first / seconds[n]) / 2) || 0;
+    return 2 ** Math.min(Math.max(exponent, -MOST_LIFT), MOST_LIFT);
+  });
 }
 
 /** Return the table of a tile's waves without cycles: 0 and 1/(k tanh kh). */

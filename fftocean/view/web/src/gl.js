@@ -22,6 +22,42 @@ export class ContextLost extends Error {
   }
 }
 
+/**
+ * Return the WebGL 2 context of a canvas.
+ *
+ * @throws {Error} there is none; the message is a sentence for the screen
+ */
+export function openContext(canvas, attributes = {}) {
+  const gl = canvas.getContext('webgl2', { powerPreference: 'high-performance', ...attributes });
+  if (!gl) {
+    throw new Error(
+      'This browser offers no WebGL 2, which the sea is drawn with: turn on hardware ' +
+        'acceleration in its settings, update the graphics driver, or use another browser.',
+    );
+  }
+  return gl;
+}
+
+/**
+ * Call functions when the context of a canvas is lost, and when a new one can be used.
+ *
+ * What was made in a lost context is gone: dispose of it, and make it again of the data.
+ *
+ * @returns {function()} call it to watch no longer
+ */
+export function watchContext(canvas, { lost, restored }) {
+  const onLost = (event) => {
+    event.preventDefault(); // or the context would never come back
+    lost();
+  };
+  canvas.addEventListener('webglcontextlost', onLost);
+  canvas.addEventListener('webglcontextrestored', restored);
+  return () => {
+    canvas.removeEventListener('webglcontextlost', onLost);
+    canvas.removeEventListener('webglcontextrestored', restored);
+  };
+}
+
 /** Return the formats of the data of a sized internal format. */
 function layout(gl, format) {
   const layouts = {
@@ -39,6 +75,13 @@ function layout(gl, format) {
   };
   if (!layouts[format]) throw new Error(`a texture's format must be known, got ${format}`);
   return layouts[format];
+}
+
+/** Delete the object of a context, unless it went with a context that was lost. */
+function free(owner, kind) {
+  const { gl, handle } = owner;
+  if (handle && gl[`is${kind}`](handle)) gl[`delete${kind}`](handle);
+  owner.handle = null;
 }
 
 /** A linked program; its uniforms are set by name. */
@@ -109,8 +152,7 @@ export class Program {
 
   /** Free the program. */
   dispose() {
-    this.gl.deleteProgram(this.handle);
-    this.handle = null;
+    free(this, 'Program');
   }
 }
 
@@ -229,8 +271,7 @@ export class Texture {
 
   /** Free the texture. */
   dispose() {
-    this.gl.deleteTexture(this.handle);
-    this.handle = null;
+    free(this, 'Texture');
   }
 }
 
@@ -282,8 +323,7 @@ export class Target {
 
   /** Free the framebuffer, and its textures too unless they are kept. */
   dispose({ keepTextures = false } = {}) {
-    this.gl.deleteFramebuffer(this.handle);
-    this.handle = null;
+    free(this, 'Framebuffer');
     if (keepTextures) return;
     for (const one of this.textures) one.dispose();
     this.depth?.dispose();
@@ -296,7 +336,7 @@ export function target(gl, textures, depth = null) {
 }
 
 /**
- * Draw a program over the whole of a target, or of the current viewport if the target is null.
+ * Draw a program over the whole of a target, or of what is bound now if the target is null.
  *
  * Depth test and blending are left as they are.
  */
