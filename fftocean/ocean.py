@@ -160,10 +160,16 @@ class Ocean:
         return ocean
 
     def with_amplitudes(
-        self, amplitudes: Amplitudes, *, planning: str | None = None, threads: int | None = None
+        self,
+        amplitudes: Amplitudes,
+        *,
+        sea: Sea | None = None,
+        choppiness: float | None = None,
+        planning: str | None = None,
+        threads: int | None = None,
     ) -> "Ocean":
         """
-        Return an ocean of other waves, with the sea, seed, choppiness and computation of this one.
+        Return an ocean of other waves, with the seed and computation of this one.
 
         Filtered waves, say, come from `dataclasses.replace(ocean.amplitudes, forward=...,
         backward=...)`. The grid, depth and loop are those of the new amplitudes.
@@ -171,21 +177,26 @@ class Ocean:
         Args:
             amplitudes: the waves at t = 0, (ny, nx // 2 + 1) each [m]; see `Amplitudes`. Its
                 arrays become read-only.
-            planning, threads: as in `Ocean`; None for those of this ocean.
+            sea: the sea that they realise; None for that of this ocean.
+            choppiness, planning, threads: as in `Ocean`; None for those of this ocean.
 
         Raises:
-            ParameterError: `amplitudes` is of another type, fields overflow `dtype`, too little
-                memory, or a value out of range.
+            ParameterError: `amplitudes` or `sea` is of another type, fields overflow `dtype`, too
+                little memory, or a value out of range.
         """
         if not isinstance(amplitudes, Amplitudes):
             raise ParameterError(f"amplitudes must be Amplitudes, got {described(amplitudes)}")
+        if not isinstance(sea, Sea | None):
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
         computation = self._computation
         if planning is not None:
             computation = replace(computation, planning=planning)
         if threads is not None:
             computation = replace(computation, threads=threads)
         _require_memory(amplitudes.grid, self.dtype)
-        return from_amplitudes(self.sea, self.seed, amplitudes, self.choppiness, computation)
+        sea = self.sea if sea is None else sea
+        choppiness = self.choppiness if choppiness is None else choppiness
+        return from_amplitudes(sea, self.seed, amplitudes, choppiness, computation)
 
     def _set_up(
         self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, computation: Computation
