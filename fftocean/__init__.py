@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fftocean import plots as plots
     from fftocean import readers as readers
     from fftocean import science as science
+    from fftocean import view as view
     from fftocean.baking.bake import bake as bake
     from fftocean.baking.finished.check import Finding as Finding
     from fftocean.baking.finished.check import check as check
@@ -155,6 +156,7 @@ _PUBLIC_MODULES = {
     "readers": "fftocean.readers",
     "science": "fftocean.science",
     "units": "fftocean.physics.units",
+    "view": "fftocean.view",
 }
 _MODULE_OF = {name: module for module, names in _NAMES_BY_MODULE.items() for name in names}
 

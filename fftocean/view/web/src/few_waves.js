@@ -1,33 +1,37 @@
 // The few-wave models: at most 64 waves, summed at each vertex and lit as in the slides.
 import { ringDistances, visibleSector } from './camera.js';
+import { stopsFactor } from './exposure.js';
 import { program, texture } from './gl.js';
 import { NOISE_CELLS, NOISE_SAMPLES, noiseLevels } from './noise.js';
+import { reflectance, waterOptics } from './optics.js';
+import { DEFAULT_LOOK } from './renderer.js';
 import {
   FEW_WAVES_FRAGMENT,
   FEW_WAVES_VERTEX,
   MOST_WAVES,
   VERTEX_OUTPUTS,
 } from './shaders/few_waves.js';
+import { Sky, sunDirection } from './sky.js';
 
 const TURN = 2 * Math.PI;
-const DEGREE = Math.PI / 180;
-const CLEAR_AIR = 17e3; // [m] over which the light of the water falls to 1/e, with haze 1
+const AIR_EXTINCTION = 6e-5; // [1/m] of a clear day, as for the other sea
+const SKY_SAMPLES = 256; // of a sky of its own
 
-/** Light and water where a look does not give them; colours are those of the screen. */
-export const DEFAULT_LOOK = {
-  ambient: 0.3,
+/**
+ * The water as the slides light it scatters all light that one sees of it. Sea water scatters so
+ * little that this must be more than it does, for the same brightness.
+ */
+const SCATTERED = 6;
+
+/** Light where a look does not give it; see `Renderer` for sun, sky and chlorophyll. */
+export const DEFAULT_FEW_LOOK = {
+  ambient: 1,
   diffuse: 0.6,
   specular: 0.5,
   shininess: 64,
   noiseAmplitude: 0.15, // largest turn of the normal [rad]
   noiseFrequency: 1.5, // bumps a metre
   choppiness: 1,
-  sunElevation: 28, // [degrees]
-  sunAzimuth: 60, // [degrees]
-  haze: 1,
-  color: [0.05, 0.26, 0.36],
-  light: [1, 0.97, 0.9],
-  horizon: [0.78, 0.84, 0.88],
 };
 
 /** Return the fraction of a number of turns, in 0 to 1. */
@@ -91,10 +95,13 @@ export class FewWaves {
    */
   constructor(gl, { columns = 384, rings = 512 } = {}) {
     this.gl = gl;
+    // Half floats suffice for a sky of its own; either extension allows them.
+    gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float');
     this.columns = columns;
     this.ringCount = rings;
     this.drawn = program(gl, FEW_WAVES_FRAGMENT, FEW_WAVES_VERTEX);
     this.readBack = null;
+    this.sky = null;
     this.rings = texture(gl, { format: 'RG32F', width: rings, height: 1, wrap: 'clamp' });
     this.noise = texture(gl, {
       format: 'RG16F',
@@ -114,25 +121,45 @@ export class FewWaves {
   }
 
   /**
-   * Draw a model over what the current framebuffer holds, with the depth test.
+   * Draw a model and the sky behind it into a part of a picture.
    *
    * @param {object} model as Python's `FewWaves.document`
    * @param {number} tick of the model's loop
    * @param {Camera} camera
-   * @param {object} look see `DEFAULT_LOOK`
-   * @param {number} aspect width of the picture over its height
+   * @param {object} look of the renderer, and what of `DEFAULT_FEW_LOOK` is different
+   * @param {number} width of the whole picture, which the camera shows [pixels]
+   * @param {number} height
+   * @param {number[]} viewport the part to draw: left, bottom, width and height [pixels]
+   * @param {Sky} [sky] of a renderer; without it, one of its own
    */
-  draw(model, tick, camera, look, aspect) {
+  render(model, tick, camera, look, width, height, viewport, sky = null) {
     const { gl } = this;
-    const values = this.values(model, tick, camera, look, aspect);
+    const light = sky ?? (this.sky ??= new Sky(gl, SKY_SAMPLES));
+    const given = { ...DEFAULT_LOOK, ...DEFAULT_FEW_LOOK, ...look };
+    const sun = sunDirection(given.sunElevation, given.sunAzimuth);
+    const air = { sun, haze: given.haze, clouds: given.clouds };
+    for (const test of [gl.BLEND, gl.CULL_FACE, gl.DEPTH_TEST, gl.SCISSOR_TEST]) gl.disable(test);
+    light.update(air);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(...viewport);
+    gl.clearDepth(1);
+    gl.depthMask(true);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.LEQUAL);
+    gl.depthFunc(gl.LESS);
+    const aspect = width / height;
     gl.bindVertexArray(this.vertexArray);
-    this.drawn.use(values);
+    this.drawn.use(this.values(model, tick, camera, given, aspect, light));
     const count = 6 * (this.columns - 1) * (this.ringCount - 1);
     gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
     gl.bindVertexArray(null);
+    gl.depthFunc(gl.LEQUAL); // the background lies on the far plane
+    const factors = { exposureFactor: stopsFactor(given.exposure), linearLight: false };
+    light.drawBackground({ ...air, plain: null, ...factors }, camera.matrices(aspect));
     gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.SCISSOR_TEST);
   }
 
   /**
@@ -154,8 +181,11 @@ export class FewWaves {
     gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, feedback);
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
     gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, 4 * floats * count, gl.STREAM_READ);
-    const values = this.values(model, tick, camera, look, aspect);
+    const light = (this.sky ??= new Sky(gl, SKY_SAMPLES));
+    const given = { ...DEFAULT_LOOK, ...DEFAULT_FEW_LOOK, ...look };
+    const values = this.values(model, tick, camera, given, aspect, light);
     this.readBack.use(fade ? values : { ...values, fade: 0 });
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.enable(gl.RASTERIZER_DISCARD);
     gl.beginTransformFeedback(gl.POINTS);
     gl.drawArrays(gl.POINTS, 0, count);
@@ -171,14 +201,11 @@ export class FewWaves {
   }
 
   /** Return the uniforms of a picture, and upload the rings of its mesh. */
-  values(model, tick, camera, look, aspect) {
-    const given = { ...DEFAULT_LOOK, ...look };
+  values(model, tick, camera, look, aspect, sky) {
     const { wavenumber, wave, count } = wavesAt(model, tick, camera.east, camera.north);
-    const reach = reachOf(model, given.choppiness);
-    const sector = visibleSector(camera, aspect, reach);
+    const sector = visibleSector(camera, aspect, reachOf(model, look.choppiness));
     this.rings.upload(ringDistances(sector.near, sector.far, camera.height, this.ringCount));
-    const [elevation, azimuth] = [given.sunElevation * DEGREE, given.sunAzimuth * DEGREE];
-    const frequency = given.noiseFrequency / NOISE_CELLS; // of the texture, a metre
+    const frequency = look.noiseFrequency / NOISE_CELLS; // of the texture, a metre
     return {
       view_projection: camera.matrices(aspect).viewProjection,
       rings: this.rings,
@@ -189,33 +216,31 @@ export class FewWaves {
       apex: sector.apex,
       height: camera.height,
       fade: 1,
-      choppiness: given.choppiness,
+      choppiness: look.choppiness,
       wavenumber,
       wave,
       noise: this.noise,
-      noise_amplitude: given.noiseAmplitude,
+      noise_amplitude: look.noiseAmplitude,
       noise_frequency: frequency,
       noise_start: [fraction(camera.east * frequency), fraction(camera.north * frequency)],
-      ambient: given.ambient,
-      diffuse: given.diffuse,
-      specular: given.specular,
-      shininess: given.shininess,
-      sun: [
-        Math.cos(elevation) * Math.cos(azimuth),
-        Math.cos(elevation) * Math.sin(azimuth),
-        Math.sin(elevation),
-      ],
-      color: given.color,
-      light: given.light,
-      horizon: given.horizon,
-      air: given.haze / CLEAR_AIR,
+      ambient: look.ambient,
+      diffuse: look.diffuse,
+      specular: look.specular,
+      shininess: look.shininess,
+      albedo: reflectance(waterOptics(look.chlorophyll)).map((one) => SCATTERED * Math.PI * one),
+      sunward: sunDirection(look.sunElevation, look.sunAzimuth),
+      sky: sky.map,
+      light: sky.light,
+      air_extinction: AIR_EXTINCTION * look.haze,
+      exposure_factor: stopsFactor(look.exposure),
+      linear_light: false,
     };
   }
 
   /** Free everything. */
   dispose() {
     const { gl } = this;
-    for (const one of [this.drawn, this.readBack, this.rings, this.noise]) one?.dispose();
+    for (const one of [this.drawn, this.readBack, this.rings, this.noise, this.sky]) one?.dispose();
     gl.deleteVertexArray(this.vertexArray);
     gl.deleteBuffer(this.indices);
   }

@@ -1,5 +1,7 @@
 // Shaders of the few-wave models: waves summed at each vertex, lit as in the slides.
 import { FRAGMENT_HEAD } from '../gl.js';
+import { TONE } from '../exposure.js';
+import { SKY_LOOKUP } from './air.js';
 import { phasorSource } from './evolve.js';
 
 /** Most waves of a model; they fit the uniforms that every WebGL 2 context has. */
@@ -31,7 +33,7 @@ uniform vec4 wave[${MOST_WAVES}];
 out vec2 still;
 out vec3 moved;
 out vec3 normal;
-out float far;
+out float rough;
 
 float leading(float value) {
   return uintBitsToFloat(floatBitsToUint(value) & 0xfffff000u);
@@ -53,6 +55,7 @@ void main() {
   float across = 2.0 * half_angle * reach / float(columns - 1);
   float spacing = fade * pow(max(across, 1e-3), 0.3) * pow(ring.y, 0.7);
   moved = vec3(0.0);
+  rough = 0.0;
   vec3 along_x = vec3(1.0, 0.0, 0.0), along_y = vec3(0.0, 1.0, 0.0);
   for (int i = 0; i < waves; i++) {
     vec4 k = wavenumber[i];
@@ -63,6 +66,8 @@ void main() {
     float kept = 1.0 - smoothstep(0.2, 0.45, spacing * number);
     float amplitude = kept * wave[i].x, sharp = choppiness * amplitude * wave[i].y;
     vec2 unit = vector / number, gradient = 6.2831853 * vector;
+    float steepness = wave[i].x * 6.2831853 * number;
+    rough += 0.25 * (1.0 - kept * kept) * steepness * steepness;
     moved += vec3(-sharp * unit * turned.y, amplitude * turned.x);
     vec3 slope = vec3(-sharp * unit * turned.x, -amplitude * turned.y);
     along_x += gradient.x * slope;
@@ -72,7 +77,6 @@ void main() {
   vec3 upward = cross(along_x, along_y);
   float size = length(upward);
   normal = size > 0.0 ? upward / size : vec3(0.0, 0.0, 1.0);
-  far = length(still);
   vec3 seen = vec3(still, -height - dot(still, still) / (2.0 * EARTH_RADIUS)) + moved;
   gl_Position = view_projection * vec4(seen, 1.0);
 }`;
@@ -80,19 +84,24 @@ void main() {
 /**
  * The fragment shader: the slides' ambient, diffuse and specular light on a normal turned by noise.
  *
- * Differences from the slides are corrections: the colour is a colour, the diffuse term is 0 where
- * the light is behind the surface, and the noise has mean 0 and stays within -1 to 1, so that its
- * amplitude is the largest angle in radians.
+ * Differences from the slides: the colour is a colour, the diffuse term is 0 where the light is
+ * behind the surface, and the noise has mean 0 and stays within -1 to 1, so that its amplitude is
+ * the largest angle in radians. The light has the colours of the sun and the sky of the picture;
+ * the ambient one, which comes from everywhere, is that of the sky: scattered by the water, and
+ * mirrored by it after Fresnel, of water as rough as the waves that the mesh leaves out (Bruneton,
+ * Neyret & Holzschuch 2010).
  */
-export const FEW_WAVES_FRAGMENT = `${FRAGMENT_HEAD}
-uniform sampler2D noise;
-uniform float height, ambient, diffuse, specular, shininess, noise_amplitude, noise_frequency, air;
+export const FEW_WAVES_FRAGMENT = `${FRAGMENT_HEAD}${SKY_LOOKUP}${TONE}
+const float PI = 3.14159265;
+uniform sampler2D noise, sky, light;
+uniform float height, ambient, diffuse, specular, shininess, noise_amplitude, noise_frequency;
+uniform float air_extinction;
 uniform vec2 noise_start;
-uniform vec3 sun, color, light, horizon;
+uniform vec3 sunward, albedo;
 in vec2 still;
 in vec3 moved;
 in vec3 normal;
-in float far;
+in float rough;
 out vec4 pixel;
 
 vec3 turn_normal(vec2 angle, vec3 n) {
@@ -104,16 +113,44 @@ vec3 turn_normal(vec2 angle, vec3 n) {
   return normalize(n);
 }
 
+vec3 mirrored_sky(vec3 n, vec3 to_eye, float variance) {
+  float deviation = sqrt(variance);
+  // Of rough water one sees the facets that turn toward the eye.
+  float level_part = max(length(to_eye.xy), 1e-4);
+  float steepness = level_part / max(to_eye.z, 0.02);
+  float lean = variance * steepness / (1.0 + 1.2 * deviation * steepness);
+  n = normalize(n + n.z * vec3(to_eye.xy / level_part * lean, 0.0));
+  float cosine = max(dot(n, to_eye), 0.01);
+  float share = 0.02 + 0.98 * pow(1.0 - cosine, 5.0 * exp(-2.69 * deviation)) /
+    (1.0 + 22.7 * pow(deviation, 1.5));
+  vec3 ray = 2.0 * cosine * n - to_eye;
+  // A ray that goes down meets another wave, which shows a darker part of the sky.
+  float dim = mix(1.0, 0.5, smoothstep(0.02, -0.3, ray.z));
+  ray = normalize(vec3(ray.xy, abs(ray.z) + 0.01));
+  float level = log2(max(2.0 * deviation * float(textureSize(sky, 0).x), 1.0));
+  return dim * share * textureLod(sky, sky_place(ray), min(level, 6.0)).rgb;
+}
+
 void main() {
   vec2 at = noise_start + still * noise_frequency;
   // The second layer is turned and wider, so that the pattern does not repeat visibly.
   vec2 wide = mat2(0.29, 0.22, -0.22, 0.29) * at + 0.37;
   vec2 angle = 0.5 * noise_amplitude * (texture(noise, at).xy + texture(noise, wide).xy);
   vec3 n = turn_normal(angle, normalize(normal));
-  vec3 eye = normalize(vec3(-still, height) - moved);
-  float lit = dot(n, sun);
-  float mirrored = 0.0;
-  if (lit > 0.0) mirrored = pow(max(dot(eye, 2.0 * n * lit - sun), 0.0), shininess);
-  vec3 seen = (ambient + diffuse * max(lit, 0.0)) * color + specular * mirrored * light;
-  pixel = vec4(mix(seen, horizon, 1.0 - exp(-far * air)), 1.0);
-}`;
+  vec3 way = vec3(-still, height) - moved;
+  float far = length(way);
+  vec3 to_eye = way / far;
+  vec3 sun_light = texelFetch(light, ivec2(0, 0), 0).rgb;
+  vec3 sky_light = texelFetch(light, ivec2(1, 0), 0).rgb;
+  float lit = dot(n, sunward);
+  float glint = 0.0;
+  if (lit > 0.0) glint = pow(max(dot(to_eye, 2.0 * n * lit - sunward), 0.0), shininess);
+  vec3 everywhere = albedo / PI * (sun_light * max(sunward.z, 0.0) + sky_light);
+  float variance = 2e-4 + rough + 0.05 * noise_amplitude * noise_amplitude;
+  vec3 radiance = ambient * (everywhere + mirrored_sky(n, to_eye, variance));
+  radiance += diffuse * max(lit, 0.0) * albedo / PI * sun_light;
+  radiance += specular * glint * GLINT * sun_light;
+  vec3 haze = textureLod(sky, sky_place(normalize(vec3(-to_eye.xy, 0.02))), 1.0).rgb;
+  radiance = mix(radiance, haze, 1.0 - exp(-far * air_extinction));
+  pixel = shown(radiance, texelFetch(light, ivec2(3, 0), 0).x);
+}`.replace('GLINT', '0.35'); // radiance of a perfect mirror of the slides, over the irradiance
