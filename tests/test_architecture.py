@@ -129,9 +129,9 @@ def declared(module: str) -> str:
 
 def step_of(module: str, *, across: bool) -> tuple[int, int] | None:
     """
-    Return the stair and the step of a module; across rooms, that of its room if it has none.
+    Return the stair and the step of a module; across packages, that of its package if it has none.
     """
-    return STEP.get(module) or (STEP.get(room(module)) if across else None)
+    return STEP.get(module) or (STEP.get(part_of(module)) if across else None)
 
 
 def imports(module: str, source: str, known: set[str], is_package: bool = False) -> set[str]:
