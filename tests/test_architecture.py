@@ -23,7 +23,8 @@ FLOORS = {
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
-        *("products", "foam", "eulerian", "mips", "kinematics", "statistics", "blend_loss"),
+        *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
+        *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
@@ -53,6 +54,7 @@ STAIRS = [
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics"]],
+    [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
     [["plots.theme"], ["plots"], ["bench.charts"]],
