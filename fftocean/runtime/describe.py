@@ -12,7 +12,7 @@ from fftocean.physics import moments
 from fftocean.physics.sea import Sea
 from fftocean.runtime.records import Records
 from fftocean.runtime.source import Source
-from fftocean.statistics import measure, peak_period, specified
+from fftocean.statistics import folding_over, peak_period, specified
 from fftocean.wave_list import oceans_of
 
 MOMENTS = 8
@@ -147,16 +147,16 @@ def measured_bounds(source: Source) -> dict[str, Any]:
 
     Those of several tiles are the sums of what each reaches; the Jacobian is that of their sum.
     """
-    water = source.water()
+    oceans = oceans_of(source.water())
     height = moved = 0.0
-    for ocean in oceans_of(water):
+    for ocean in oceans:
         frames = [
             ocean.loop_frame(j, MOMENTS, ("height", "displace_x", "displace_y"))
             for j in range(MOMENTS)
         ]
         height += max(float(np.max(np.abs(f.height))) for f in frames)
         moved += max(float(np.max(np.hypot(f.displace_x, f.displace_y))) for f in frames)
-    folding = measure(water, frames=MOMENTS).folding
+    folding = folding_over(oceans, MOMENTS, source.loop)
     return {
         "height": height,
         "displacement": source.choppiness * moved,

@@ -11,6 +11,10 @@ from fftocean.limits import CHOPPINESS
 from fftocean.ocean import Ocean, from_amplitudes
 from fftocean.physics.sea import Sea
 from fftocean.runtime.layout import MOST_TILES
+from fftocean.statistics import loop_error
+
+PROPOSED = 64.0
+"""Period near which a loop is proposed for waves without one [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +42,7 @@ class Source:
         if None in loops:
             raise ParameterError(
                 "waves must repeat to be written as a run-time package: "
-                "give the ocean or cascade a loop, such as loop=64.0"
+                f"give the ocean or cascade a loop, such as {_proposal(self.tiles[0])}"
             )
         if len(loops) > 1:
             raise ParameterError(
@@ -91,6 +95,13 @@ class Source:
             for tile, seed in zip(self.tiles, self.seeds, strict=True)
         )
         return oceans[0] if len(oceans) == 1 else from_oceans(self.sea, 0, oceans)
+
+
+def _proposal(tile: Amplitudes) -> str:
+    """Return a loop for waves, with the error of its frequencies."""
+    found = loop_error(tile, PROPOSED)
+    error = 100.0 * found.better_rms
+    return f"loop={found.better_period:g}, whose frequencies are off by {error:.2g} % (rms)"
 
 
 _INSTEAD = {

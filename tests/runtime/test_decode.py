@@ -165,7 +165,7 @@ def test_what_has_no_linear_waves_is_refused_by_name():
 
 def test_water_that_never_repeats_is_refused():
     ocean = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=50.0)
-    with pytest.raises(fo.ParameterError, match=r"must repeat .* loop=64\.0"):
+    with pytest.raises(fo.ParameterError, match=r"must repeat .* such as loop=\d+(\.\d+)?, whose"):
         runtime.pack(ocean)
     with pytest.raises(fo.ParameterError, match="must repeat"):
         runtime.amplitude_planes(ocean)

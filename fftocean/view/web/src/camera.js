@@ -150,14 +150,16 @@ export function visibleSector(camera, aspect, reach) {
   const middle = camera.yaw * DEGREE;
   const around = shows(camera, aspect, [0, 0, -1]) || shows(camera, aspect, [0, 0, 1]);
   let half = 0;
-  let near = Infinity;
+  let near = horizon;
   let far = 0;
   for (const [east, north, up] of rays) {
     const ahead = east * Math.cos(middle) + north * Math.sin(middle);
     const left = north * Math.cos(middle) - east * Math.sin(middle);
     half = Math.max(half, Math.abs(Math.atan2(left, ahead)));
     const level = Math.hypot(east, north);
-    near = Math.min(near, up < 0 ? (Math.max(lowest - reach, 0) * level) / -up : horizon);
+    // A crest higher than the eye may be seen at any distance, also by a ray that rises.
+    if (lowest <= reach) near = 0;
+    else if (up < 0) near = Math.min(near, ((lowest - reach) * level) / -up);
     // A ray that is less steep than twice the horizon's dip may reach it: the earth is round.
     const steep = -up > (4 * highest * level) / horizon;
     far = Math.max(far, steep ? ((highest + reach) * level) / -up + reach : horizon);

@@ -6,6 +6,9 @@ import { tileUniforms } from './tiles.js';
 /** Sides of the windows [m]: the first for what is near, the second for the view from above. */
 export const WINDOWS = [256, 2048];
 
+// Shortest steps of the windows [s]: nobody sees what is far away change from picture to picture.
+const SHORTEST_STEPS = [0, 0.2];
+
 /** Side of a tile of the break-up noise [m]. */
 export const BREAK_UP_SIZE = 11;
 
@@ -124,12 +127,18 @@ class FoamWindow {
     this.targets = [0, 1].map(() => target(gl, [texture(gl, { ...options, mips: true })]));
     this.corner = [0, 0];
     this.fresh = true;
+    this.pending = 0; // seconds that are not in the foam yet
   }
 
-  /** Advance by some seconds around an eye. */
-  advance(step, tiles, foam, [east, north], seconds) {
-    const [before, after] = this.targets;
+  /** Advance by some seconds around an eye, in steps of `shortest` seconds at least. */
+  advance(step, tiles, foam, [east, north], passed, shortest) {
     const corner = [east, north].map((at) => Math.floor(at / this.cell) - this.samples / 2);
+    const moved = Math.max(...corner.map((at, i) => Math.abs(at - this.corner[i])));
+    this.pending += passed;
+    if (this.pending < shortest && moved < this.samples / 32 && !this.fresh) return;
+    const seconds = this.pending;
+    this.pending = 0;
+    const [before, after] = this.targets;
     drawFullscreen(
       this.gl,
       step,
@@ -201,7 +210,9 @@ export class FoamField {
     const count = source.tiles.length;
     if (!this.steps.has(count)) this.steps.set(count, program(this.gl, foamStepShader(count)));
     const tiles = tileUniforms(source.tiles, ...eye);
-    for (const one of this.windows) one.advance(this.steps.get(count), tiles, foam, eye, seconds);
+    this.windows.forEach((one, i) =>
+      one.advance(this.steps.get(count), tiles, foam, eye, seconds, SHORTEST_STEPS[i]),
+    );
   }
 
   /** Return the uniforms that `FOAM_LOOKUP` needs. */

@@ -20,13 +20,19 @@ function linearFromLab([lightness, a, b]) {
 /** Return a colour of OKLab with as much of a chroma as the screen can show. */
 function shownColour(lightness, chroma, hue) {
   const angle = (hue * Math.PI) / 180;
-  let shown = chroma;
-  for (let step = 0; step < 40; step++) {
-    const lab = [lightness, shown * Math.cos(angle), shown * Math.sin(angle)];
-    if (linearFromLab(lab).every((value) => value > 0 && value < 1)) return lab;
-    shown -= chroma / 40;
+  const lab = (share) => {
+    const shown = share * chroma;
+    return [lightness, shown * Math.cos(angle), shown * Math.sin(angle)];
+  };
+  const fits = (share) => linearFromLab(lab(share)).every((value) => value > 0 && value < 1);
+  if (fits(1)) return lab(1);
+  let [low, high] = [0, 1];
+  for (let step = 0; step < 24; step++) {
+    const middle = 0.5 * (low + high);
+    if (fits(middle)) low = middle;
+    else high = middle;
   }
-  return [lightness, 0, 0];
+  return lab(low);
 }
 
 /** Return the value at `at` in 0..1 of a line through evenly spaced knots. */

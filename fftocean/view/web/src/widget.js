@@ -4,7 +4,7 @@ import { startApp } from './app.js';
 import { readTable } from './table.js';
 
 /** Views that may hold a graphics context at once; browsers keep 8 to 16 for a whole page. */
-const MOST_LIVE = 4;
+export const LIMITS = { live: 4 };
 
 // One list for all widgets of a notebook, each of which may bring its own copy of this module.
 const LIVE = Symbol.for('fftocean.live-views');
@@ -44,7 +44,7 @@ class View {
   resume() {
     const views = liveViews();
     for (const other of views.filter((view) => view.model === this.model)) other.park();
-    while (views.length >= MOST_LIVE) views[0].park();
+    while (views.length >= LIMITS.live) views[0].park();
     views.push(this);
     this.root.replaceChildren();
     this.start().catch((error) => {

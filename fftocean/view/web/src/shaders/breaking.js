@@ -7,14 +7,15 @@ import { eachTile, tilePlaces } from './tiles.js';
  *
  * df/dt = -f / decay + strength max(threshold - lambda, 0), lambda the smaller eigenvalue of the
  * deformation gradient (Tessendorf 2001), of the SUM of the tiles' stretches: a tile cannot know
- * the others. Each cell takes the waves at its own middle, unfiltered, so that the mean of what
- * foams is that of the waves whatever the size of a cell.
+ * the others. Each cell takes the texel of each tile at its own middle: neither filtered nor
+ * interpolated, so that the mean of what foams is that of the waves whatever the size of a cell.
  */
 export function foamStepShader(count) {
   const line = `
-  at = tile_place(TILE, rest);
-  slopes = textureLod(slope_maps[TILE], at, 0.0);
-  stretch += vec3(slopes.zw, textureLod(displacement_maps[TILE], at, 0.0).w);`;
+  samples = textureSize(slope_maps[TILE], 0);
+  texel = ivec2(floor(fract(tile_place(TILE, rest)) * vec2(samples))) & (samples - 1);
+  stretch += vec3(texelFetch(slope_maps[TILE], texel, 0).zw,
+    texelFetch(displacement_maps[TILE], texel, 0).w);`;
   return `${FRAGMENT_HEAD}${tilePlaces(count)}
 uniform sampler2D before;
 uniform ivec2 corner, corner_before; // first cell of the window now and at the last step
@@ -24,21 +25,20 @@ uniform bool fresh;
 out vec4 foam;
 
 void main() {
-  int samples = textureSize(before, 0).x;
-  ivec2 texel = ivec2(gl_FragCoord.xy);
-  // A cell of the world keeps its texel while the window moves over it.
-  ivec2 index = (texel - corner) & (samples - 1);
+  int side = textureSize(before, 0).x;
+  ivec2 place = ivec2(gl_FragCoord.xy);
+  // A cell of the world keeps its place while the window moves over it.
+  ivec2 index = (place - corner) & (side - 1);
   vec2 rest = corner_place + vec2(index) * cell;
   vec3 stretch = vec3(0.0);
-  vec2 at;
-  vec4 slopes;
+  ivec2 samples, texel;
   ${eachTile(count, line)}
   float middle = 1.0 + 0.5 * (stretch.x + stretch.y), half_difference = 0.5 * (stretch.x - stretch.y);
   float smaller = middle - sqrt(half_difference * half_difference + stretch.z * stretch.z);
   ivec2 old = corner + index - corner_before;
-  bool kept = !fresh && all(greaterThanEqual(old, ivec2(0))) && all(lessThan(old, ivec2(samples)));
+  bool kept = !fresh && all(greaterThanEqual(old, ivec2(0))) && all(lessThan(old, ivec2(side)));
   // A cell that enters the window begins with what a steady source would have left on it.
-  float left = kept ? texelFetch(before, texel, 0).x * exp(-seconds / decay) : 0.0;
+  float left = kept ? texelFetch(before, place, 0).x * exp(-seconds / decay) : 0.0;
   float made = kept ? 1.0 - exp(-seconds / decay) : 1.0;
   float amount = left + made * decay * strength * max(threshold - smaller, 0.0);
   amount = min(amount, 30.0);

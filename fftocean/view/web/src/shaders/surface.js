@@ -306,7 +306,7 @@ void main() {
   } else {
     float edges = max(line(cell, 0.6), line(vec2(cell.x + cell.y), 0.6));
     vec3 plain = mapped(height) * (0.55 + 0.45 * facet.z);
-    found = mix(plain, vec3(1.0), 0.75 * edges * fading(cell));
+    found = mix(plain, vec3(0.05), 0.8 * edges * fading(cell));
   }
   colour = vec4(found, 1.0);
 }`;
