@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Final
 
-from fftocean.cascade import Cascade
+from fftocean.cascade import Cascade, from_oceans
 from fftocean.errors import ParameterError, SeaWarning
+from fftocean.moving_amplitudes import MovingAmplitudes
 from fftocean.physics.sea import Sea
-from fftocean.runtime import pack, to_bytes
+from fftocean.runtime import Source, pack, to_bytes
 from fftocean.view import protocol
 from fftocean.view.state import State
 from fftocean.view.worker import Worker
@@ -73,12 +74,59 @@ def make_exact(
 
 
 def _cascade_of(state: State, before: MadeSea | None) -> Cascade:
-    """Return the cascade of a state: the one before, where nothing of the sea has changed."""
-    if before is not None and before.cascade is not None:
-        old = before.state
-        if state.has_waves_of(old) and state.values["choppiness"] == old.values["choppiness"]:
-            return before.cascade
-    return state.cascade(dtype="float64")
+    """Return the cascade of a state, with the waves of the one before where they are the same."""
+    if before is None or before.cascade is None or not state.has_waves_of(before.state):
+        return state.cascade(dtype="float64")
+    given, choppiness = before.cascade, state.values["choppiness"]
+    if choppiness == given.choppiness:
+        return given
+    oceans = tuple(
+        ocean.with_amplitudes(ocean.amplitudes, choppiness=choppiness) for ocean in given.oceans
+    )
+    return from_oceans(given.sea, given.seed, oceans)
+
+
+class MovingSeas:
+    """Seas of states that follow a slider: amplitudes from a lattice of the spectrum."""
+
+    def __init__(self) -> None:
+        self._given: MadeSea | None = None
+        self._moving: MovingAmplitudes | None = None
+
+    def start(self, exact: MadeSea) -> None:
+        """Take the tiles and the random numbers of an exact sea, where they are new."""
+        if self._given is None or not exact.state.has_random_numbers_of(self._given.state):
+            self._moving = None
+        self._given = exact
+
+    def can_make(self, state: State) -> bool:
+        """Return True for a state that differs from the exact sea in its specified sea alone."""
+        return (
+            self._given is not None
+            and state.has_random_numbers_of(self._given.state)
+            and not state.has_waves_of(self._given.state)
+        )
+
+    def make(self, state: State, number: int) -> MadeSea:
+        """Return the sea of a state that `can_make` allows."""
+        given = self._given
+        assert given is not None
+        assert given.cascade is not None
+        if self._moving is None:
+            self._moving = MovingAmplitudes(given.cascade)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SeaWarning)  # the exact sea tells
+            sea = state.sea()
+            source = Source(
+                tiles=self._moving.amplitudes(sea),
+                choppiness=state.values["choppiness"],
+                sea=sea,
+                seeds=tuple(ocean.seed for ocean in given.cascade.oceans),
+            )
+            package = pack(source, reference=False, quality="moving", wind=_wind_of(state))
+            few = _few_waves_of(state, sea, package.document["ticks"])
+        package.document.update(id=number, few_waves=few)
+        return MadeSea(number, state, "moving", to_bytes(package), package.document, (), None)
 
 
 def _few_waves_of(state: State, sea: Sea | None, ticks: int) -> dict[str, Any] | None:
@@ -131,10 +179,9 @@ class SeaMaker:
         worker: Worker,
         made: Callable[[MadeSea], None],
         failed: Callable[[State, Exception], None],
-        *,
-        moving: Callable[[State, int], MadeSea] | None = None,
     ) -> None:
-        self._worker, self._made, self._failed, self._moving = worker, made, failed, moving
+        self._worker, self._made, self._failed = worker, made, failed
+        self._moving = MovingSeas()
         self._wanted: State | None = None
         self._changed = asyncio.Event()
         self._number = 0
@@ -176,8 +223,8 @@ class SeaMaker:
             if (state := self._wanted) is None:
                 continue
             began = time.monotonic()
-            if self._moving is not None and self._number:
-                if not await self._make(self._moving, state):
+            if self._moving.can_make(state):
+                if not await self._make(self._moving.make, state):
                     continue
                 if await self._changes_within(REST):
                     await asyncio.sleep(max(0.0, PAUSE - (time.monotonic() - began)))
@@ -202,6 +249,7 @@ class SeaMaker:
             self._exact[number] = sea
             while len(self._exact) > KEPT:
                 self._exact.popitem(last=False)
+            self._moving.start(sea)
         self._made(sea)
         return True
 

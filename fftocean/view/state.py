@@ -199,9 +199,14 @@ class State:
 
     def has_waves_of(self, other: "State") -> bool:
         """Return True if the waves are those of another state, whatever their choppiness."""
-        free = ("choppiness", "model")
+        return self.has_random_numbers_of(other) and all(
+            self.values[name] == other.values[name] for name in _OF_THE_SEA
+        )
+
+    def has_random_numbers_of(self, other: "State") -> bool:
+        """Return True if tiles, phases and loop are those of another state, whatever the sea."""
         return (self.base, self.tiles) == (other.base, other.tiles) and all(
-            value == other.values[name] for name, value in self.values.items() if name not in free
+            self.values[name] == other.values[name] for name in ("seed", "loop")
         )
 
     def job(self) -> Job:

@@ -42,7 +42,7 @@ class Bake(Protocol):
     def manifest(self) -> dict[str, Any]:
         """Return what the page must know to play it, ready for JSON."""
 
-    def frame(self, tile: int, index: int) -> bytes:
+    def frame(self, tile: int, frame: int, /) -> bytes:
         """Return the binary message of one frame of a tile."""
 
 

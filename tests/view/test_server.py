@@ -305,7 +305,7 @@ def test_a_client_that_never_reads_holds_little_while_others_are_served(running)
         largest = 0
         for i in range(5000):
             reader.send({"set": {"choppiness": (i % 200) / 100}})
-            if i % 50 == 49:  # read what came, as a page does
+            if i % 500 == 499:  # read what came, as a page does
                 header, _ = reader.next("FFTO")
                 largest = max(largest, 16 + len(json.dumps(header)) + 2**14)
         reader.exact(choppiness=199 / 100)
@@ -406,3 +406,61 @@ def test_opened_reads_what_the_server_sends(shared):
     with pytest.raises(AssertionError):
         opened(b"FFTO" + bytes([2]) + bytes(40))
     assert shared.request("/")[0] == 200
+
+
+def test_a_slider_gets_moving_seas_and_then_the_exact_one(running):
+    """The moving sea has the waves of the exact one, nearly: phases to round-off, heights to 1 %."""
+    with running.connect() as client:
+        client.exact()
+        client.send({"set": {"wind_speed": 8.0}})
+        moving, waves = client.next("FFTO")
+        assert (moving["quality"], moving["files"][0]["name"]) == ("moving", "tile0.waves")
+        exact, exact_waves = client.exact(wind_speed=8.0)
+        assert exact["id"] > moving["id"]
+    record = np.dtype("<i2, <i2, <u2, <f4, <f4")
+    found = [
+        np.frombuffer(data[: header["files"][0]["bytes"]], record)
+        for header, data in ((moving, waves), (exact, exact_waves))
+    ]
+    one, other = (
+        {(w["f0"].item(), w["f1"].item()): complex(w["f3"], w["f4"]) for w in table}
+        for table in found
+    )
+    keys = one.keys() & other.keys()
+    a, b = (np.array([table[key] for key in sorted(keys)]) for table in (one, other))
+    assert np.abs(np.angle(a / b)).max() < 1e-5
+    assert np.sqrt(np.sum(np.abs(a - b) ** 2) / np.sum(np.abs(b) ** 2)) < 0.01
+    missed = [abs(table[key]) for table in (one, other) for key in table.keys() - keys]
+    assert sum(missed) < 1e-6 * np.abs(b).sum()
+
+
+def test_a_moving_sea_is_not_verified(running):
+    with running.connect() as client:
+        first, _ = client.exact()
+        client.send({"set": {"wind_speed": 8.0}})
+        moving, _ = client.next("FFTO")
+        client.send({"verify": {"tick": 1, "sea": moving["id"]}})
+        assert "exact sea that is kept" in client.next("refused")["refused"]["message"]
+        del first
+
+
+def test_choppiness_uses_the_waves_again(running):
+    with running.connect() as client:
+        before, waves = client.exact()
+        client.send({"set": {"choppiness": 0.25}})
+        after, same = client.exact(choppiness=0.25)
+    assert (before["choppiness"], after["choppiness"]) == (1.0, 0.25)
+    size = before["files"][0]["bytes"]
+    assert waves[:size] == same[:size]
+
+
+def test_a_few_wave_model_comes_with_the_sea(running):
+    with running.connect() as client:
+        assert client.exact()[0]["few_waves"] is None
+        for model in ("pms", "cwr", "slides", "steepness"):
+            client.send({"set": {"model": model}})
+            few = client.exact(model=model)[0]["few_waves"]
+            assert few["model"] == model
+            assert 1 <= len(few["amplitude"]) <= 64
+        client.send({"set": {"model": "fft"}})
+        assert client.exact(model="fft")[0]["few_waves"] is None
