@@ -271,8 +271,8 @@ def test_a_lost_context_comes_back(page):
 
 def test_the_page_verifies_itself(page, browser):
     """
-    A reference of Python and the points of the package pass; a field that is off by 1e-6 fails;
-    another moment and a sea that is changing are refused.
+    A reference of Python passes; one with a field that is off by 1e-6 fails; another moment and a
+    sea that is changing are refused.
     """
     (ocean,), package = sea("deep-64")
     ticks, tick = package.document["ticks"], 54321
@@ -288,7 +288,6 @@ def test_the_page_verifies_itself(page, browser):
     assert seen["found"]["passed"]
     assert seen["found"]["worst"] <= GPU
     assert set(seen["found"]["errors"]) == set(EIGHT)
-    assert [tile["passed"] for tile in seen["points"]] == [True]
     assert not seen["failing"]["passed"]
     assert max(seen["failing"]["errors"], key=seen["failing"]["errors"].get) == "slope_y"
     assert seen["moved"] == f"a reference must have tick {tick + 1}, got {tick}"

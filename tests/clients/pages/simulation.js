@@ -3,7 +3,7 @@ import { decodeSea, decodeReference } from '/live/container.js';
 import { drawFullscreen, program, target, texture, watchContext } from '/live/gl.js';
 import { createSimulation } from '/live/simulation.js';
 import { Clock } from '/live/clock.js';
-import { verifyTile, verifyPoints } from '/live/verify.js';
+import { verifyTile } from '/live/verify.js';
 import { base64, bytes } from './common.js';
 
 const canvas = document.getElementById('canvas');
@@ -153,7 +153,6 @@ const tasks = {
     await simulation.step(tick);
     const answer = decodeReference(await bytes(`/bakes/${reference}`));
     const found = await verifyTile(simulation, answer);
-    const points = await verifyPoints(simulation, decoded.reference);
     const altered = decodeReference(await bytes(`/bakes/${wrong}`));
     const failing = await verifyTile(simulation, altered);
     await simulation.step(tick + 1);
@@ -164,12 +163,7 @@ const tasks = {
     await simulation.step(tick);
     const blending = await refusal(() => verifyTile(simulation, answer));
     simulation.dispose();
-    return { found, points, failing, moved, blending };
-  },
-
-  /** Refusals of seas that cannot be shown. */
-  async refused({ name }) {
-    return refusal(async () => make(await sea(name)));
+    return { found, failing, moved, blending };
   },
 };
 

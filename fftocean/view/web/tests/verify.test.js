@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { FIELDS } from '../src/container.js';
-import { relativeError, verifyPoints, verifyTile, whyNotExact } from '../src/verify.js';
+import { relativeError, verifyTile, whyNotExact } from '../src/verify.js';
 
 /** Return a simulation of one tile of 2 x 2 whose every field is (1, 2, 3, 4) plus the tick. */
 function simulation(more = {}) {
@@ -11,9 +11,6 @@ function simulation(more = {}) {
     tick: 0,
     tiles: [{ nx: 2, ny: 2 }],
     document: { ticks: 64, id: 3, quality: 'exact' },
-    step(tick) {
-      this.tick = tick;
-    },
     async readFields() {
       const values = Float32Array.from([1, 2, 3, 4], (value) => value + this.tick);
       return Object.fromEntries(FIELDS.map((name) => [name, values]));
@@ -68,25 +65,4 @@ test('only one exact sea alone can be verified', async () => {
     assert.notEqual(whyNotExact(simulation(more)), '');
     await assert.rejects(verifyTile(simulation(more), reference()), /nothing to verify/);
   }
-});
-
-test('points are compared at their ticks, and the tick is then as before', async () => {
-  const shown = simulation();
-  shown.tick = 9;
-  const fields = Object.fromEntries(
-    FIELDS.map((name) => [
-      name,
-      [
-        [2, 3],
-        [7, 8],
-      ],
-    ]),
-  );
-  const points = { moments: [0, 5], tiles: [{ columns: [1, 0], rows: [0, 1], fields }] };
-  const [found] = await verifyPoints(shown, points);
-  assert.deepEqual([found.passed, found.worst, shown.tick], [true, 0, 9]);
-  fields.slope_y[1] = [7, 9];
-  const [wrong] = await verifyPoints(shown, points);
-  assert.deepEqual([wrong.passed, wrong.errors.height], [false, 0]);
-  assert.ok(wrong.errors.slope_y > 0.05);
 });
