@@ -43,17 +43,32 @@ async function foamUntil(
   }
 }
 
-/** Return the radiance of a picture, (height, width, 4), row 0 at the bottom. */
+/**
+ * Return the radiance of a picture, (height, width, 4), row 0 at the bottom, with the edges of waves
+ * smoothed as on the page's own canvas.
+ */
 function radiance(renderer, simulation, camera, look, width, height) {
-  const size = { width, height, wrap: "clamp" };
-  const depth = texture(gl, { format: "DEPTH_COMPONENT24", ...size });
-  const into = target(gl, [texture(gl, { format: "RGBA32F", ...size })], depth);
-  renderer.render(simulation, camera, look, width, height, {
-    target: into,
-    linear: true,
+  const handle = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, handle);
+  const planes = [
+    [gl.COLOR_ATTACHMENT0, gl.RGBA16F],
+    [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24],
+  ].map(([point, format]) => {
+    const plane = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, plane);
+    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, 4, format, width, height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, point, gl.RENDERBUFFER, plane);
+    return plane;
   });
+  renderer.render(simulation, camera, look, width, height, { target: { handle }, linear: true });
+  const into = target(gl, [texture(gl, { width, height, format: 'RGBA16F', wrap: 'clamp' })]);
+  gl.bindFramebuffer(gl.READ_FRAMEBUFFER, handle);
+  gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, into.handle);
+  gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   const texels = into.read(0);
   into.dispose();
+  gl.deleteFramebuffer(handle);
+  for (const plane of planes) gl.deleteRenderbuffer(plane);
   return texels;
 }
 
@@ -138,10 +153,63 @@ async function lightOf(picture) {
   };
 }
 
+/** Return what a fragment shader writes for each of some numbers, four values each. */
+function evaluated(source, numbers) {
+  const size = { width: numbers.length, height: 1, format: 'RGBA32F' };
+  const data = Float32Array.from(numbers.flatMap((x) => [x, 0, 0, 0]));
+  const given = texture(gl, { ...size, data });
+  const into = target(gl, [texture(gl, size)]);
+  const made = program(gl, source);
+  drawFullscreen(gl, made, { given }, into);
+  const answer = base64(into.read(0));
+  for (const one of [given, into, made]) one.dispose();
+  return answer;
+}
+
+/** Return the statistics of visible slopes, by the mean over the deviation of the projected area. */
+async function visible({ numbers }) {
+  const source = `${FRAGMENT_HEAD}${VISIBLE_SLOPES}
+uniform sampler2D given;
+out vec4 answer;
+void main() {
+  answer = vec4(visible(texelFetch(given, ivec2(gl_FragCoord.xy), 0).x), 0.0);
+}`;
+  return { statistics: evaluated(source, numbers), error: gl.getError() };
+}
+
+/** Return the mean of the broken-up foam over a square of water whose coverage is the same. */
+async function brokenUp({ covers, metres, pixels }) {
+  const foam = new FoamField(gl, [16, 16], 256, 8);
+  const source = `${FRAGMENT_HEAD}${FOAM_LOOKUP}
+uniform float metres, pixels;
+out vec4 answer;
+void main() {
+  answer = vec4(foam_at((gl_FragCoord.xy / pixels - 0.5) * metres), 1.0);
+}`;
+  const made = program(gl, source);
+  const size = { width: pixels, height: pixels, format: 'RGBA32F' };
+  const into = target(gl, [texture(gl, size)]);
+  const means = covers.map((cover) => {
+    for (const { targets } of foam.windows) {
+      targets[0].bind();
+      gl.clearColor(0, cover, 0, 1);
+      gl.clear(gl.COLOR_BUFFER_BIT);
+      targets[0].textures[0].generateMips();
+    }
+    drawFullscreen(gl, made, { ...foam.uniforms([0, 0], null), metres, pixels }, into);
+    const texels = into.read(0);
+    let sum = 0;
+    for (let i = 1; i < texels.length; i += 4) sum += texels[i];
+    return sum / (pixels * pixels);
+  });
+  for (const one of [foam, made, into]) one.dispose();
+  return { means, error: gl.getError() };
+}
+
 globalThis.run = async ({ pictures }) => {
   const answers = [];
   for (const picture of pictures) {
-    const task = { coverage, light: lightOf }[picture.answer] ?? draw;
+    const task = { brokenUp, coverage, light: lightOf, visible }[picture.answer] ?? draw;
     answers.push(await task(picture));
   }
   return answers;
