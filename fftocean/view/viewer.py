@@ -252,6 +252,7 @@ class Viewer:
             busy=self._maker.busy,
             notes=self._sea.notes if self._sea is not None and current else (),
             sea=self._sea.number if self._sea is not None and current else None,
+            most_tiles=len(state.sizes),
         )
 
 

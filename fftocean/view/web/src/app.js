@@ -98,6 +98,7 @@ export class App {
     this.bake = null;
     this.source = '';
     this.busy = false;
+    this.mostTiles = Infinity;
     this.notes = { sea: [], picture: [] };
     this.verifying = null;
     this.ending = new AbortController();
@@ -284,10 +285,11 @@ export class App {
   }
 
   /** Take the state of the server: its values, unless the hand is ahead of them. */
-  takeState(state, { source = '', busy = false, notes = [] }) {
+  takeState(state, { source = '', busy = false, notes = [], most_tiles: most = Infinity }) {
     this.served = { ...state };
     this.busy = busy;
     this.source = source;
+    this.mostTiles = most;
     const waiting = this.connection?.pending ?? new Map();
     for (const [name, value] of Object.entries(state)) {
       if (!waiting.has(name)) this.values[name] = value;
@@ -323,6 +325,8 @@ export class App {
     this.clock.follow(sea.document);
     this.showFigures();
     await this.stage.setSea(sea, first || this.clock.paused ? 0 : CHANGE);
+    // While time stands still foam cannot follow the sea, so that it grows anew for the exact one.
+    if (this.clock.paused && sea.document.quality !== 'moving') this.stage.foamIsNew = true;
     this.changed();
   }
 
@@ -471,7 +475,8 @@ export class App {
       this.refuse(`${row.label.toLowerCase()} is fixed: the sea is made already`);
       return;
     }
-    const value = stepped(row, this.values[name], direction);
+    const high = name === 'tiles' ? Math.min(row.high, this.mostTiles) : row.high;
+    const value = stepped({ ...row, high }, this.values[name], direction);
     this.change({ [name]: value });
     const text = row.kind === 'choice' ? choiceLabel(value) : valueText(row, value);
     this.layout.toast(`${row.label}: ${text}`);

@@ -196,6 +196,7 @@ export class Stage {
   /** Let foam grow over the seconds before a tick, once after each building. */
   async growFoam(clock, choppiness, eye) {
     this.foamIsNew = false;
+    this.renderer.restartFoam();
     const { loop, ticks } = clock;
     for (let before = FOAM_BEFORE; before >= FOAM_STEP; before -= FOAM_STEP) {
       const tick = Math.floor(clock.tick - (before / loop) * ticks);

@@ -70,7 +70,8 @@ export function hasSlider(row) {
 /** Return the decimals that a step needs. */
 function decimals(step) {
   if (!(step > 0)) return 2;
-  return Math.max(0, Math.min(6, Math.ceil(-Math.log10(step) - 1e-9)));
+  const [, fraction = ''] = String(step).split('.');
+  return fraction.length;
 }
 
 /** Return a value on the grid of the row's step and inside its range. */

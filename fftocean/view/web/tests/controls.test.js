@@ -50,6 +50,7 @@ test('steps stay on the grid and inside the range', () => {
   assert.equal(stepped(wind, 11.2, -1), 10.5);
   assert.equal(stepped(wind, 40, 1), 40);
   assert.equal(stepped(wind, 0, -1), 0);
+  assert.equal(stepped({ ...wind, step: 0.25 }, 1, 1), 1.25); // quarters need two decimals
   let value = 0;
   for (let i = 0; i < 22; i++) value = stepped(wind, value, 1);
   assert.equal(value, 11); // no rounding errors add up
