@@ -83,7 +83,7 @@ def few_waves(
     sea: Sea,
     model: str,
     *,
-    number: int = 24,
+    number: int = 48,
     loop: float,
     ticks: int = 2**19,
     seed: int = 0,

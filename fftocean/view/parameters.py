@@ -458,18 +458,18 @@ LOCAL = (
             help=text,
         )
         for name, label, low, high, step, default, text in (
-            ("ambient", "ambient", 0.0, 1.0, 0.05, 0.3, "share of light from everywhere"),
+            ("ambient", "ambient", 0.0, 1.0, 0.05, 1.0, "share of the light of the sky"),
             ("diffuse", "diffuse", 0.0, 1.0, 0.05, 0.6, "share of light scattered to all sides"),
             ("specular", "specular", 0.0, 1.0, 0.05, 0.5, "share of light mirrored"),
-            ("shininess", "shininess", 1.0, 256.0, 1.0, 64.0, "exponent of the mirrored light"),
+            ("shininess", "shininess", 1.0, 256.0, 1.0, 180.0, "exponent of the mirrored light"),
             (
                 "noise_amplitude",
                 "noise amplitude",
                 0.0,
                 1.0,
                 0.05,
-                0.15,
-                "largest turn of the normal by noise",
+                0.3,
+                "largest turn of the normal by ripples [rad]",
             ),
             (
                 "noise_frequency",
@@ -477,8 +477,8 @@ LOCAL = (
                 0.0,
                 8.0,
                 0.25,
-                1.5,
-                "bumps of the noise a metre",
+                1.0,
+                "ripples a metre",
             ),
         )
     ),

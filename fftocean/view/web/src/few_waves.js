@@ -2,7 +2,7 @@
 import { ringDistances, visibleSector } from './camera.js';
 import { stopsFactor } from './exposure.js';
 import { program, texture } from './gl.js';
-import { NOISE_CELLS, NOISE_SAMPLES, noiseLevels } from './noise.js';
+import { NOISE_CYCLES, NOISE_SAMPLES, noiseLevels } from './noise.js';
 import { reflectance, waterOptics } from './optics.js';
 import { DEFAULT_LOOK } from './renderer.js';
 import {
@@ -21,16 +21,16 @@ const SKY_SAMPLES = 256; // of a sky of its own
  * The water as the slides light it scatters all light that one sees of it. Sea water scatters so
  * little that this must be more than it does, for the same brightness.
  */
-const SCATTERED = 6;
+const SCATTERED = 3;
 
 /** Light where a look does not give it; see `Renderer` for sun, sky and chlorophyll. */
 export const DEFAULT_FEW_LOOK = {
   ambient: 1,
   diffuse: 0.6,
   specular: 0.5,
-  shininess: 64,
-  noiseAmplitude: 0.15, // largest turn of the normal [rad]
-  noiseFrequency: 1.5, // bumps a metre
+  shininess: 180,
+  noiseAmplitude: 0.3, // largest turn of the normal [rad]
+  noiseFrequency: 1, // ripples a metre
   choppiness: 1,
 };
 
@@ -205,7 +205,7 @@ export class FewWaves {
     const { wavenumber, wave, count } = wavesAt(model, tick, camera.east, camera.north);
     const sector = visibleSector(camera, aspect, reachOf(model, look.choppiness));
     this.rings.upload(ringDistances(sector.near, sector.far, camera.height, this.ringCount));
-    const frequency = look.noiseFrequency / NOISE_CELLS; // of the texture, a metre
+    const frequency = look.noiseFrequency / NOISE_CYCLES; // of the texture, a metre
     return {
       view_projection: camera.matrices(aspect).viewProjection,
       rings: this.rings,

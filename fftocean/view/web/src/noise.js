@@ -1,57 +1,55 @@
-// Noise that turns normals: two channels, periodic, of mean 0, within -1 to 1.
+// Noise that turns normals: the slopes of ripples, periodic, of mean 0, within -1 to 1.
 
 import { halfFloats } from './half.js';
 
-/** Samples a side of the texture, and cells of its coarsest octave across it. */
+/** Samples a side of the texture, and cycles across it of a ripple of the nominal length. */
 export const NOISE_SAMPLES = 256;
-export const NOISE_CELLS = 8;
+export const NOISE_CYCLES = 8;
 
-const OCTAVES = 4;
+const RIPPLES = 72;
+const FEWEST_CYCLES = 6;
+const MOST_CYCLES = 60;
 
-/** Return a whole number that looks random, for a cell of an octave of a channel. */
-function hash(x, y, channel) {
-  let h = Math.imul(x, 0x8da6b343) ^ Math.imul(y, 0xd8163841) ^ Math.imul(channel, 0xcb1ab31f);
-  h = Math.imul(h ^ (h >>> 15), 0x2c1b3c6d);
-  h = Math.imul(h ^ (h >>> 12), 0x297a2d39);
-  return (h ^ (h >>> 15)) >>> 0;
+/** Return a number from 0 to 1 that looks random, for each whole number. */
+function random(number) {
+  let h = Math.imul(number + 1, 0x2c1b3c6d);
+  h = Math.imul(h ^ (h >>> 15), 0x297a2d39);
+  h = Math.imul(h ^ (h >>> 13), 0x5bd1e995);
+  return ((h ^ (h >>> 16)) >>> 0) / 2 ** 32;
 }
-
-/** Return smooth noise of `cells` cells across the texture, (samples x samples), in -1 to 1. */
-function octave(cells, channel) {
-  const values = new Float32Array(NOISE_SAMPLES * NOISE_SAMPLES);
-  const random = (x, y) => hash(x % cells, y % cells, channel) / 2 ** 31 - 1;
-  for (let j = 0; j < NOISE_SAMPLES; j++) {
-    for (let i = 0; i < NOISE_SAMPLES; i++) {
-      const [x, y] = [(i * cells) / NOISE_SAMPLES, (j * cells) / NOISE_SAMPLES];
-      const [column, row] = [Math.floor(x), Math.floor(y)];
-      const [u, v] = [smooth(x - column), smooth(y - row)];
-      const south = mix(random(column, row), random(column + 1, row), u);
-      const north = mix(random(column, row + 1), random(column + 1, row + 1), u);
-      values[j * NOISE_SAMPLES + i] = mix(south, north, v);
-    }
-  }
-  return values;
-}
-
-const mix = (a, b, share) => a + share * (b - a);
-const smooth = (x) => x * x * x * (x * (6 * x - 15) + 10);
 
 /**
- * Return the noise as two channels of numbers: four octaves, each half as strong as the one before.
+ * Return the noise as two channels of numbers: the angles about the axes to the east and to the
+ * north by which ripples of all directions turn a normal, each ripple as steep as the others.
  *
- * The mean is 0 and the largest magnitude 1: a sum of octaves as it comes would turn normals
- * further than its amplitude says, and to one side.
+ * Their mean is 0 and the largest magnitude 1: a sum as it comes would turn normals further than
+ * its amplitude says.
  */
 export function noiseChannels() {
-  return [0, 1].map((channel) => {
-    const sum = new Float32Array(NOISE_SAMPLES * NOISE_SAMPLES);
-    for (let i = 0; i < OCTAVES; i++) {
-      const part = octave(NOISE_CELLS << i, 2 * i + channel);
-      part.forEach((value, at) => (sum[at] += value * 2 ** -i));
+  const samples = NOISE_SAMPLES;
+  const wave = Float32Array.from({ length: samples }, (_, i) =>
+    Math.sin((2 * Math.PI * i) / samples),
+  );
+  const channels = [0, 1].map(() => new Float32Array(samples * samples));
+  for (let ripple = 0; ripple < RIPPLES; ripple++) {
+    const size = FEWEST_CYCLES * (MOST_CYCLES / FEWEST_CYCLES) ** (ripple / (RIPPLES - 1));
+    const direction = 2 * Math.PI * random(2 * ripple);
+    const mx = Math.round(size * Math.cos(direction));
+    const my = Math.round(size * Math.sin(direction));
+    const length = Math.hypot(mx, my);
+    const phase = Math.floor(samples * random(2 * ripple + 1));
+    for (let j = 0; j < samples; j++) {
+      for (let i = 0; i < samples; i++) {
+        // whole cycles across the texture: the phase is a whole number of samples of the sine
+        const value = wave[(mx * i + my * j + phase) & (samples - 1)];
+        channels[0][j * samples + i] += (my / length) * value;
+        channels[1][j * samples + i] -= (mx / length) * value;
+      }
     }
-    const mean = sum.reduce((total, value) => total + value, 0) / sum.length;
-    const most = sum.reduce((largest, value) => Math.max(largest, Math.abs(value - mean)), 0);
-    return sum.map((value) => (value - mean) / most);
+  }
+  return channels.map((sum) => {
+    const most = sum.reduce((largest, value) => Math.max(largest, Math.abs(value)), 0);
+    return sum.map((value) => value / most);
   });
 }
 

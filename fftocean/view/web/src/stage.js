@@ -215,7 +215,7 @@ export class Stage {
 
   /** Draw few waves under the same sky over the right half of the picture. */
   renderFew(model, tick, camera, look, width, height) {
-    this.few ??= new FewWaves(this.gl);
+    this.few ??= new FewWaves(this.gl, this.renderer.quality);
     const half = Math.floor(width / 2);
     const viewport = [half, 0, width - half, height];
     const { sky } = this.renderer;

@@ -84,7 +84,7 @@ test('noise has mean 0, stays within -1 to 1 and repeats', () => {
         inside = Math.max(inside, Math.abs(values[at + i] - values[at + i - 1]));
       }
     }
-    assert.ok(across <= inside);
+    assert.ok(across <= inside); // the edge is no seam
   }
   const together = channels[0].reduce((sum, value, i) => sum + value * channels[1][i], 0);
   const alone = channels[0].reduce((sum, value) => sum + value * value, 0);

@@ -134,9 +134,13 @@ vec3 mirrored_sky(vec3 n, vec3 to_eye, float variance) {
 void main() {
   vec2 at = noise_start + still * noise_frequency;
   // The second layer is turned and wider, so that the pattern does not repeat visibly.
-  vec2 wide = mat2(0.29, 0.22, -0.22, 0.29) * at + 0.37;
-  vec2 angle = 0.5 * noise_amplitude * (texture(noise, at).xy + texture(noise, wide).xy);
-  vec3 n = turn_normal(angle, normalize(normal));
+  const mat2 TURN = mat2(0.8, 0.6, -0.6, 0.8);
+  vec2 wide = TURN * at * 0.37 + 0.37;
+  vec2 angle = texture(noise, at).xy + texture(noise, wide).xy * TURN;
+  vec3 n = turn_normal(0.5 * noise_amplitude * angle, normalize(normal));
+  // Ripples that are finer than a pixel roughen the water instead.
+  float texels = float(textureSize(noise, 0).x) * max(length(dFdx(at)), length(dFdy(at)));
+  float lost = 0.05 * noise_amplitude * noise_amplitude * clamp(log2(texels) / 6.0, 0.0, 1.0);
   vec3 way = vec3(-still, height) - moved;
   float far = length(way);
   vec3 to_eye = way / far;
@@ -144,13 +148,17 @@ void main() {
   vec3 sky_light = texelFetch(light, ivec2(1, 0), 0).rgb;
   float lit = dot(n, sunward);
   float glint = 0.0;
-  if (lit > 0.0) glint = pow(max(dot(to_eye, 2.0 * n * lit - sunward), 0.0), shininess);
+  if (lit > 0.0) {
+    // A highlight of rougher water is wider, and as much weaker (Toksvig 2005).
+    float wider = 1.0 + shininess * (lost + rough);
+    float mirrored = max(dot(to_eye, 2.0 * n * lit - sunward), 0.0);
+    glint = pow(mirrored, shininess / wider) / wider;
+  }
   vec3 everywhere = albedo / PI * (sun_light * max(sunward.z, 0.0) + sky_light);
-  float variance = 2e-4 + rough + 0.05 * noise_amplitude * noise_amplitude;
-  vec3 radiance = ambient * (everywhere + mirrored_sky(n, to_eye, variance));
+  vec3 radiance = ambient * (everywhere + mirrored_sky(n, to_eye, 2e-4 + rough + lost));
   radiance += diffuse * max(lit, 0.0) * albedo / PI * sun_light;
   radiance += specular * glint * GLINT * sun_light;
   vec3 haze = textureLod(sky, sky_place(normalize(vec3(-to_eye.xy, 0.02))), 1.0).rgb;
   radiance = mix(radiance, haze, 1.0 - exp(-far * air_extinction));
   pixel = shown(radiance, texelFetch(light, ivec2(3, 0), 0).x);
-}`.replace('GLINT', '0.35'); // radiance of a perfect mirror of the slides, over the irradiance
+}`.replace('GLINT', '1.2'); // radiance of a perfect mirror of the slides, over the irradiance
