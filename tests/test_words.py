@@ -50,6 +50,7 @@ def texts(folder):
     return {
         path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
         for path in sorted(folder.rglob("*.py"))
+        if "node_modules" not in path.parts  # npm packages of the page's tools
         if "node_modules" not in path.parts
     }
 

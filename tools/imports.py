@@ -26,6 +26,8 @@ def modules_in(folder: Path) -> dict[str, str]:
     """
     found = {}
     for path in sorted(folder.rglob("*.py")):
+        if "node_modules" in path.parts:  # npm packages of the page's tools
+            continue
         parts = path.relative_to(folder).with_suffix("").parts
         found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(
             encoding="utf-8"

@@ -23,8 +23,6 @@ export function withoutShaderComments(source) {
           .replace(/[ \t]+/g, ' ')
           .replace(/ *\n[ \n]*/g, '\n')
           .replace(/ ?([=*/<>,;{}?:]) ?/g, '$1')
-            found.includes('\n') ? found : sign,
-          )
       : text,
   );
 }
