@@ -23,16 +23,8 @@ FLOORS = {
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
-        *(
-            "products",
-            "foam_coverage",
-            "foam",
-            "eulerian",
-            "mips",
-            "kinematics",
-            "statistics",
-            "blend_loss",
-        ),
+        *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
+        *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
