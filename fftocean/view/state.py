@@ -10,14 +10,15 @@ that job into a sea, so a copied job is baked as the sea that was seen.
 
 import math
 import shlex
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
-from fftocean.cascade import Cascade, Tile
-from fftocean.errors import JobError, ParameterError
+from fftocean.cascade import Cascade, Tile, tile_jobs
+from fftocean.errors import JobError, ParameterError, SeaWarning
 from fftocean.job.job import Job
 from fftocean.job.parameters import PARAMETERS as JOB_PARAMETERS
 from fftocean.job.parameters import WIND
@@ -146,7 +147,9 @@ class State:
         )
 
     @classmethod
-    def of_spectrum(cls, file: Path, before: "State", *, source: str) -> "State":
+    def of_spectrum(
+        cls, file: Path, before: "State", *, source: str, dropped: bool = False
+    ) -> "State":
         """
         Return the sea of a measured spectrum, with the seed, loop and tiles of another state.
 
@@ -156,6 +159,7 @@ class State:
             file: the spectrum, in any format of `fftocean.readers`.
             before: the other state.
             source: the name of the file, as the page shows it.
+            dropped: the file was dropped on the page, and is known by name alone.
 
         Raises:
             ReaderError: a file that cannot be read; the message names the rule.
@@ -168,7 +172,7 @@ class State:
             n=before.samples,
             tiles=before.tiles if before.chosen and before.is_square else None,
             source=source,
-            dropped=True,
+            dropped=dropped,
         )
         values = {**made.values, "tiles": before.values["tiles"], "model": before.values["model"]}
         made = replace(made, values=MappingProxyType(values), chosen=before.chosen)
@@ -396,4 +400,12 @@ def _checked_tiles(tiles: Sequence[Tile]) -> tuple[Tile, ...]:
     assert most is not None
     if len(tiles) > most:
         raise JobError(f"tiles must be at most {int(most)}, got {len(tiles)}")
-    return tuple((power_of_two("the samples of a tile", n), float(size)) for n, size in tiles)  # type: ignore[arg-type]
+    checked: list[Tile] = []
+    for n, size in tiles:
+        if isinstance(size, tuple):
+            raise JobError(f"a tile must be square where there are several, got {size}")
+        checked.append((power_of_two("the samples of a tile", n), float(size)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SeaWarning)  # told when the sea is made
+        tile_jobs(checked, 0)
+    return tuple(checked)

@@ -54,13 +54,20 @@ class Viewer:
         state: the sea at the start; None where a bake is played.
         bake: the bake that is played.
         source: the bake's name, as the page shows it.
+
+    Raises:
+        IntegrityError: a frame of the bake that is read at the start is damaged.
     """
 
     def __init__(
         self, state: State | None = None, *, bake: Bake | None = None, source: str = ""
     ) -> None:
         self.clients: set[Client] = set()
-        self._state, self._bake, self._source = state, bake, source
+        self._state, self._bake = state, bake
+        # made once: it reads frames, and a damaged one is told before anything is served
+        self._bake_text = (
+            json.dumps({"bake": bake.manifest(), "source": source}, allow_nan=False) if bake else ""
+        )
         self._good = state  # the last of which a sea was made
         self._worker = Worker()
         self._maker = SeaMaker(self._worker, self._made, self._failed)
@@ -95,7 +102,7 @@ class Viewer:
         """Send a new client all that it needs."""
         self.clients.add(client)
         if self._bake is not None:
-            client.offer("bake", self._bake_text())
+            client.offer("bake", self._bake_text)
             return
         client.offer("state", self._state_text())
         if self._sea is not None:
@@ -163,7 +170,7 @@ class Viewer:
         file = self._spool_folder() / safe_name(name)
         write_whole(file, data)
         self._become(
-            await self._read(lambda: State.of_spectrum(file, before, source=shown)),
+            await self._read(lambda: State.of_spectrum(file, before, source=shown, dropped=True)),
         )
 
     async def _drop_job(self, text: str, shown: str) -> None:
@@ -231,12 +238,6 @@ class Viewer:
         if self._bake is None:
             raise Refusal("frame must be sent where a bake is played; here is a sea")
         return self._bake
-
-    def _bake_text(self) -> str:
-        """Return the text that describes the bake."""
-        return json.dumps(
-            {"bake": self._require_bake().manifest(), "source": self._source}, allow_nan=False
-        )
 
     def _offer_all(self, kind: str, message: str | bytes) -> None:
         for client in self.clients:

@@ -4,6 +4,7 @@ import asyncio
 import base64
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -19,6 +20,7 @@ from websockets.exceptions import ConnectionClosed
 
 import fftocean as fo
 from fftocean.view.client import MOST_ANSWERS, MOST_FRAMES, Client
+from fftocean.view.playback import open_bake
 from fftocean.view.protocol import BakedFrame, Verify
 from fftocean.view.server import MOST_BAD, MOST_CLIENTS, WRITE_LIMIT
 from fftocean.view.viewer import Viewer, safe_name, shown_name
@@ -409,7 +411,7 @@ def test_opened_reads_what_the_server_sends(shared):
 
 
 def test_a_slider_gets_moving_seas_and_then_the_exact_one(running):
-    """The moving sea has the waves of the exact one, nearly: phases to round-off, heights to 1 %."""
+    """The moving sea has nearly the waves of the exact one: the phases, and the heights to 1 %."""
     with running.connect() as client:
         client.exact()
         client.send({"set": {"wind_speed": 8.0}})
@@ -464,3 +466,49 @@ def test_a_few_wave_model_comes_with_the_sea(running):
             assert 1 <= len(few["amplitude"]) <= 64
         client.send({"set": {"model": "fft"}})
         assert client.exact(model="fft")[0]["few_waves"] is None
+
+
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory):
+    """Bake a small job."""
+    folder = tmp_path_factory.mktemp("bake") / "sea"
+    job = fo.Job.default().replaced(
+        {"ocean.n": 16, "bake.frames": 12, "bake.maps": ["displacement"], "bake.pictures": []}
+    )
+    fo.bake(job, folder, executor="serial")
+    return folder
+
+
+def test_a_bake_is_played(page, baked):
+    viewer = Viewer(bake=open_bake(baked), source="sea")
+    with Running(viewer, page) as running, running.connect() as client:
+        manifest = client.next("bake")
+        assert manifest["source"] == "sea"
+        assert (manifest["bake"]["frames"], manifest["bake"]["tiles"][0]["n"]) == (12, [16, 16])
+        for i in range(4):
+            client.send({"frame": {"tile": 0, "frame": i}})
+        found = [client.next("FFTB") for _ in range(4)]
+        assert [header["frame"] for header, _ in found] == [0, 1, 2, 3]
+        assert {len(body) for _, body in found} == {3 * 16 * 16 * 4 * 2}
+        for message in (
+            {"frame": {"tile": 1, "frame": 0}},
+            {"set": {"seed": 1}},
+            {"copy": "job"},
+            {"verify": {"tick": 0}},
+            {"job": ""},
+        ):
+            client.send(message)
+            assert " must " in client.next("refused")["refused"]["message"]
+
+
+def test_a_damaged_frame_is_told_and_the_others_are_played(page, baked, tmp_path):
+    folder = tmp_path / "damaged"
+    shutil.copytree(baked, folder)
+    file = sorted((folder / "displacement").iterdir())[2]
+    file.write_bytes(file.read_bytes()[:-1])
+    viewer = Viewer(bake=open_bake(folder), source="sea")
+    with Running(viewer, page) as running, running.connect() as client:
+        client.send({"frame": {"tile": 0, "frame": 2}})
+        assert file.name in client.next("refused")["refused"]["message"]
+        client.send({"frame": {"tile": 0, "frame": 1}})
+        assert client.next("FFTB")[0]["frame"] == 1

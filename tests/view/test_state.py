@@ -329,7 +329,7 @@ def test_a_spectrum_keeps_the_tiles_and_the_seed(tmp_path):
     data = Path(__file__).parents[1] / "data"
     file = next(p for p in sorted(data.rglob("*")) if p.name.endswith(".data_spec"))
     before = State.default(n=16).changed({"seed": 5, "tiles": 2})
-    state = State.of_spectrum(file, before, source=file.name)
+    state = State.of_spectrum(file, before, source=file.name, dropped=True)
     assert (state.values["seed"], state.values["tiles"]) == (5, 2)
     assert state.values["wind_speed"] == 0.0
     direct = fo.Sea.from_spectrum(fo.readers.open(file))

@@ -1,6 +1,7 @@
 // Entry of the page that is one file: the sea is in it, and nothing is asked of a server.
 
 import { startApp } from './app.js';
+import { bytesOf, inflated, joined } from './planes.js';
 import { readTable } from './table.js';
 
 /** Return the text of an element that carries data. */
@@ -8,10 +9,10 @@ function carried(id) {
   return document.getElementById(id)?.textContent.trim() ?? null;
 }
 
-/** Return the bytes of base64. */
-function bytesOf(text) {
-  const binary = atob(text);
-  return Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
+/** Return the bytes of the container. */
+async function carriedSea() {
+  const planes = Number(document.getElementById('sea').dataset.planes);
+  return joined(await inflated(bytesOf(carried('sea'))), planes);
 }
 
 /** Start the page in its main element. */
@@ -21,7 +22,7 @@ async function start() {
     table: readTable(JSON.parse(carried('parameters'))),
     keysOn: globalThis,
     embedded: {
-      bytes: bytesOf(carried('sea')),
+      bytes: await carriedSea(),
       about: JSON.parse(carried('about') ?? '{}'),
     },
   });
