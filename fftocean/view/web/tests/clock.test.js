@@ -21,6 +21,8 @@ test('ticks stay exact after 1e9 seconds', () => {
   assert.equal(clock.tick, 0);
   clock.update(1e12 + 250);
   assert.equal(clock.tick, 2 ** 12);
+  clock.update(2e12 + 350); // at once
+  assert.equal(clock.tick, Math.floor(0.35 * 2 ** 14));
 });
 
 test('frames of a 64th of a second do not drift', () => {

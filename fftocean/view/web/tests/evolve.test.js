@@ -82,3 +82,12 @@ test('maps hold the fields with choppiness, and their levels the averages', () =
   assert.equal(texel('displacement', 1, 0)[2], (3.5 * 3) / 8);
   assert.equal(texel('displacement', 2, 0)[2], (4.5 * 3) / 8);
 });
+
+test('a tall tile has levels down to one texel too', () => {
+  const fields = Object.fromEntries(FIELDS.map((name) => [name, Float64Array.of(1, 2, 3, 6)]));
+  const { displacement } = mapsOf(fields, 1, 4, 1);
+  assert.deepEqual(
+    displacement.map((level) => [...level].filter((_, i) => i % 4 === 2).map(half)),
+    [[1, 2, 3, 6], [1.5, 4.5], [3]],
+  );
+});
