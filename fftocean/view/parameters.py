@@ -375,6 +375,14 @@ LOCAL = (
         help="a buoy of 2 m on the water, to show the scale",
     ),
     Parameter(
+        name="blend_frames",
+        label="blend frames",
+        default=False,
+        local=True,
+        group=_CAMERA,
+        help="blend linearly between two frames of a bake: smoother, but short waves lose height",
+    ),
+    Parameter(
         name="sun_elevation",
         label="sun elevation",
         quantity=LIGHT_ANGLE,

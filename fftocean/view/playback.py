@@ -7,6 +7,7 @@ that is exact for the pixels as they are stored; what they were rounded by is di
 except beyond the band of the tile, where there is no wave.
 """
 
+import functools
 import json
 import math
 import struct
@@ -25,13 +26,17 @@ from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.load import read_frames
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
+from fftocean.cascade import Cascade, from_oceans
 from fftocean.constants import GRAVITY
-from fftocean.errors import IntegrityError, JobError, ParameterError
+from fftocean.errors import FFTOceanError, IntegrityError, JobError, ParameterError
 from fftocean.fields import potential_factor
 from fftocean.files import digest, path_of, read_whole
+from fftocean.foam_coverage import threshold_for
 from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.limits import Count
+from fftocean.ocean import Ocean
+from fftocean.slope_variance import FLOOR, slope_variance
 
 FORMAT, VERSION = "fftocean-playback", 1
 MAGIC = b"FFTB"
@@ -43,6 +48,7 @@ _ALIGNMENT = 16
 _HEAD = struct.Struct("<4sIII")
 _RUN = 8  # frames that are read at a time from a container, which is read as a whole
 _SAMPLED = 4  # frames whose slopes are measured
+_SEEN = 1.0  # length of the shortest waves that the page's foam sees [m]
 _BYTES = Count("bytes", 0, 2**50)
 
 FIELDS = ("height", "displace_x", "displace_y", "slope_x", "slope_y")
@@ -97,15 +103,9 @@ class Playback:
         Raises:
             IntegrityError: one of the frames whose slopes are measured is damaged.
         """
-        first = self._tiles[0]
-        manifest, settings = first.contents.manifest, first.contents.job.settings
-        wind = (
-            {"speed": settings["sea.wind.speed"], "direction": settings["sea.wind.direction"]}
-            if first.contents.job.wind
-            else None
-        )
-        foam = first.contents.job.foam
-        captured = self._captured()
+        first, wind = self._tiles[0], self._wind
+        manifest = first.contents.manifest
+        roughness, foam = self._roughness(), self._foam()
         times = [row["t"] for row in manifest["frames"]]
         return {
             "format": FORMAT,
@@ -122,13 +122,13 @@ class Playback:
             "depth": first.depth if math.isfinite(first.depth) else None,
             "gravity": GRAVITY,
             "statistics": self._statistics(),
-            "slope_variance": {"captured": captured, "total": captured, "beyond": [0.0, 0.0, 0.0]},
+            "slope_variance": roughness,
             "foam": {
                 "decay": foam["tau"],
                 "threshold": foam["threshold"],
                 "strength": foam["strength"],
             },
-            "wind": wind,
+            "wind": None if wind is None else {"speed": wind[0], "direction": wind[1]},
             "bounds": self._bounds(),
             "spectrum": None,
             "tiles": [
@@ -205,12 +205,64 @@ class Playback:
             _, dropped = self._frames.popitem(last=False)
             self._held -= len(dropped)
 
-    def _captured(self) -> list[float]:
+    @functools.cached_property
+    def _water(self) -> Ocean | Cascade | None:
+        """The water that was baked; None if a measured file of its job is gone."""
+        try:
+            oceans = tuple(tile.contents.job.ocean() for tile in self._tiles)
+        except FFTOceanError:
+            return None
+        first = oceans[0]
+        if len(oceans) == 1 or first.sea is None:
+            return first
+        return from_oceans(first.sea, first.seed or 0, oceans)
+
+    @property
+    def _wind(self) -> tuple[float, float] | None:
+        """Speed [m/s] and direction [degrees] of the wind of the job."""
+        job = self._tiles[0].contents.job
+        if not job.wind:
+            return None
+        return job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+
+    def _roughness(self) -> dict[str, list[float]]:
+        """Return the slope variance of the tiles, of the whole sea, and beyond the tiles."""
+        wind, water = self._wind, self._water
+        if water is None:
+            captured = self._measured_slopes()
+            beyond = [FLOOR, FLOOR, 0.0]
+            total = [a + b for a, b in zip(captured, beyond, strict=True)]
+            return {"captured": captured, "total": total, "beyond": beyond}
+        found = slope_variance(
+            water,
+            wind_speed=None if wind is None else wind[0],
+            wind_direction=0.0 if wind is None else wind[1],
+        )
+        return {name: list(getattr(found, name)) for name in ("captured", "total", "beyond")}
+
+    def _foam(self) -> dict[str, float]:
+        """
+        Return the parameters of foam: those of a job that bakes foam, else such that it covers what
+        whitecaps do at the job's wind.
+        """
+        foam = dict(self._tiles[0].contents.job.foam)
+        wind, water = self._wind, self._water
+        if (
+            wind is not None
+            and water is not None
+            and "foam" not in self._tiles[0].contents.job.maps
+        ):
+            foam["threshold"] = threshold_for(
+                water, wind[0], tau=foam["tau"], strength=foam["strength"], shortest=_SEEN
+            )
+        return foam
+
+    def _measured_slopes(self) -> list[float]:
         """Return the covariance of the slopes of all tiles, [xx, yy, xy], over some frames."""
         total = np.zeros(3)
         step = max(1, len(self) // _SAMPLED)
         for tile in self._tiles:
-            some = list(_fields(tile, range(0, len(self), step)))
+            some = _fields(tile, range(0, len(self), step))
             for fields in some:
                 sx, sy = fields["slope_x"], fields["slope_y"]
                 total += [float(np.mean(one)) / len(some) for one in (sx * sx, sy * sy, sx * sy)]

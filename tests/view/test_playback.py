@@ -14,6 +14,7 @@ from builders import job
 import fftocean as fo
 from fftocean.baking.cascade import bake_tiles
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError
+from fftocean.foam_coverage import threshold_for
 from fftocean.view.playback import open_bake
 
 N, SIZE, COUNT = (24, 16), (60.0, 50.0), 6
@@ -155,8 +156,28 @@ def test_the_manifest_is_a_document_for_the_page(bakes):
     assert document["statistics"]["realised"]["hs"] == pytest.approx(state.hs, rel=1e-3)
     waves = ocean.modes()
     rough = 0.5 * np.sum(waves.amplitude**2 * waves.kx**2)
-    # means over a tile at a few moments, where opposite waves beat
-    assert document["slope_variance"]["captured"][0] == pytest.approx(rough, rel=0.35)
+    roughness = document["slope_variance"]
+    assert roughness["captured"][0] == pytest.approx(rough, rel=0.35)  # the mean over seeds
+    # Cox & Munk (1954): upwind and crosswind variances add up to 0.003 + 0.00508 U
+    assert roughness["total"][0] + roughness["total"][1] == pytest.approx(0.003 + 0.00508 * 7.0)
+    for name in ("captured", "beyond"):
+        roughness["total"] = [
+            a - b for a, b in zip(roughness["total"], roughness[name], strict=True)
+        ]
+    assert roughness["total"] == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+
+
+def test_foam_is_that_of_the_wind_or_of_the_bake(bakes, tmp_path):
+    foam = open_bake(bakes / "exr").manifest()["foam"]
+    right = threshold_for(recipe().ocean(), 7.0, shortest=1.0)
+    assert foam["threshold"] == pytest.approx(right, rel=1e-12)
+    fo.bake(
+        recipe(maps=("height", "foam"), bake__frames=1, bake__foam__threshold=0.6),
+        folder=tmp_path / "foam",
+        executor="serial",
+    )
+    foam = open_bake(tmp_path / "foam").manifest()["foam"]
+    assert foam == {"decay": 3.5, "threshold": 0.6, "strength": 60.0}
 
 
 def test_frames_repeat(bakes):

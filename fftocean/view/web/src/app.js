@@ -34,6 +34,9 @@ const OWN_CHANGES = new Set(['choppiness']);
 /** Group of the light of few waves, which a page without a server does not have. */
 const FEW_GROUP = /^few-wave/i;
 
+/** Parameters that only a bake has. */
+const BAKE_ONLY = new Set(['blend_frames']);
+
 /** Groups that begin open. */
 const OPEN_GROUPS = ['Local wind sea'];
 
@@ -175,6 +178,8 @@ export class App {
     });
     layout.controls.append(this.fileInput, layout.actions);
     if (this.embedded) this.keepOwnControls();
+    else
+      this.controls.keepOnly(new Set([...this.rows.keys()].filter((one) => !BAKE_ONLY.has(one))));
   }
 
   /** Hide what needs a server that makes seas. */
@@ -195,7 +200,9 @@ export class App {
   /** Return the names of parameters that the page can change without a server. */
   ownNames() {
     const changes = this.bake ? new Set() : OWN_CHANGES; // a bake has its choppiness in it
-    const own = (row) => (row.local && !FEW_GROUP.test(row.group)) || changes.has(row.name);
+    const local = ({ name, group }) =>
+      !FEW_GROUP.test(group) && (Boolean(this.bake) || !BAKE_ONLY.has(name));
+    const own = (row) => (row.local && local(row)) || changes.has(row.name);
     return new Set(this.table.parameters.filter(own).map((row) => row.name));
   }
 
@@ -408,6 +415,7 @@ export class App {
     for (const name of names) {
       const value = this.values[name];
       if (name === 'time_scale') this.clock.scale = value;
+      if (name === 'blend_frames') this.stage.blendFrames = value;
       if (name === 'camera_height') this.camera.height = value;
       if (name === 'field_of_view') this.camera.fieldOfView = value;
       if (name === 'view') this.layout.showView(VIEW_NAMES[value] ?? '');

@@ -8,7 +8,17 @@ export const PASS = 5e-7;
 const DASH = '–';
 
 /** Facts of the list, in their order. */
-const FACTS = ['Waves', 'Tiles', 'Seed', 'Loop', 'Tick', 'Picture', 'Connection', 'Made by'];
+const FACTS = [
+  'Waves',
+  'Frames',
+  'Tiles',
+  'Seed',
+  'Loop',
+  'Tick',
+  'Picture',
+  'Connection',
+  'Made by',
+];
 
 /** Return a number with a fixed number of decimals, or a dash. */
 function fixed(value, decimals) {
@@ -167,7 +177,10 @@ export class HeadsUp {
     this.source.hidden = !source;
     this.sentence.textContent = sentence;
     const { tiles } = document_;
-    this.fact('Waves', grouped(wavesOf(document_)));
+    const { frames } = document_; // of a bake
+    const rate = frames && Number((frames / document_.loop).toPrecision(3));
+    this.fact('Waves', frames ? '' : grouped(wavesOf(document_)));
+    this.fact('Frames', frames ? `${grouped(frames)}, ${rate} a second` : '');
     this.fact('Tiles', tilesText(tiles));
     this.fact('Loop', `${Number(document_.loop.toPrecision(6))} s`);
     if (Number.isFinite(tiles[0]?.seed)) this.fact('Seed', String(tiles[0].seed));

@@ -99,6 +99,16 @@ export class Playback {
     return this.shown === '' ? null : Number.parseInt(this.shown, 10);
   }
 
+  /** True if the whole bake is kept once it has come. */
+  get fits() {
+    return this.ahead === this.document.frames;
+  }
+
+  /** True if all frames are here. */
+  get whole() {
+    return this.fits && Array.from({ length: this.ahead }, (_, i) => i).every((i) => this.has(i));
+  }
+
   /** Always 1: nothing is being changed into another sea. */
   get weight() {
     return 1;

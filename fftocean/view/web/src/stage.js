@@ -187,6 +187,7 @@ export class Stage {
   /** Bring the maps to a tick. */
   async step(tick, choppiness) {
     let done = null;
+    if (this.playback) this.playback.blend = this.blendFrames;
     this.timer.measure('waves', () => {
       done = (this.simulation ?? this.playback)?.step(tick, choppiness);
     });
@@ -195,7 +196,10 @@ export class Stage {
 
   /** Let foam grow over the seconds before a tick, once after each building. */
   async growFoam(clock, choppiness, eye) {
-    this.foamIsNew = false;
+    const { playback } = this;
+    // the earlier frames of a bake must be here; where they do not fit, foam grows as it plays
+    this.foamIsNew = Boolean(playback?.fits && !playback.whole);
+    if (playback && !playback.whole) return;
     this.renderer.restartFoam();
     const { loop, ticks } = clock;
     for (let before = FOAM_BEFORE; before >= FOAM_STEP; before -= FOAM_STEP) {
