@@ -102,6 +102,7 @@ export class App {
     this.source = '';
     this.busy = false;
     this.mostTiles = Infinity;
+    this.servedSea = null; // number of the sea of the newest values, once it is made
     this.notes = { sea: [], picture: [] };
     this.verifying = null;
     this.ending = new AbortController();
@@ -292,11 +293,12 @@ export class App {
   }
 
   /** Take the state of the server: its values, unless the hand is ahead of them. */
-  takeState(state, { source = '', busy = false, notes = [], most_tiles: most = Infinity }) {
+  takeState(state, { source = '', busy = false, notes = [], sea = null, most_tiles: most }) {
     this.served = { ...state };
     this.busy = busy;
     this.source = source;
-    this.mostTiles = most;
+    this.mostTiles = most ?? Infinity;
+    this.servedSea = sea;
     const waiting = this.connection?.pending ?? new Map();
     for (const [name, value] of Object.entries(state)) {
       if (!waiting.has(name)) this.values[name] = value;
@@ -828,7 +830,8 @@ export class App {
   /** True when the picture shows the exact sea of the newest values; for tests. */
   get settled() {
     const { connection, stage } = this;
-    const waiting = Boolean(connection?.pending?.size) || this.busy;
+    const newest = !connection || this.servedSea === this.sea?.document.id;
+    const waiting = Boolean(connection?.pending?.size) || this.busy || !newest;
     const shown = stage.ready && (stage.simulation?.weight ?? 1) === 1 && !this.dirty && !this.turn;
     return shown && !waiting && this.sea?.document.quality !== 'moving';
   }

@@ -11,7 +11,7 @@ const PATIENCE = 1;
 
 /** Time that foam is let grow before the first picture, and its steps [s]. */
 const FOAM_BEFORE = 6;
-const FOAM_STEP = 0.5;
+const FOAM_STEP = { hardware: 0.5, software: 1.5 };
 
 const ATTRIBUTES = {
   alpha: false,
@@ -202,11 +202,12 @@ export class Stage {
     if (playback && !playback.whole) return;
     this.renderer.restartFoam();
     const { loop, ticks } = clock;
-    for (let before = FOAM_BEFORE; before >= FOAM_STEP; before -= FOAM_STEP) {
+    const step = this.software ? FOAM_STEP.software : FOAM_STEP.hardware;
+    for (let before = FOAM_BEFORE; before >= step; before -= step) {
       const tick = Math.floor(clock.tick - (before / loop) * ticks);
       await this.step(((tick % ticks) + ticks) % ticks, choppiness);
       if (!this.ready) return;
-      this.renderer.advanceFoam(this.source, eye, FOAM_STEP);
+      this.renderer.advanceFoam(this.source, eye, step);
     }
   }
 
