@@ -219,7 +219,17 @@ def test_two_pictures_of_a_still_sea_are_equal(show):
 
 def test_every_view_shows_something_of_its_own(show):
     """Each view draws without an error, and no two look alike."""
-    names = ["sea", "height", "slopes", "normals", "jacobian", "foam", "roughness", "tiles", "wireframe"]
+    names = [
+        "sea",
+        "height",
+        "slopes",
+        "normals",
+        "jacobian",
+        "foam",
+        "roughness",
+        "tiles",
+        "wireframe",
+    ]
     pictures = [
         {
             "camera": {"height": 8.0, "yaw": 215.0, "pitch": -14.0, "fieldOfView": 50.0},
