@@ -1,4 +1,4 @@
-"""What the README and the notebooks show runs."""
+"""Code of the README and of the notebooks, run."""
 
 import os
 import re

@@ -12,7 +12,7 @@ from fftocean.physics import moments
 from fftocean.physics.sea import Sea
 from fftocean.runtime.records import Records
 from fftocean.runtime.source import Source
-from fftocean.statistics import measure, peak_period, specified
+from fftocean.statistics import folding_over, peak_period, specified
 from fftocean.wave_list import oceans_of
 
 MOMENTS = 8
@@ -60,23 +60,26 @@ def realised_state(waves: WaveTable, loop: float) -> dict[str, float]:
     }
 
 
-def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float | None] | None:
+def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float] | None:
     """
     Return Hs [m], Tp [s] and mean direction [degrees] of a sea; None for given waves.
 
-    Unless `exact`, Hs is a sum over a fixed grid of frequencies, good to 1 %, and the direction,
-    which takes an integral over all of the spectrum, is None.
+    Unless `exact`, integrals are sums over a fixed grid of frequencies, good to 1 %, and the
+    direction is the mean of the systems' own directions, weighted with energy.
     """
     if sea is None:
         return None
     if exact:
         state = specified(sea)
         return {"hs": state.hs, "tp": state.tp, "direction": state.mean_direction}
-    m0 = 0.0
-    for system in sea.systems:
+    energy = np.zeros(len(sea.systems))
+    for i, system in enumerate(sea.systems):
         omega = np.geomspace(_LOWEST, _HIGHEST, _FREQUENCIES) * system.spectrum.peak
-        m0 += float(np.trapezoid(system.spectrum(omega) * omega, np.log(omega)))
-    return {"hs": 4.0 * math.sqrt(m0), "tp": sea.tp, "direction": None}
+        energy[i] = np.trapezoid(system.spectrum(omega) * omega, np.log(omega))
+    direction, _ = moments.mean_direction_and_spread(
+        energy, np.radians([system.direction for system in sea.systems])
+    )
+    return {"hs": 4.0 * math.sqrt(float(np.sum(energy))), "tp": sea.tp, "direction": direction}
 
 
 def captured_slopes(waves: WaveTable) -> list[float]:
@@ -144,16 +147,16 @@ def measured_bounds(source: Source) -> dict[str, Any]:
 
     Those of several tiles are the sums of what each reaches; the Jacobian is that of their sum.
     """
-    water = source.water()
+    oceans = oceans_of(source.water())
     height = moved = 0.0
-    for ocean in oceans_of(water):
+    for ocean in oceans:
         frames = [
             ocean.loop_frame(j, MOMENTS, ("height", "displace_x", "displace_y"))
             for j in range(MOMENTS)
         ]
         height += max(float(np.max(np.abs(f.height))) for f in frames)
         moved += max(float(np.max(np.hypot(f.displace_x, f.displace_y))) for f in frames)
-    folding = measure(water, frames=MOMENTS).folding
+    folding = folding_over(oceans, MOMENTS, source.loop)
     return {
         "height": height,
         "displacement": source.choppiness * moved,

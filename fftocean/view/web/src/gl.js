@@ -92,8 +92,9 @@ export class Program {
    * @param {WebGL2RenderingContext} gl
    * @param {string} fragment source of the fragment shader
    * @param {string} [vertex] source of the vertex shader
+   * @param {string[]} [feedback] outputs of the vertex shader to read back, interleaved
    */
-  constructor(gl, fragment, vertex = FULLSCREEN_VERTEX) {
+  constructor(gl, fragment, vertex = FULLSCREEN_VERTEX, feedback = []) {
     this.gl = gl;
     this.handle = gl.createProgram();
     const shaders = [
@@ -107,6 +108,9 @@ export class Program {
       gl.attachShader(this.handle, shader);
       return shader;
     });
+    if (feedback.length) {
+      gl.transformFeedbackVaryings(this.handle, feedback, gl.INTERLEAVED_ATTRIBS);
+    }
     gl.linkProgram(this.handle);
     const linked = gl.getProgramParameter(this.handle, gl.LINK_STATUS);
     const messages = shaders.map((shader) => gl.getShaderInfoLog(shader));
@@ -198,8 +202,8 @@ const SETTERS = {
 };
 
 /** Return a program; see `Program`. */
-export function program(gl, fragment, vertex = FULLSCREEN_VERTEX) {
-  return new Program(gl, fragment, vertex);
+export function program(gl, fragment, vertex = FULLSCREEN_VERTEX, feedback = []) {
+  return new Program(gl, fragment, vertex, feedback);
 }
 
 /** A two-dimensional texture of fixed size. */
