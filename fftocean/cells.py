@@ -256,9 +256,7 @@ class Cells:
             out *= self.dkx * self.dky
         quadrant, cell = np.nonzero(rays)
         signs = np.array(QUADRANTS)[quadrant]
-        out[quadrant, cell] = self._by_rays(
-            part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell]
-        )[0]
+        out[quadrant, cell] = self._by_rays(part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell])[0]
         return out
 
     def _by_points(self, part: "Part", kx: Real, ky: Real, p: int) -> Real:
