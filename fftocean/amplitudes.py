@@ -184,7 +184,10 @@ def seed_amplitudes(
         ax, ay = ax[touched], ay[touched]
         variances = cells.variances(ax, ay)
         if band != WHOLE:
-            waves = [np.concatenate([s * a for s in signs]) for signs, a in zip(zip(*QUADRANTS, strict=True), (ax, ay), strict=True)]
+            waves = [
+                np.concatenate([s * a for s in signs])
+                for signs, a in zip(zip(*QUADRANTS, strict=True), (ax, ay), strict=True)
+            ]
             low, high = (cells.share_below(edge, *waves) for edge in band)
             variances *= np.maximum(high - low, 0.0).reshape(variances.shape)
         for (sx, sy), variance in zip(QUADRANTS, variances, strict=True):

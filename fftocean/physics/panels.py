@@ -27,7 +27,6 @@ Sampled = Callable[[Real], Real]
 """From points (m,) to values >= 0 of several curves, (curves, m)."""
 
 
-
 @cache
 def gauss_rule(order: int) -> tuple[Real, Real]:
     """Return Gauss-Legendre points and weights on [-1, 1]."""
