@@ -83,7 +83,7 @@ def luminance(answer, picture):
 
 
 def elevations(picture):
-    """Return the elevation of the ray of each pixel [radians], (height, width), row 0 at the top."""
+    """Return the elevation of the ray of each pixel [rad], (height, width), row 0 on top."""
     width, height = picture["width"], picture["height"]
     camera = picture["camera"]
     pitch, half = math.radians(camera["pitch"]), math.radians(camera["fieldOfView"] / 2)
