@@ -49,7 +49,7 @@ class Worker:
 
 
 def _settle(future: "asyncio.Future[Any]", result: Any, error: BaseException | None) -> None:
-    """Give a result to the future, unless it is cancelled."""
+    """Set the result of a future that is still waited for."""
     if future.cancelled():
         return
     if error is None:
