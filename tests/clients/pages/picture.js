@@ -1,13 +1,18 @@
 // The live page's pictures: seas drawn by the renderer, as colours of the screen or as radiance.
-import { Camera } from "/live/camera.js";
-import { decodeSea } from "/live/container.js";
-import { target, texture } from "/live/gl.js";
-import { Renderer } from "/live/renderer.js";
-import { createSimulation } from "/live/simulation.js";
-import { base64, bytes } from "./common.js";
+import { Camera } from '/live/camera.js';
+import { decodeSea } from '/live/container.js';
+import { drawFullscreen, FRAGMENT_HEAD, program, target, texture } from '/live/gl.js';
+import { FoamField } from '/live/foam.js';
+import { halfFloats } from '/live/half.js';
+import { Renderer } from '/live/renderer.js';
+import { FOAM_LOOKUP } from '/live/shaders/breaking.js';
+import { VISIBLE_SLOPES } from '/live/shaders/surface.js';
+import { createSimulation } from '/live/simulation.js';
+import { visibleTable } from '/live/visible_slopes.js';
+import { base64, bytes } from './common.js';
 
-const canvas = document.getElementById("canvas");
-const gl = canvas.getContext("webgl2", {
+const canvas = document.getElementById('canvas');
+const gl = canvas.getContext('webgl2', {
   antialias: true,
   preserveDrawingBuffer: true,
 });
@@ -28,12 +33,7 @@ async function prepare({ name, quality, document: changed = {} }) {
 }
 
 /** Run the foam up to a tick. */
-async function foamUntil(
-  { simulation, renderer },
-  camera,
-  tick,
-  { steps, seconds },
-) {
+async function foamUntil({ simulation, renderer }, camera, tick, { steps, seconds }) {
   const { ticks, loop } = simulation.document;
   renderer.restartFoam();
   for (let i = steps; i >= 0; i--) {
@@ -82,13 +82,7 @@ function colours(width, height) {
 
 /** Draw one picture and return what is asked for of it. */
 async function draw(picture) {
-  const {
-    width,
-    height,
-    tick = 100000,
-    look = {},
-    foam = { steps: 0, seconds: 0 },
-  } = picture;
+  const { width, height, tick = 100000, look = {}, foam = { steps: 0, seconds: 0 } } = picture;
   const made = await prepare(picture);
   const { simulation, renderer } = made;
   const camera = new Camera(picture.camera);
@@ -100,20 +94,17 @@ async function draw(picture) {
     colours(1, 1);
   }
   const began = performance.now();
-  if (picture.answer === "radiance") {
-    answer.radiance = base64(
-      radiance(renderer, simulation, camera, look, width, height),
-    );
+  if (picture.answer === 'radiance') {
+    answer.radiance = base64(radiance(renderer, simulation, camera, look, width, height));
   } else {
     canvas.width = width;
     canvas.height = height;
     renderer.render(simulation, camera, look, width, height);
     answer.colours = base64(colours(width, height));
-    if (picture.answer === "image")
-      answer.image = canvas.toDataURL("image/png").split(",")[1];
+    if (picture.answer === 'image') answer.image = canvas.toDataURL('image/png').split(',')[1];
   }
   answer.milliseconds = performance.now() - began;
-  if (picture.answer === "image") delete answer.colours;
+  if (picture.answer === 'image') delete answer.colours;
   answer.error = gl.getError();
   return answer;
 }
@@ -144,7 +135,7 @@ async function coverage(picture) {
 /** Return the texels of the light and the map of the sky. */
 async function lightOf(picture) {
   const { renderer } = await prepare(picture);
-  await draw({ ...picture, answer: "colours" });
+  await draw({ ...picture, answer: 'colours' });
   const { sky } = renderer;
   return {
     light: [...sky.lightTarget.read(0)],
@@ -153,28 +144,37 @@ async function lightOf(picture) {
   };
 }
 
-/** Return what a fragment shader writes for each of some numbers, four values each. */
-function evaluated(source, numbers) {
+/** Return what a fragment shader writes for some numbers, so many times four values each. */
+function evaluated(source, numbers, times, values) {
   const size = { width: numbers.length, height: 1, format: 'RGBA32F' };
   const data = Float32Array.from(numbers.flatMap((x) => [x, 0, 0, 0]));
   const given = texture(gl, { ...size, data });
-  const into = target(gl, [texture(gl, size)]);
+  const into = target(gl, [texture(gl, { ...size, width: times * numbers.length })]);
   const made = program(gl, source);
-  drawFullscreen(gl, made, { given }, into);
+  drawFullscreen(gl, made, { ...values, given }, into);
   const answer = base64(into.read(0));
   for (const one of [given, into, made]) one.dispose();
   return answer;
 }
 
-/** Return the statistics of visible slopes, by the mean over the deviation of the projected area. */
+/** Return the mean of the projected area above zero, and the four facets with their weights. */
 async function visible({ numbers }) {
+  const { data, width, height } = visibleTable();
+  const size = { format: 'RGBA16F', width, height, wrap: 'clamp', filter: 'linear' };
+  const visible_rules = texture(gl, { ...size, data: halfFloats(data) });
   const source = `${FRAGMENT_HEAD}${VISIBLE_SLOPES}
 uniform sampler2D given;
 out vec4 answer;
 void main() {
-  answer = vec4(visible(texelFetch(given, ivec2(gl_FragCoord.xy), 0).x), 0.0);
+  float mean = texelFetch(given, ivec2(gl_FragCoord.x / 3.0, 0), 0).x;
+  int which = int(gl_FragCoord.x) % 3;
+  vec4 areas, weights;
+  visible_facets(mean, 1.0, areas, weights);
+  answer = which == 0 ? vec4(mean_above_zero(mean, 1.0)) : which == 1 ? areas : weights;
 }`;
-  return { statistics: evaluated(source, numbers), error: gl.getError() };
+  const statistics = evaluated(source, numbers, 3, { visible_rules });
+  visible_rules.dispose();
+  return { statistics, error: gl.getError() };
 }
 
 /** Return the mean of the broken-up foam over a square of water whose coverage is the same. */
