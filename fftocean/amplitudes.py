@@ -269,6 +269,20 @@ def place_modes(
     )
 
 
+def with_cycles(amplitudes: Amplitudes, cycles: Integer) -> Amplitudes:
+    """
+    Return the same waves with stored cycles in a loop, instead of those that this machine rounds.
+
+    Args:
+        amplitudes: waves that loop.
+        cycles: whole cycles of each entry, (ny, nx // 2 + 1).
+    """
+    same = replace(amplitudes)
+    object.__setattr__(same, "cycles", cycles)
+    same.freeze()
+    return same
+
+
 def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:
     """
     Return E_k, the sea's variance in the cells around the wavenumbers (mx dkx, my dky).

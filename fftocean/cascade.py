@@ -104,7 +104,7 @@ class Cascade:
             oceans.append(from_amplitudes(sea, own, waves, choppiness, computation))
         self._set_up(sea, seed, tuple(oceans))
 
-    def _set_up(self, sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> None:
+    def _set_up(self, sea: Sea | None, seed: int | None, oceans: tuple[Ocean, ...]) -> None:
         self.sea, self.seed, self.oceans = sea, seed, oceans
         self._recipe = (sea, seed, oceans)
 
@@ -213,7 +213,7 @@ def _summable(fields: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def from_oceans(sea: Sea, seed: int, oceans: tuple[Ocean, ...]) -> Cascade:
+def from_oceans(sea: Sea | None, seed: int | None, oceans: tuple[Ocean, ...]) -> Cascade:
     """Return the cascade of given tiles, the largest first, without seeding them again."""
     cascade = Cascade.__new__(Cascade)
     cascade._set_up(sea, seed, oceans)

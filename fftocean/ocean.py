@@ -1,7 +1,6 @@
 """A periodic patch of water: `Ocean.frame(t)` is a pure function of the ocean and the time."""
 
 import math
-import os
 import threading
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,7 +16,7 @@ from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
-from fftocean.forks import in_child, no_fork
+from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
@@ -212,7 +211,7 @@ class Ocean:
             self._synthesis = Synthesis(amplitudes, computation)
         self._frequency = _frequencies(amplitudes, self._synthesis.columns)
         self._few_cycles = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
-        self._lock, self._pid = threading.Lock(), os.getpid()
+        self._lock, self._process = threading.Lock(), Process()
         self._recipe = (sea, self.seed, amplitudes, choppiness, computation)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -423,9 +422,8 @@ class Ocean:
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
         """Return the arrays to write to: new ones, or those of an earlier frame."""
-        shapes = {
-            name: (*self.grid.shape, 3) if name == "normal" else self.grid.shape for name in fields
-        }
+        plane = self._synthesis.shape
+        shapes = {name: (*plane, 3) if name == "normal" else plane for name in fields}
         if out is None:
             return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
         arrays: dict[str, Real] = {}
@@ -462,12 +460,12 @@ class Ocean:
 
         A forked child makes a lock and threads of its own, since it has none of its parent's.
         """
-        if self._pid != os.getpid():
+        if not self._process.is_current:
             with _after_fork:  # several threads of the child can arrive at once
-                if self._pid != os.getpid():
+                if not self._process.is_current:
                     self._synthesis.restart()
                     self._lock = threading.Lock()
-                    self._pid = os.getpid()
+                    self._process = Process()
         return self._lock
 
     def __repr__(self) -> str:

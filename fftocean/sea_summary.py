@@ -14,7 +14,7 @@ from fftocean.ocean import Ocean
 from fftocean.physics import dispersion, moments
 from fftocean.physics.panels import gauss
 from fftocean.polar_spectrum import PolarSpectrum, polar_spectrum
-from fftocean.statistics import SeaState, peak_period_of_waves
+from fftocean.statistics import SeaState, peak_period
 
 _RATIO = 1.08  # of the edges of a bin, at least
 _LONGEST, _SHORTEST = 0.35, 6.0  # frequencies of the bins, in peaks of the systems
@@ -72,7 +72,7 @@ def summary(source: Cascade | Ocean, *, rings: int = 32, sectors: int = 48) -> S
     energy, omega, theta = _waves(source)
     m0 = float(np.sum(energy))
     direction, spread = moments.mean_direction_and_spread(energy, theta)
-    tp = peak_period_of_waves(energy, omega)
+    tp = peak_period(energy, omega)
     peaks = [
         float(part.system.spectrum.peak) / (2.0 * math.pi)
         for part in parts

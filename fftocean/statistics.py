@@ -168,7 +168,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     below = 0.0 if sea is None else outside_band(sea, first.grid, first.amplitudes.band)[0]
     above = 0.0 if sea is None else outside_band(sea, last.grid, last.amplitudes.band)[1]
     sampling, snapshot = _scatter([tile.amplitudes for tile in tiles])
-    tp = peak_period_of_waves(energy, np.concatenate([omega, omega]))
+    tp = peak_period(energy, np.concatenate([omega, omega]))
     return Statistics(
         m0=m0,
         hs=4.0 * math.sqrt(m0),
@@ -184,7 +184,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
         loop=None
         if len(tiles) > 1 or ocean.loop is None
         else loop_error(first.amplitudes, ocean.loop),
-        folding=_folding(tiles, FRAMES.check("frames", frames), 10.0 * tp),
+        folding=folding_over(tiles, FRAMES.check("frames", frames), 10.0 * tp),
     )
 
 
@@ -194,7 +194,7 @@ _POINTS = 2**16
 """Points at which the water of several tiles is summed to look for folds."""
 
 
-def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
+def folding_over(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     """
     Return the folds of all tiles together, in `count` frames over the loop, or over `span` [s].
 
@@ -334,7 +334,7 @@ def _measured_waves(ocean: Ocean) -> tuple[Real, Real, Real, Real]:
     return forward, backward, omega, np.arctan2(ky[once], kx[once])
 
 
-def peak_period_of_waves(energy: Real, omega: Real) -> float:
+def peak_period(energy: Real, omega: Real) -> float:
     """
     Return Tp = 2 pi int S^4 d omega / int omega S^4 d omega [s], S from bins 6 % wide.
 

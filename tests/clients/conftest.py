@@ -13,6 +13,7 @@ from web import Browser, Site
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+LIVE = ROOT / "fftocean" / "view" / "web" / "src"
 
 
 def require(found: object, reason: str) -> None:
@@ -50,10 +51,20 @@ def browser(npm, tmp_path_factory):
     require(chromium, "Chromium is not installed")
     bakes = tmp_path_factory.mktemp("bakes")
     with (
-        Site({"npm": npm, "pages": HERE / "pages", "bakes": bakes}) as site,
+        Site({"npm": npm, "pages": HERE / "pages", "bakes": bakes, "live": LIVE}) as site,
         Browser(chromium, npm, site, log=tmp_path_factory.mktemp("log") / "driver.log") as started,
     ):
         yield started
+
+
+@pytest.fixture(scope="session")
+def live_tools():
+    """Return the folder of the npm packages by which the live page is built and checked."""
+    folder = LIVE.parent / "node_modules"
+    require(shutil.which("npm"), "npm is not installed")
+    for package in ("@eslint/js", "esbuild", "eslint", "globals", "prettier"):
+        require((folder / package).is_dir(), f"the npm package {package} is not installed")
+    return folder
 
 
 @pytest.fixture(scope="session")

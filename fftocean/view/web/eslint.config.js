@@ -7,7 +7,12 @@ export default [
   {
     files: ['src/**/*.js'],
     languageOptions: { globals: { ...globals.browser, ...globals.worker } },
-    rules: { 'no-eval': 'error', 'no-implied-eval': 'error', eqeqeq: 'error', 'prefer-const': 'error' },
+    rules: {
+      'no-eval': 'error',
+      'no-implied-eval': 'error',
+      eqeqeq: 'error',
+      'prefer-const': 'error',
+    },
   },
   {
     files: ['tests/**/*.js', '*.mjs', '*.js'],

@@ -1,0 +1,226 @@
+"""
+Bytes of a run-time package, read by a decoder of this file that shares no code with the package.
+"""
+
+import json
+import struct
+
+import builders_of_packages as build
+import numpy as np
+import pytest
+
+import fftocean as fo
+from fftocean import runtime
+
+
+@pytest.fixture(scope="module")
+def cascade():
+    return build.cascade()
+
+
+def read_container(data):
+    """Return the document and the files of a container."""
+    magic, version, length, zero = struct.unpack_from("<4sIII", data)
+    assert (magic, version, length % 16, zero) == (b"FFTO", 1, 0, 0)
+    document = json.loads(data[16 : 16 + length])
+    at, files = 16 + length, {}
+    for row in document["files"]:
+        files[row["name"]] = data[at : at + row["bytes"]]
+        at += row["bytes"]
+        padding = -at % 16
+        assert data[at : at + padding] == bytes(padding)
+        at += padding
+    assert at == len(data)
+    return document, files
+
+
+def read_waves(data):
+    """Return (mx, my, cycles, h0) of each record."""
+    return [
+        (mx, my, cycles, complex(re, im))
+        for mx, my, cycles, re, im in struct.iter_unpack("<hhHff", data)
+    ]
+
+
+def test_the_records_are_the_waves_of_the_ocean(cascade):
+    """height = sum of a cos(k.x - phase) has h0 = a/2 e^(-i phase)."""
+    document, files = read_container(runtime.to_bytes(runtime.pack(cascade)))
+    assert document["depth"] == 30.0
+    assert document["choppiness"] == 0.9
+    for i, (ocean, tile) in enumerate(zip(cascade.oceans, document["tiles"], strict=True)):
+        (lx, ly), modes = tile["size"], ocean.modes()
+        waves = read_waves(files[f"tile{i}.waves"])
+        found = {(mx, my): (cycles, h0) for mx, my, cycles, h0 in waves}
+        assert len(found) == len(waves) == tile["waves"] == modes.kx.size
+        for kx, ky, amplitude, phase, omega in zip(*modes, strict=True):
+            place = round(kx * lx / (2 * np.pi)), round(ky * ly / (2 * np.pi))
+            cycles, h0 = found[place]
+            assert cycles == round(omega * 64.0 / (2 * np.pi))
+            assert h0 == pytest.approx(0.5 * amplitude * np.exp(-1j * phase), rel=1.2e-7)
+
+
+def test_records_follow_the_rows_of_the_plane(cascade):
+    package = runtime.pack(cascade, reference=False)
+    for tile, data in zip(package.document["tiles"], package.files.values(), strict=True):
+        nx, ny = tile["n"]
+        places = [(my % ny) * nx + mx % nx for mx, my, _, _ in read_waves(data)]
+        assert places == sorted(set(places))
+
+
+def test_textures_are_both_halves_of_each_wave(cascade):
+    package = runtime.pack(cascade, textures=True, reference=False)
+    for i, (ocean, tile) in enumerate(zip(cascade.oceans, package.document["tiles"], strict=True)):
+        nx, ny = tile["n"]
+        h0 = np.frombuffer(package.files[f"tile{i}_h0.bin"], "<f4").reshape(ny, nx, 4)
+        wave = np.frombuffer(package.files[f"tile{i}_wave.bin"], "<f4").reshape(ny, nx, 2)
+        expected = np.zeros_like(h0)
+        cycles = np.zeros((ny, nx))
+        for mx, my, count, amplitude in read_waves(package.files[f"tile{i}.waves"]):
+            expected[my, mx, :2] = amplitude.real, amplitude.imag
+            expected[-my, -mx, 2:] = amplitude.real, -amplitude.imag
+            cycles[my, mx] = cycles[-my, -mx] = count
+        assert np.array_equal(h0, expected)
+        assert np.array_equal(wave[..., 0], cycles)
+        kx = 2 * np.pi * np.fft.fftfreq(nx, ocean.grid.lx / nx)
+        ky = 2 * np.pi * np.fft.fftfreq(ny, ocean.grid.ly / ny)
+        k = np.hypot(kx, ky[:, None])
+        k[0, 0] = np.inf
+        np.testing.assert_allclose(wave[..., 1], 1 / (k * np.tanh(30.0 * k)), rtol=1e-6)
+        ours = runtime.amplitude_planes(ocean)
+        assert np.array_equal(ours[0], h0)
+        assert np.array_equal(ours[1], wave)
+
+
+def test_planes_become_the_waves_they_were(cascade):
+    for ocean in cascade.oceans:
+        h0, _ = runtime.amplitude_planes(ocean)
+        a = runtime.waves_from_planes(
+            h0[..., 0] + 1j * h0[..., 1], ocean.grid, loop=64.0, depth=30.0
+        )
+        assert np.array_equal(a.forward, ocean.amplitudes.forward.astype(np.complex64))
+        assert np.array_equal(a.backward, ocean.amplitudes.backward.astype(np.complex64))
+        assert np.array_equal(a.cycles, ocean.amplitudes.cycles)
+
+
+def test_a_moving_sea_is_packed_from_amplitudes(cascade):
+    """The slow parts are left out; the waves are the same bytes."""
+    source = runtime.Source(
+        tiles=tuple(ocean.amplitudes for ocean in cascade.oceans), choppiness=0.9, sea=build.SEA
+    )
+    moving = runtime.pack(source, quality="moving")
+    exact = runtime.pack(cascade)
+    assert moving.document["quality"] == "moving"
+    assert all(exact.files[name] == data for name, data in moving.files.items())
+    assert set(exact.files) - set(moving.files) == {"check.json"}
+    assert moving.document["files"][0]["sha256"] is None
+    hs = moving.document["statistics"]["specified"]["hs"]
+    assert hs == pytest.approx(build.SEA.hs, rel=0.01)
+
+
+def test_seas_of_several_systems_and_of_none_are_packed():
+    crossed = fo.Sea(
+        fo.WaveSystem(spectrum=fo.JONSWAP(peak=0.8), direction=40.0),
+        fo.WaveSystem(spectrum=fo.JONSWAP.from_sea_state(hs=1.0, tp=11.0), direction=100.0),
+    )
+    for sea in (crossed, fo.Sea.beaufort(0), fo.Sea()):
+        ocean = fo.Ocean(sea, n=16, size=200.0, loop=64.0)
+        states = [
+            runtime.pack(ocean, quality=quality).document["statistics"]["specified"]
+            for quality in ("exact", "moving")
+        ]
+        assert states[1]["hs"] == pytest.approx(states[0]["hs"], rel=0.01)
+        assert states[1]["tp"] == states[0]["tp"]
+        assert states[1]["direction"] == pytest.approx(states[0]["direction"], abs=5.0)
+        assert runtime.from_bytes(runtime.to_bytes(runtime.pack(ocean))).files
+
+
+@pytest.mark.parametrize(
+    ("keyword", "value", "words"),
+    [
+        ("textures", 1, "textures must be True or False"),
+        ("reference", -1, "reference must be a whole number between 0 and 4096"),
+        ("reference", 2.0, "reference must be a whole number"),
+        ("quality", "fast", "quality must be 'exact' or 'moving'"),
+        ("foam", 0.7, "foam must be a Foam"),
+        ("job", fo.Job.default(), "job must be TOML text"),
+        ("job", "#" * 300_000, "job must be TOML text of at most 262144 characters"),
+        ("wind", 8.0, r"wind must be \(speed, direction\)"),
+        ("wind", (float("nan"), 0.0), r"wind\[0\] must be between 0 and 150 m/s"),
+        ("wind", (8.0, "N"), r"wind\[1\] must be a number"),
+    ],
+)
+def test_options_out_of_range_are_refused(keyword, value, words):
+    ocean = fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=50.0, loop=20.0)
+    with pytest.raises(fo.ParameterError, match=words):
+        runtime.pack(ocean, **{keyword: value})
+
+
+def test_bounds_are_reached_and_not_passed(cascade):
+    """
+    Those that are measured are the largest of eight moments, the sum over tiles at their worst;
+    those that are estimated, five standard deviations, are never below.
+    """
+    measured = runtime.pack(cascade).document["bounds"]
+    estimated = runtime.pack(cascade, reference=False).document["bounds"]
+    assert (measured["moments"], estimated["moments"]) == (8, 0)
+    frames = [cascade.loop_frame(j, 8) for j in range(8)]
+    highest = sum(max(float(np.max(np.abs(frame[i].height))) for frame in frames) for i in range(3))
+    farthest = sum(
+        max(float(np.max(np.hypot(frame[i].displace_x, frame[i].displace_y))) for frame in frames)
+        for i in range(3)
+    )
+    assert measured["height"] == pytest.approx(highest)
+    assert measured["displacement"] == pytest.approx(0.9 * farthest)
+    assert measured["height"] < 1.2 * estimated["height"]
+    assert measured["displacement"] < 1.2 * estimated["displacement"]
+    assert estimated["jacobian"] < measured["jacobian"] < 1.0
+
+
+def test_the_table_of_the_spectrum_holds_the_energy_of_the_waves(cascade):
+    """Densities times the widths of their bins, which lie half way between whole cycles."""
+    document = runtime.pack(cascade).document
+    table, state = document["spectrum"], document["statistics"]["realised"]
+    frequency, realised = (np.array(table[key]) for key in ("frequency", "realised"))
+    assert np.all(np.diff(frequency) > 0.0)
+    edges = [
+        (
+            min(
+                tile.amplitudes.cycles[tile.amplitudes.forward != 0].min()
+                for tile in cascade.oceans
+            )
+            - 0.5
+        )
+        / 64.0
+    ]
+    for middle in frequency:
+        edges.append(2.0 * middle - edges[-1])
+    m0 = np.sum(realised * np.diff(edges))
+    assert 4.0 * np.sqrt(m0) == pytest.approx(state["hs"], rel=1e-4)
+    middle = 2.0 * np.pi * frequency
+    # six digits of the frequency, of which the density takes the fifth power
+    np.testing.assert_allclose(table["density"], 2.0 * np.pi * build.SEA(middle), rtol=5e-5)
+
+
+def test_slopes_of_the_waves_are_those_of_the_frames(cascade):
+    """The mean over the tile and the loop of the products of slopes, tile by tile."""
+    captured = runtime.pack(cascade).document["slope_variance"]["captured"]
+    expected = np.zeros(3)
+    for ocean in cascade.oceans:
+        modes = ocean.modes()
+        half = 0.5 * modes.amplitude**2
+        expected += [
+            np.sum(half * modes.kx**2),
+            np.sum(half * modes.ky**2),
+            np.sum(half * modes.kx * modes.ky),
+        ]
+    assert captured == pytest.approx(expected, rel=1e-6)
+
+
+def test_statistics_are_those_measured_on_the_fields(cascade):
+    document = runtime.pack(cascade).document
+    measured = fo.measure(cascade)
+    realised = document["statistics"]["realised"]
+    assert realised["hs"] == pytest.approx(measured.hs, rel=1e-5)
+    assert realised["direction"] == pytest.approx(measured.mean_direction, abs=1e-3)
+    assert realised["tp"] == pytest.approx(measured.tp, rel=1e-4)
+    assert document["statistics"]["specified"]["hs"] == pytest.approx(build.SEA.hs)
