@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import fft, optimize, special
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
@@ -29,6 +28,7 @@ from fftocean.kernels import foam as kernel
 from fftocean.limits import FOAM_STRENGTH, FOAM_TAU, FOAM_THRESHOLD, WIND_SPEED, Quantity
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion
+from fftocean.physics.panels import gauss_rule
 
 _WAVELENGTH = Quantity("m", 0.0, math.inf)
 _MOST_COVERED = 0.95  # that a threshold is looked for
@@ -144,6 +144,8 @@ class _FoamStatistics:
 
     def threshold_of_mean(self, mean: float) -> float:
         """Return the threshold at which f has a given mean > 0; 1 where there is none below."""
+        from scipy.optimize import brentq
+
         if not self.mean(1.0) > mean:
             return 1.0
         low = 0.5
@@ -153,7 +155,7 @@ class _FoamStatistics:
         def misfit(threshold: float) -> float:
             return math.log(max(self.mean(threshold), 1e-300) / mean)
 
-        return float(optimize.brentq(misfit, low, 1.0, xtol=1e-8))
+        return float(brentq(misfit, low, 1.0, xtol=1e-8))
 
     def coverage(self, threshold: float) -> float:
         """
@@ -198,7 +200,7 @@ class _Water:
         slope = np.linalg.pinv(inner, rcond=1e-9, hermitian=True) @ whole[1:, 0]
         # long-crested water has no scatter: a little rounds the corner at the threshold
         scatter = max(whole[0, 0] - slope @ whole[1:, 0], 1e-3 * whole[0, 0], 1e-18)
-        x, w = np.polynomial.legendre.leggauss(_RADII)
+        x, w = gauss_rule(_RADII)
         radius = 0.5 * _FARTHEST * (1.0 + x)
         angle = (np.arange(_ANGLES) + 0.5) * (2.0 * np.pi / _ANGLES)
         weight = 0.5 * _FARTHEST * w * radius * np.exp(-0.5 * radius**2) / _ANGLES
@@ -214,12 +216,14 @@ class _Water:
 
     def mean_below(self, threshold: float) -> float:
         """Return the mean of max(threshold - eigenvalue, 0)."""
+        from scipy.special import ndtr
+
         y = (threshold - 1.0 + self.distance) / self.deviation
-        mean = self.deviation * float(np.sum(self.weight * (y * special.ndtr(y) + _normal(y))))
+        mean = self.deviation * float(np.sum(self.weight * (y * ndtr(y) + _normal(y))))
         # the Edgeworth series of one stretch: the fourth derivative of its mean by the mean itself,
         # times kurtosis / 24, and in an exponent, so that the mean stays positive
         z = min((1.0 - threshold) / self.largest, _FARTHEST)
-        one = _normal(z) - z * special.ndtr(-z)
+        one = _normal(z) - z * ndtr(-z)
         return mean * math.exp(self.kurtosis / 24.0 * (z * z - 1.0) * _normal(z) / one)
 
 
@@ -272,6 +276,8 @@ def _series(covariance: Real, period: float) -> Real:
 
     The numbers behind them are always the same, so that a threshold follows a slider smoothly.
     """
+    from scipy import fft
+
     cycles = covariance.shape[0]
     points = max(1, round(_POINTS * _PERIOD / period))
     least = max(_SAMPLES * period / _PERIOD, 2.0 * cycles)

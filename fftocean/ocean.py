@@ -538,10 +538,15 @@ def _require_memory(grid: Grid, dtype: str) -> None:
     require_memory(f"an ocean of n = {grid.nx} x {grid.ny}", memory_needed(grid, dtype))
 
 
-def longest_period(sea: Sea, band: Band) -> float:
-    """Return the period of the sea's peak, or of the longest waves of a band above it [s]."""
+def longest_period(sea: Sea, band: Band, tp: float | None = None) -> float:
+    """
+    Return the period of the sea's peak, or of the longest waves of a band above it [s].
+
+    `tp` spares the search for the sea's peak if that is known.
+    """
+    tp = sea.tp if tp is None else tp
     slowest = float(dispersion.angular_frequency(band[0], sea.depth, sea.surface_tension))
-    return min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
+    return min(tp, 2.0 * math.pi / slowest) if slowest > 0.0 else tp
 
 
 def _checked_band(band: Any) -> Band:

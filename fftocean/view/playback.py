@@ -12,6 +12,7 @@ import json
 import math
 import struct
 import threading
+import warnings
 from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -28,7 +29,7 @@ from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.cascade import Cascade, from_oceans
 from fftocean.constants import GRAVITY
-from fftocean.errors import FFTOceanError, IntegrityError, JobError, ParameterError
+from fftocean.errors import FFTOceanError, IntegrityError, JobError, ParameterError, SeaWarning
 from fftocean.fields import potential_factor
 from fftocean.files import digest, path_of, read_whole
 from fftocean.foam_coverage import threshold_for
@@ -208,10 +209,12 @@ class Playback:
     @functools.cached_property
     def _water(self) -> Ocean | Cascade | None:
         """The water that was baked; None if a measured file of its job is gone."""
-        try:
-            oceans = tuple(tile.contents.job.ocean() for tile in self._tiles)
-        except FFTOceanError:
-            return None
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SeaWarning)  # told when it was baked
+            try:
+                oceans = tuple(tile.contents.job.ocean() for tile in self._tiles)
+            except FFTOceanError:
+                return None
         first = oceans[0]
         if len(oceans) == 1 or first.sea is None:
             return first

@@ -16,9 +16,11 @@ from typing import Any, Final
 
 from fftocean.cascade import Cascade, from_oceans
 from fftocean.errors import ParameterError, SeaWarning
+from fftocean.foam import Foam
 from fftocean.moving_amplitudes import MovingAmplitudes
 from fftocean.physics.sea import Sea
-from fftocean.runtime import Source, pack, to_bytes
+from fftocean.runtime import pack, to_bytes
+from fftocean.slope_variance import slope_variance
 from fftocean.view import protocol
 from fftocean.view.state import State
 from fftocean.view.worker import Worker
@@ -26,6 +28,7 @@ from fftocean.view.worker import Worker
 REST: Final = 0.15  # seconds without a change, after which the exact sea is made
 PAUSE: Final = 0.05  # shortest time between two seas while values change [s]
 KEPT: Final = 2  # exact seas
+SEEN: Final = 1.0  # shortest waves whose foam the page's window of foam can hold [m]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,10 +63,15 @@ def make_exact(
         warnings.simplefilter("always", SeaWarning)
         cascade = _cascade_of(state, before)
         package = pack(
-            cascade, reference=points, job=state.toml(), quality="exact", wind=_wind_of(state)
+            cascade,
+            reference=points,
+            job=state.toml(),
+            quality="exact",
+            wind=_wind_of(state),
+            foam=_foam_of(state, cascade),
         )
         few = _few_waves_of(state, cascade.sea, package.document["ticks"])
-    package.document.update(id=number, few_waves=few)
+    package.document.update(id=number, few_waves=few, slope_variance=_roughness_of(state, cascade))
     notes = tuple(
         dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, SeaWarning))
     )
@@ -117,15 +125,18 @@ class MovingSeas:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeaWarning)  # the exact sea tells
             sea = state.sea()
-            source = Source(
-                tiles=self._moving.amplitudes(sea),
-                choppiness=state.values["choppiness"],
-                sea=sea,
-                seeds=tuple(ocean.seed for ocean in given.cascade.oceans),
+            cascade = self._moving.cascade(sea, choppiness=state.values["choppiness"])
+            package = pack(
+                cascade,
+                reference=False,
+                quality="moving",
+                wind=_wind_of(state),
+                foam=_foam_of(state, cascade),
             )
-            package = pack(source, reference=False, quality="moving", wind=_wind_of(state))
             few = _few_waves_of(state, sea, package.document["ticks"])
-        package.document.update(id=number, few_waves=few)
+        package.document.update(
+            id=number, few_waves=few, slope_variance=_roughness_of(state, cascade)
+        )
         return MadeSea(number, state, "moving", to_bytes(package), package.document, (), None)
 
 
@@ -143,6 +154,27 @@ def _few_waves_of(state: State, sea: Sea | None, ticks: int) -> dict[str, Any] |
         seed=state.values["seed"],
     )
     return made.document()
+
+
+def _roughness_of(state: State, cascade: Cascade) -> dict[str, list[float]]:
+    """Return the slope variance of the tiles, of the whole sea, and beyond the tiles, as JSON."""
+    wind = _wind_of(state)
+    found = slope_variance(
+        cascade,
+        wind_speed=None if wind is None else wind[0],
+        wind_direction=0.0 if wind is None else wind[1],
+    )
+    return {name: list(getattr(found, name)) for name in ("captured", "total", "beyond")}
+
+
+def _foam_of(state: State, cascade: Cascade) -> Foam:
+    """
+    Return the foam of a sea: that of a job that bakes foam, else as much as its wind's whitecaps.
+    """
+    own, wind = state.base.foam, _wind_of(state)
+    if "foam" in state.base.maps or wind is None:
+        return Foam(**own)
+    return Foam.from_wind(cascade, wind[0], tau=own["tau"], strength=own["strength"], shortest=SEEN)
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:

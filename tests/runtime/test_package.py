@@ -103,7 +103,7 @@ def test_planes_become_the_waves_they_were(cascade):
 
 
 def test_a_moving_sea_is_packed_from_amplitudes(cascade):
-    """What takes time is left out; the waves are the same bytes."""
+    """The slow parts are left out; the waves are the same bytes."""
     source = runtime.Source(
         tiles=tuple(ocean.amplitudes for ocean in cascade.oceans), choppiness=0.9, sea=build.SEA
     )

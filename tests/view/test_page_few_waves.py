@@ -55,7 +55,7 @@ def test_the_document_is_the_surface(model, number):
 @pytest.mark.parametrize("model", MODELS)
 def test_waves_have_the_variance_and_the_direction_of_the_sea(model):
     few = few_waves(SEA, model, number=40, loop=LOOP)
-    assert few.waves.variance == pytest.approx(SEA.variance, rel=1e-12)
+    assert few.waves.variance == pytest.approx(SEA.variance, rel=1e-5)
     energy = few.waves.amplitude**2
     mean = np.sum(energy * (few.waves.kx + 1j * few.waves.ky) / few.waves.wavenumber)
     if model in ("pms", "cwr"):

@@ -83,8 +83,8 @@ def test_the_sea_of_the_page_is_a_wind_sea_and_a_swell():
         direction=v["swell_direction"],
     )
     sea = fo.Sea(*wind.systems, swell, depth=30.0)
-    by_hand = fo.Cascade(sea, LISTED, seed=v["seed"], loop=v["loop"])
-    for ours, theirs in zip(amplitudes_of(state.cascade()), amplitudes_of(by_hand), strict=True):
+    expected = fo.Cascade(sea, LISTED, seed=v["seed"], loop=v["loop"])
+    for ours, theirs in zip(amplitudes_of(state.cascade()), amplitudes_of(expected), strict=True):
         # the swell's height and period are written with nine digits
         np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-7 * np.abs(theirs).max())
 

@@ -153,28 +153,37 @@ async function lightOf(picture) {
   };
 }
 
-/** Return what a fragment shader writes for each of some numbers, four values each. */
-function evaluated(source, numbers) {
+/** Return what a fragment shader writes for some numbers, so many times four values each. */
+function evaluated(source, numbers, times, values) {
   const size = { width: numbers.length, height: 1, format: 'RGBA32F' };
   const data = Float32Array.from(numbers.flatMap((x) => [x, 0, 0, 0]));
   const given = texture(gl, { ...size, data });
-  const into = target(gl, [texture(gl, size)]);
+  const into = target(gl, [texture(gl, { ...size, width: times * numbers.length })]);
   const made = program(gl, source);
-  drawFullscreen(gl, made, { given }, into);
+  drawFullscreen(gl, made, { ...values, given }, into);
   const answer = base64(into.read(0));
   for (const one of [given, into, made]) one.dispose();
   return answer;
 }
 
-/** Return the statistics of visible slopes, by the mean over the deviation of the projected area. */
+/** Return the mean of the projected area above zero, and the four facets with their weights. */
 async function visible({ numbers }) {
+  const { data, width, height } = visibleTable();
+  const size = { format: 'RGBA16F', width, height, wrap: 'clamp', filter: 'linear' };
+  const visible_rules = texture(gl, { ...size, data: halfFloats(data) });
   const source = `${FRAGMENT_HEAD}${VISIBLE_SLOPES}
 uniform sampler2D given;
 out vec4 answer;
 void main() {
-  answer = vec4(visible(texelFetch(given, ivec2(gl_FragCoord.xy), 0).x), 0.0);
+  float mean = texelFetch(given, ivec2(gl_FragCoord.x / 3.0, 0), 0).x;
+  int which = int(gl_FragCoord.x) % 3;
+  vec4 areas, weights;
+  visible_facets(mean, 1.0, areas, weights);
+  answer = which == 0 ? vec4(mean_above_zero(mean, 1.0)) : which == 1 ? areas : weights;
 }`;
-  return { statistics: evaluated(source, numbers), error: gl.getError() };
+  const statistics = evaluated(source, numbers, 3, { visible_rules });
+  visible_rules.dispose();
+  return { statistics, error: gl.getError() };
 }
 
 /** Return the mean of the broken-up foam over a square of water whose coverage is the same. */

@@ -173,25 +173,28 @@ export function alike(a, b) {
 
 /** Return a tile whose amplitudes are a sum, and whose factors are an average. */
 function mixedTile(from, to, scaleFrom, scaleTo) {
-  const h0 = to.h0.map((value, i) => scaleFrom * from.h0[i] + scaleTo * value);
+  const h0 = new Float32Array(to.h0.length);
+  const [earlier, later] = [from.h0, to.h0];
+  for (let i = 0; i < h0.length; i++) h0[i] = scaleFrom * earlier[i] + scaleTo * later[i];
   const wave = to.wave.slice();
   if (scaleFrom > 0) {
     const share = scaleFrom / (scaleFrom + scaleTo);
-    for (let i = 1; i < wave.length; i += 2) wave[i] += share * (from.wave[i] - wave[i]);
+    const { wave: before } = from;
+    for (let i = 1; i < wave.length; i += 2) wave[i] += share * (before[i] - wave[i]);
   }
   return { ...to, h0, wave };
 }
 
 /** Return a tile with the cycles of another where only that one has a wave. */
 function withMissingCycles(tile, other) {
-  const missing = (i) => tile.wave[i] === 0 && other.wave[i] > 0;
-  let wave = tile.wave;
-  for (let i = 0; i < wave.length; i += 2) {
-    if (!missing(i)) continue;
-    if (wave === tile.wave) wave = tile.wave.slice();
-    wave[i] = other.wave[i];
+  const [own, others] = [tile.wave, other.wave];
+  let wave = own;
+  for (let i = 0; i < own.length; i += 2) {
+    if (own[i] !== 0 || others[i] === 0) continue;
+    if (wave === own) wave = own.slice();
+    wave[i] = others[i];
   }
-  return wave === tile.wave ? tile : { ...tile, wave };
+  return wave === own ? tile : { ...tile, wave };
 }
 
 /**
@@ -199,21 +202,26 @@ function withMissingCycles(tile, other) {
  * the phases that they have now with their own.
  */
 function rebased(tile, tick, ticks, other, otherTick, otherTicks) {
-  let h0 = tile.h0;
-  for (let i = 0; i < tile.wave.length; i += 2) {
-    const cycles = tile.wave[i];
-    const later = other.wave[i] || cycles;
-    if (cycles === later && ticks === otherTicks && tick === otherTick) continue;
+  const [own, others] = [tile.wave, other.wave];
+  const sameMoment = ticks === otherTicks && tick === otherTick;
+  let { h0 } = tile;
+  for (let i = 0; i < own.length; i += 2) {
+    const cycles = own[i];
+    const later = others[i] || cycles;
+    if (cycles === 0 || (sameMoment && cycles === later)) continue;
     const turns =
       ((cycles * tick) % ticks) / ticks - ((later * otherTick) % otherTicks) / otherTicks;
     if (h0 === tile.h0) h0 = tile.h0.slice();
     const c = Math.cos(2 * Math.PI * turns);
     const s = Math.sin(2 * Math.PI * turns);
-    const [a, b, p, q] = tile.h0.subarray(2 * i, 2 * i + 4);
-    h0[2 * i] = a * c + b * s;
-    h0[2 * i + 1] = b * c - a * s;
-    h0[2 * i + 2] = p * c - q * s;
-    h0[2 * i + 3] = q * c + p * s;
+    for (const [at, sine] of [
+      [2 * i, s],
+      [2 * i + 2, -s],
+    ]) {
+      const re = h0[at];
+      h0[at] = re * c + h0[at + 1] * sine;
+      h0[at + 1] = h0[at + 1] * c - re * sine;
+    }
   }
   return { ...tile, h0 };
 }

@@ -3,6 +3,9 @@
 /** Share of a new measurement in the running mean. */
 const NEW_SHARE = 0.15;
 
+/** Shortest time between two measurements of a part that is waited for [ms]. */
+const WAIT_EVERY = 1000;
+
 /** Measures parts by name; a part is measured again once its last measurement is known. */
 export class GpuTimer {
   /** Ask for the extension. */
@@ -12,6 +15,8 @@ export class GpuTimer {
     this.pending = new Map();
     this.means = new Map();
     this.open = false;
+    this.waits = false; // where the browser tells no times, now and then wait until all is drawn
+    this.waited = new Map();
   }
 
   /** Return the mean time of a part [ms], or null where it is not known. */
@@ -23,6 +28,10 @@ export class GpuTimer {
   measure(name, draw) {
     const { extension, gl } = this;
     this.collect(name);
+    if (!extension && this.waits && !this.open) {
+      this.wait(name, draw);
+      return;
+    }
     if (!extension || this.open || this.pending.has(name)) {
       draw();
       return;
@@ -46,11 +55,38 @@ export class GpuTimer {
     if (!query || !gl.getQueryParameter(query, gl.QUERY_RESULT_AVAILABLE)) return;
     const valid = !gl.getParameter(extension.GPU_DISJOINT_EXT);
     if (valid) {
-      const found = gl.getQueryParameter(query, gl.QUERY_RESULT) / 1e6;
-      const before = this.means.get(name) ?? found;
-      this.means.set(name, before + NEW_SHARE * (found - before));
+      this.note(name, gl.getQueryParameter(query, gl.QUERY_RESULT) / 1e6);
     }
     gl.deleteQuery(query);
     this.pending.delete(name);
+  }
+
+  /** Take one measurement into the mean [ms]. */
+  note(name, found) {
+    const before = this.means.get(name) ?? found;
+    this.means.set(name, before + NEW_SHARE * (found - before));
+  }
+
+  /** Do some drawing; if it is time for it, measure how long it takes until all is drawn. */
+  wait(name, draw) {
+    const now = performance.now();
+    if (now - (this.waited.get(name) ?? -Infinity) < WAIT_EVERY) {
+      draw();
+      return;
+    }
+    this.waited.set(name, now);
+    this.finish();
+    const start = performance.now();
+    draw();
+    this.finish();
+    this.note(name, performance.now() - start);
+  }
+
+  /** Wait until all is drawn: only the reading of a pixel does that in every browser. */
+  finish() {
+    const { gl } = this;
+    const pixel = new Uint8Array(4);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
   }
 }

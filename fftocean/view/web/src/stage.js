@@ -224,6 +224,7 @@ export class Stage {
     const half = Math.floor(width / 2);
     const viewport = [half, 0, width - half, height];
     const { sky } = this.renderer;
+    this.timer.waits = true;
     this.timer.measure('few', () => {
       this.few.render(model, tick, camera, look, width, height, viewport, sky);
     });

@@ -1,9 +1,11 @@
 // The water's surface: its mesh, the light on it, and the false colours of its fields.
 import { drawVertices, program, texture } from './gl.js';
+import { halfFloats } from './half.js';
 import { ringDistances, visibleSector } from './camera.js';
 import { TONE } from './exposure.js';
 import { reflectance, waterOptics } from './optics.js';
 import { falseColourShader, meshVertex, waterShader } from './shaders/surface.js';
+import { visibleTable } from './visible_slopes.js';
 import { mapTexels, viewUniforms, waveHeight } from './views.js';
 
 // Slope variance of a sea that tells nothing of its own: capillary waves of a light air.
@@ -19,6 +21,12 @@ export function reachOf(document) {
   return Math.max(Number.isFinite(bound) ? bound : likely, 0.2);
 }
 
+/** Return a table of floats as a texture that can be filtered everywhere. */
+function halfTable(gl, { data, width, height }) {
+  const size = { format: 'RGBA16F', width, height, wrap: 'clamp' };
+  return texture(gl, { ...size, data: halfFloats(data), filter: 'linear' });
+}
+
 /** The surface of the water. */
 export class Water {
   /** Prepare a mesh of `columns` x `rings`. */
@@ -27,6 +35,7 @@ export class Water {
     this.columns = columns;
     this.rings = rings;
     this.ringTexture = texture(gl, { format: 'RG32F', width: rings, height: 1, wrap: 'clamp' });
+    this.visibleRules = halfTable(gl, visibleTable());
     this.programs = new Map();
     this.colourMaps = null;
   }
@@ -54,6 +63,7 @@ export class Water {
     const values = {
       ...shared,
       rings: this.ringTexture,
+      visible_rules: this.visibleRules,
       sector: [sector.apex, sector.middle, sector.half, this.columns],
       beyond: document.slope_variance?.beyond ?? CALM,
       absorption: optics.absorption,
@@ -88,7 +98,9 @@ export class Water {
 
   /** Free everything. */
   dispose() {
-    for (const one of [...this.programs.values(), this.ringTexture]) one.dispose();
+    for (const one of [...this.programs.values(), this.ringTexture, this.visibleRules]) {
+      one.dispose();
+    }
     this.colourMaps?.dispose();
   }
 }

@@ -3,6 +3,7 @@ import { FRAGMENT_HEAD } from '../gl.js';
 import { SKY_LOOKUP } from './air.js';
 import { FOAM_LOOKUP } from './breaking.js';
 import { displacementSum, rippleSum, slopeSum, tilePlaces } from './tiles.js';
+import { HIGHEST, LOWEST } from '../visible_slopes.js';
 
 const VERTEX_HEAD = `#version 300 es
 precision highp float;
@@ -61,28 +62,30 @@ void main() {
 }`;
 }
 
-/** Statistics of the slopes that an eye sees. */
+/** Statistics of the slopes that an eye sees; see visible_slopes.js. */
 export const VISIBLE_SLOPES = `
-/*
- * Of slopes distributed normally along the line of sight, an eye sees each in proportion to its
- * projected area y = v_z - slope * v_h, if that is positive (Ross, Dion & Potvin 2005). With
- * x = mean(y) / deviation(y), E[y+] = deviation (phi + x Phi); the visible slopes have their mean
- * below that of all by deviation * lean, and a deviation smaller by the factor width.
- */
-vec3 visible(float mean_over_deviation) {
-  float x = clamp(mean_over_deviation, -3.0, 40.0);
+uniform sampler2D visible_rules; // nodes less x, and weights, by x
+
+// E[max(y, 0)] of a y that is distributed normally.
+float mean_above_zero(float mean, float deviation) {
+  if (mean > 6.0 * deviation) return mean;
+  float x = max(mean / deviation, -3.0);
   float density = 0.39894228 * exp(-0.5 * x * x);
   // Abramowitz & Stegun 26.2.17
   float t = 1.0 / (1.0 + 0.2316419 * abs(x));
   float tail = density * t * (0.31938153 + t * (-0.356563782 + t * (1.781477937 +
     t * (-1.821255978 + t * 1.330274429))));
-  float below = x > 0.0 ? 1.0 - tail : tail;
-  float first = density + x * below, second = (x * x + 1.0) * below + x * density;
-  float third = (x * x * x + 3.0 * x) * below + (x * x + 2.0) * density;
-  float mean = second / first;
-  float lean = x > 8.0 ? 1.0 / x : mean - x;
-  float square = x > 8.0 ? 1.0 - 1.0 / (x * x) : third / first - mean * mean;
-  return vec3(first, lean, sqrt(max(square, 0.0)));
+  return deviation * (density + x * (x > 0.0 ? 1.0 - tail : tail));
+}
+
+// Projected areas of four facets that stand for all that are seen, and their weights.
+void visible_facets(float mean, float deviation, out vec4 areas, out vec4 weights) {
+  float x = mean / deviation, last = float(textureSize(visible_rules, 0).x) - 1.0;
+  float at = clamp((x - ${LOWEST.toFixed(1)}) / ${(HIGHEST - LOWEST).toFixed(1)}, 0.0, 1.0);
+  float place = (at * last + 0.5) / (last + 1.0);
+  areas = max(x, ${LOWEST.toFixed(1)}) + textureLod(visible_rules, vec2(place, 0.25), 0.0);
+  areas *= deviation;
+  weights = textureLod(visible_rules, vec2(place, 0.75), 0.0);
 }
 
 float variance_along(vec3 variance, vec2 direction) {
@@ -152,18 +155,18 @@ uniform float wave_height, air_extinction, crest_light;
 
 const float PI = 3.14159265;
 
-// The sky that a facet mirrors, blurred over an angle.
-vec3 mirrored(vec3 to_eye, vec2 slope, float blur, out float share) {
-  vec3 normal = normalize(vec3(-slope, 1.0));
-  float cosine = max(dot(normal, to_eye), 0.002);
+// What a facet mirrors of the sky, blurred over an angle; share is what it mirrors of anything.
+vec3 mirrored(vec3 to_eye, vec2 slope, float across, float blur, out float share) {
+  vec3 normal = vec3(-slope, 1.0) * inversesqrt(1.0 + dot(slope, slope) + across);
+  float cosine = max(dot(normal, to_eye), 0.001);
   share = fresnel(cosine);
   vec3 ray = 2.0 * cosine * normal - to_eye;
   float up = ray.z;
-  // A ray that goes down meets another wave, which shows a darker part of the sky.
-  ray = normalize(vec3(ray.xy, abs(up) + 0.01));
+  // A ray that hardly rises, or goes down, may meet another wave, which shows a darker sky.
+  ray = normalize(vec3(ray.xy, sqrt(up * up + 0.0025)));
   float level = log2(max(1.1 * blur * float(textureSize(sky, 0).x), 1.0));
   vec3 radiance = textureLod(sky, sky_place(ray), min(level, 6.0)).rgb;
-  return radiance * mix(1.0, 0.5, smoothstep(0.02, -0.3, up));
+  return share * radiance * mix(1.0, 0.5, smoothstep(0.15, -0.3, up));
 }
 
 void main() {
@@ -188,25 +191,22 @@ void main() {
    * show, whatever the pixel's size, makes pictures of any size average to the same.
    */
   float middle = to_eye.z - slope_along * level_part;
-  vec3 seen = visible(middle / projected_deviation);
-  float area = projected_deviation * seen.x;
-  if (middle > 40.0 * projected_deviation) area = middle;
+  float area = mean_above_zero(middle, projected_deviation);
   float mesh_deviation = level_part * sqrt(max(variance_along(mesh_variance, ahead), 1e-6));
   float mesh_middle = to_eye.z - dot(mesh_slope, ahead) * level_part;
-  vec3 mesh_seen = visible(mesh_middle / mesh_deviation);
-  float mesh_area = max(mesh_deviation * mesh_seen.x, 0.01);
-  if (mesh_middle > 40.0 * mesh_deviation) mesh_area = mesh_middle;
-  float weight = clamp(area / mesh_area, 0.25, 2.5);
+  float mesh_area = max(mean_above_zero(mesh_middle, mesh_deviation), 0.01);
+  float weight = clamp(area / mesh_area, 0.2, 3.0);
 
-  // Two facets with the mean and the deviation of those that are seen (Gauss' rule of two points).
-  float mean_slope = slope_along - deviation * seen.y, half_width = deviation * seen.z;
-  float cosine = max(to_eye.z - mean_slope * level_part, 0.02);
-  float blur = sqrt(0.2 * half_width * half_width + across * cosine * cosine);
-  float share_low, share_high;
-  vec3 low = mirrored(to_eye, ahead * (mean_slope - half_width) + aside * slope_across, blur, share_low);
-  vec3 high = mirrored(to_eye, ahead * (mean_slope + half_width) + aside * slope_across, blur, share_high);
-  vec3 reflected = 0.5 * (share_low * low + share_high * high);
-  float share = 0.5 * (share_low + share_high);
+  vec4 areas, weights, shares;
+  visible_facets(middle, projected_deviation, areas, weights);
+  vec4 facets = slope_along + (middle - areas) / level_part; // their slopes along the line of sight
+  vec2 turned = aside * slope_across;
+  float blur = 0.2 * deviation + 0.8 * to_eye.z * sqrt(across);
+  vec3 reflected = weights.x * mirrored(to_eye, ahead * facets.x + turned, across, blur, shares.x);
+  reflected += weights.y * mirrored(to_eye, ahead * facets.y + turned, across, blur, shares.y);
+  reflected += weights.z * mirrored(to_eye, ahead * facets.z + turned, across, blur, shares.z);
+  reflected += weights.w * mirrored(to_eye, ahead * facets.w + turned, across, blur, shares.w);
+  float share = dot(weights, shares);
 
   // A facet mirrors the sun where its slope is that of the half vector (Cox & Munk 1954).
   vec3 sun_light = texelFetch(light, ivec2(0), 0).rgb, sky_light = texelFetch(light, ivec2(1, 0), 0).rgb;
