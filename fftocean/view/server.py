@@ -129,11 +129,7 @@ class PageServer:
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
                 unfinished[self] = None
-<<<<<<< HEAD
-                # the oldest is given up: a client that means to see the page has sent its request
-=======
                 # the oldest is given up: a browser sends its request at once
->>>>>>> server
                 while len(unfinished) > MOST_UNFINISHED:
                     unfinished.popitem(last=False)[0].transport.abort()
 
