@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fftocean import plots as plots
     from fftocean import readers as readers
     from fftocean import science as science
+    from fftocean import view as view
     from fftocean.baking.bake import bake as bake
     from fftocean.baking.finished.check import Finding as Finding
     from fftocean.baking.finished.check import check as check
@@ -77,6 +78,8 @@ if TYPE_CHECKING:
     from fftocean.proof import verify as verify
     from fftocean.query import Answer as Answer
     from fftocean.query import Query as Query
+    from fftocean.runtime.folder import export_sea as export_sea
+    from fftocean.runtime.folder import load_sea as load_sea
     from fftocean.science import to_xarray as to_xarray
     from fftocean.statistics import Statistics as Statistics
     from fftocean.statistics import measure as measure
@@ -137,6 +140,7 @@ _NAMES_BY_MODULE = {
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),
+    "fftocean.runtime.folder": ("export_sea", "load_sea"),
     "fftocean.science": ("to_xarray",),
     "fftocean.statistics": ("Statistics", "measure"),
     "fftocean.window": ("Window",),
@@ -152,6 +156,7 @@ _PUBLIC_MODULES = {
     "readers": "fftocean.readers",
     "science": "fftocean.science",
     "units": "fftocean.physics.units",
+    "view": "fftocean.view",
 }
 _MODULE_OF = {name: module for module, names in _NAMES_BY_MODULE.items() for name in names}
 

@@ -1,6 +1,6 @@
 """Random amplitudes h0(k) of a tile, from the variance of each wavenumber cell."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from fftocean import noise
 from fftocean.arrays import Complex, Integer, Real, brief_repr
-from fftocean.cells import QUADRANTS, WHOLE, Band, Cells
+from fftocean.cells import QUADRANTS, WHOLE, Band, Cells, Part
 from fftocean.errors import ParameterError
 from fftocean.grid import Grid
 from fftocean.limits import ANGLE, DEPTH, LENGTH, LOOP, SEED
@@ -138,6 +138,7 @@ def seed_amplitudes(
     loop: float | None = None,
     draw: Draw = "gaussian",
     band: Band = WHOLE,
+    parts: Sequence[Part] | None = None,
 ) -> Amplitudes:
     """
     Realise a sea on a grid:  h0 = 1/2 (xi_r + i xi_i) sqrt(E_k).
@@ -153,6 +154,7 @@ def seed_amplitudes(
         band: the wavenumbers to hold. A wave whose cell lies within is the same to the bit whatever
             the band; one whose cell is cut by an edge keeps its phase, and carries the energy of
             its part (see `share_below`).
+        parts: the `cells.parts_of_sea`, to share them among tiles.
 
     Raises:
         ParameterError: a value out of range, a sea whose density is not finite and >= 0, or waves
@@ -164,7 +166,7 @@ def seed_amplitudes(
     if draw not in ("gaussian", "fixed"):
         raise ParameterError(f"amplitudes must be 'gaussian' or 'fixed', got {draw!r}")
 
-    cells = Cells(sea, grid.dkx, grid.dky)
+    cells = Cells(sea, grid.dkx, grid.dky, parts)
     forward, backward = (np.zeros(grid.half_shape, np.complex128, order="F") for _ in range(2))
     variance_forward, variance_backward = np.zeros(grid.half_shape), np.zeros(grid.half_shape)
     reach_x, reach_y = grid.reach
@@ -181,11 +183,15 @@ def seed_amplitudes(
         touched = (farthest > band[0]) & (nearest < band[1]) & ((ax > 0) | (ay > 0))
         ax, ay = ax[touched], ay[touched]
         variances = cells.variances(ax, ay)
+        if band != WHOLE:
+            waves = [
+                np.concatenate([s * a for s in signs])
+                for signs, a in zip(zip(*QUADRANTS, strict=True), (ax, ay), strict=True)
+            ]
+            low, high = (cells.share_below(edge, *waves) for edge in band)
+            variances *= np.maximum(high - low, 0.0).reshape(variances.shape)
         for (sx, sy), variance in zip(QUADRANTS, variances, strict=True):
             mx, my = sx * ax, sy * ay
-            if band != WHOLE:
-                low, high = (cells.share_below(edge, mx, my) for edge in band)
-                variance *= np.maximum(high - low, 0.0)
             random = (
                 noise.complex_normals(seed, mx, my)
                 if draw == "gaussian"
@@ -261,6 +267,20 @@ def place_modes(
     return Amplitudes(
         grid, depth, surface_tension, loop, forward, backward, energy, energy_opposite, "given"
     )
+
+
+def with_cycles(amplitudes: Amplitudes, cycles: Integer) -> Amplitudes:
+    """
+    Return the same waves with stored cycles in a loop, instead of those that this machine rounds.
+
+    Args:
+        amplitudes: waves that loop.
+        cycles: whole cycles of each entry, (ny, nx // 2 + 1).
+    """
+    same = replace(amplitudes)
+    object.__setattr__(same, "cycles", cycles)
+    same.freeze()
+    return same
 
 
 def cell_variance(sea: Sea, mx: Integer, my: Integer, dkx: float, dky: float) -> Real:

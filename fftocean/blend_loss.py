@@ -9,6 +9,7 @@ with energy times k^2: short waves are quick, and it is they that flicker first.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -85,22 +86,23 @@ def describe(ocean: Ocean | Cascade, frames: int) -> dict[str, Any]:
     }
 
 
-def sentence(b: Blend) -> str:
-    """Return one line for the summary of a bake."""
-    both = (
-        f"{100 * b.kept:.1f} % of the waves' height and {100 * b.kept_slopes:.1f} % of their slopes"
+def sentence(blend: Mapping[str, Any]) -> str:
+    """Return one line on a loss that `describe` returned, or a manifest holds."""
+    height, slopes, enough = blend["height"], blend["slopes"], blend["enough"]
+    line = (
+        f"blending frames at {blend['frames_per_second']:.3g} a second keeps "
+        f"{100 * height:.1f} % of the waves' height and {100 * slopes:.1f} % of their slopes"
     )
-    kept = f"blending frames at {b.rate:.3g} a second keeps {both}"
-    if b.kept_slopes >= ENOUGH:
-        return kept
-    heights = (
-        f"{b.enough_frames} frames keep {100 * ENOUGH:.0f} % of the height, "
-        if b.kept < ENOUGH
-        else ""
-    )
-    return (
-        f"{kept}; {heights}{b.enough_frames_slopes} frames ({b.enough_rate_slopes:.3g} a "
-        f"second) keep {100 * ENOUGH:.0f} % of the slopes"
+    if slopes >= enough["amplitude"]:
+        return line
+    share = f"{100 * enough['amplitude']:.0f} %"
+    if height < enough["amplitude"]:
+        line += f"; {enough['height']['frames']} frames keep {share} of the height, "
+    else:
+        line += "; "
+    return line + (
+        f"{enough['slopes']['frames']} frames ({enough['slopes']['frames_per_second']:.3g} a "
+        f"second) keep {share} of the slopes"
     )
 
 

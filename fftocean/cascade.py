@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from fftocean.amplitudes import Draw, Modes, seed_amplitudes
-from fftocean.cells import WHOLE, Band
+from fftocean.cells import WHOLE, Band, parts_of_sea
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, POINTWISE
@@ -94,11 +94,13 @@ class Cascade:
             sum(memory_needed(grid, computation.dtype) for grid in grids),
         )
         _warn_of_short_loops(sea, shared, loops)
-        oceans = []
+        oceans, parts = [], parts_of_sea(sea)
         for grid, own, band, period in zip(
             grids, tile_seeds(seed, grids), shared, loops, strict=True
         ):
-            waves = seed_amplitudes(sea, grid, seed=own, loop=period, draw=amplitudes, band=band)
+            waves = seed_amplitudes(
+                sea, grid, seed=own, loop=period, draw=amplitudes, band=band, parts=parts
+            )
             oceans.append(from_amplitudes(sea, own, waves, choppiness, computation))
         self._set_up(sea, seed, tuple(oceans))
 
@@ -376,8 +378,9 @@ def _warn_of_short_loops(sea: Sea, bands: Sequence[Band], loops: Sequence[float 
 
     These are at the peak of the sea, or the longest in the band if they are shorter.
     """
+    tp = None if all(loop is None for loop in loops) else sea.tp
     for i, (band, loop) in enumerate(zip(bands, loops, strict=True)):
-        if loop is not None and loop < 4.0 * (period := longest_period(sea, band)):
+        if loop is not None and loop < 4.0 * (period := longest_period(sea, band, tp)):
             warnings.warn(
                 f"a loop of {loop:g} s is less than four periods of the long waves of tile {i} "
                 f"({4.0 * period:.1f} s): they run visibly too fast or too slow",

@@ -14,7 +14,7 @@ between the points where the ray enters, crosses the edges of the frequency pane
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,6 +29,7 @@ from fftocean.physics.panels import (
     energetic_frequencies,
     frequency_panels,
     gauss,
+    gauss_rule,
     parts_of,
     split,
 )
@@ -68,14 +69,12 @@ class Cells:
     same waves to the bit.
     """
 
-    def __init__(self, sea: Sea, dkx: float, dky: float) -> None:
+    def __init__(
+        self, sea: Sea, dkx: float, dky: float, parts: "Sequence[Part] | None" = None
+    ) -> None:
         self.sea, self.dkx, self.dky = sea, dkx, dky
-        fine = _toward_axes(dkx, dky)
-        self.parts = [
-            Part(share, system, sea, fine)
-            for whole in sea.systems
-            for share, system in parts_of(whole)
-        ]
+        self.parts = list(parts_of_sea(sea) if parts is None else parts)
+        self._toward_axes = _toward_axes(dkx, dky)
 
     def variances(self, ax: Integer, ay: Integer) -> Real:
         """
@@ -113,13 +112,11 @@ class Cells:
         share = (farthest <= edge).astype(np.float64)
         cut = np.flatnonzero((nearest < edge) & (edge < farthest))
         x, y = mx[cut], my[cut]
-        below, above = (
-            sum(
-                (part.share * self._by_rays(part, x, y, band) for part in self.parts),
-                np.zeros(cut.size),
-            )
-            for band in ((0.0, edge), (edge, math.inf))
-        )
+        below, above = np.zeros(cut.size), np.zeros(cut.size)
+        for part in self.parts:
+            on_both_sides = self._by_rays(part, x, y, [(0.0, edge), (edge, math.inf)])
+            below += part.share * on_both_sides[0]
+            above += part.share * on_both_sides[1]
         total = below + above
         at_centre = np.hypot(x * self.dkx, y * self.dky) < edge
         share[cut] = np.divide(
@@ -136,6 +133,8 @@ class Cells:
         """
         if not (half_x > 0.0 and half_y > 0.0 and band[0] < band[1]):
             return 0.0
+        if math.hypot(half_x, half_y) <= band[0]:
+            return 0.0
         total = 0.0
         for part, theta, weight, edge in self.rays(half_x, half_y, band):
             last = np.maximum(np.minimum(np.minimum(edge, band[1]), part.k[-1]), band[0])
@@ -143,6 +142,17 @@ class Cells:
                 np.sum(part.along_rays(theta, weight, np.full(theta.size, band[0]), last))
             )
         return total
+
+    def _inside(self, half_x: float, half_y: float, band: Band) -> float:
+        """
+        Return the same as `inside` of spreadings with integral 1: what a circle within the
+        rectangle holds is an integral over k alone.
+        """
+        edge = min(half_x, half_y)
+        if not band[0] < edge:
+            return self.inside(half_x, half_y, band)
+        circle = sum(part.share * part.between(band[0], min(edge, band[1])) for part in self.parts)
+        return circle + self.inside(half_x, half_y, (edge, band[1]))
 
     def rays(
         self, half_x: float, half_y: float, band: Band = WHOLE
@@ -205,8 +215,8 @@ class Cells:
                     "and jumps in its `breaks`, or wrap it in CustomSpreading"
                 )
         reach_x, reach_y = grid.reach
-        within = self.inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
-        within -= self.inside(0.5 * grid.dkx, 0.5 * grid.dky, band)
+        within = self._inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
+        within -= self._inside(0.5 * grid.dkx, 0.5 * grid.dky, band)
         scale = sum(part.share * part.mainly for part in self.parts)
         if not abs(held - within) <= TOLERANCE * scale:
             raise ParameterError(
@@ -257,14 +267,12 @@ class Cells:
             out *= self.dkx * self.dky
         quadrant, cell = np.nonzero(rays)
         signs = np.array(QUADRANTS)[quadrant]
-        out[quadrant, cell] = self._by_rays(
-            part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell], WHOLE
-        )
+        out[quadrant, cell] = self._by_rays(part, signs[:, 0] * ax[cell], signs[:, 1] * ay[cell])[0]
         return out
 
     def _by_points(self, part: "Part", kx: Real, ky: Real, p: int) -> Real:
         """Return the mean density over cells by p x p Gauss points, (4, m)."""
-        x, w = np.polynomial.legendre.leggauss(p)
+        x, w = gauss_rule(p)
         weight = (0.25 * w[:, None] * w).ravel()
         kx = kx[:, None] + 0.5 * self.dkx * np.repeat(x, p)
         ky = ky[:, None] + 0.5 * self.dky * np.tile(x, p)
@@ -283,32 +291,33 @@ class Cells:
         met: Flags = (np.abs(beside) <= reach) & (along > -max(self.dkx, self.dky))
         return met
 
-    def _by_rays(self, part: "Part", mx: Integer, my: Integer, band: Band) -> Real:
-        """Return the variance of one part in the cells (mx, my) within a band, by rays, (m,)."""
-        out = np.zeros(mx.size)
+    def _by_rays(
+        self, part: "Part", mx: Integer, my: Integer, bands: Sequence[Band] = (WHOLE,)
+    ) -> Real:
+        """Return the variance of one part in the cells (mx, my) within bands, (bands, m)."""
+        out = np.zeros((len(bands), mx.size))
         for start in range(0, mx.size, _CELLS):
             some = slice(start, start + _CELLS)
             axes = ((mx, self.dkx), (my, self.dky))
             low_x, high_x, low_y, high_y = (
                 (m[some] + s) * dk for m, dk in axes for s in (-0.5, 0.5)
             )
-            cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), band)
+            cell, theta, weight = self._rays(part, (low_x, high_x, low_y, high_y), bands)
             c, s = np.cos(theta), np.sin(theta)
             with np.errstate(divide="ignore", over="ignore"):
                 ends = low_x[cell] / c, high_x[cell] / c, low_y[cell] / s, high_y[cell] / s
-            first = np.maximum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
-            last = np.minimum(np.maximum(ends[0], ends[1]), np.maximum(ends[2], ends[3]))
-            first, last = (
-                np.maximum(first, band[0]),
-                np.minimum(np.minimum(last, band[1]), part.k[-1]),
-            )
-            chosen = np.flatnonzero(last > first)
-            energy = part.along_rays(theta[chosen], weight[chosen], first[chosen], last[chosen])
-            out[some] = np.bincount(cell[chosen], energy, low_x.size)
+            enter = np.maximum(np.minimum(ends[0], ends[1]), np.minimum(ends[2], ends[3]))
+            leave = np.minimum(np.maximum(ends[0], ends[1]), np.maximum(ends[2], ends[3]))
+            for band, held in zip(bands, out, strict=True):
+                first = np.maximum(enter, band[0])
+                last = np.minimum(np.minimum(leave, band[1]), part.k[-1])
+                chosen = np.flatnonzero(last > first)
+                energy = part.along_rays(theta[chosen], weight[chosen], first[chosen], last[chosen])
+                held[some] = np.bincount(cell[chosen], energy, low_x.size)
         return out
 
     def _rays(
-        self, part: "Part", sides: tuple[Real, Real, Real, Real], band: Band
+        self, part: "Part", sides: tuple[Real, Real, Real, Real], bands: Sequence[Band]
     ) -> tuple[Index, Real, Real]:
         """Return rays from k = 0 that cover cells: the cell, direction and weight of each."""
         low_x, high_x, low_y, high_y = sides
@@ -330,7 +339,8 @@ class Cells:
         )
         farthest = np.hypot(np.maximum(-low_x, high_x), np.maximum(-low_y, high_y))
         breaks = [*corners]
-        for edge in {*band, *part.rings(0.15 * min(self.dkx, self.dky))}:
+        rings = part.rings(0.15 * min(self.dkx, self.dky))
+        for edge in sorted({*rings, *(edge for band in bands for edge in band)}):
             met = (nearest < edge) & (edge < farthest)
             if np.any(met):  # where the circle |k| = edge meets the lines through the sides
                 across = [np.sqrt(np.maximum(edge**2 - side**2, 0.0)) for side in sides]
@@ -349,9 +359,10 @@ class Cells:
         low, high = ends[:-1].T.ravel(), ends[1:].T.ravel()
         cell = np.repeat(np.arange(heading.size), ends.shape[0] - 1)
         wide = np.flatnonzero(high > low)
-        piece, low, high = split(low[wide], high[wide], part.theta_fine)
+        edges = np.union1d(part.theta, self._toward_axes)
+        piece, low, high = split(low[wide], high[wide], edges)
         cell = cell[wide][piece]
-        short = high - low <= _SHORT * _length_around(part.theta_fine, low, high)
+        short = high - low <= _SHORT * _length_around(edges, low, high)
         found = []
         for order, these in ((4, short), (8, ~short)):
             theta, weight = gauss(low[these], high[these], order)
@@ -379,9 +390,8 @@ class Part:
     k_jumps: Real
     theta: Real  # edges of the direction panels, over five turns [rad]
     theta_jumps: Real
-    theta_fine: Real  # the same with those that long cells need
 
-    def __init__(self, share: float, system: WaveSystem, sea: Sea, fine: Real) -> None:
+    def __init__(self, share: float, system: WaveSystem, sea: Sea) -> None:
         self.share, self.system, self.depth, self.tension = (
             share,
             system,
@@ -402,14 +412,13 @@ class Part:
         some, energy = energetic_frequencies(system, omega.edges)
         self.energy, self.variance = energy, float(np.sum(energy))
         self.mainly = float(np.sum(energy[omega.edges[1:] <= 1e3 * float(system.spectrum.peak)]))
-        self.theta = self.theta_jumps = self.theta_fine = np.zeros(0)
+        self.theta = self.theta_jumps = np.zeros(0)
         self.unity = 1.0
         if not self.long_crested:
             panels = direction_panels(system, some)
             turns = 2.0 * np.pi * np.arange(-2.0, 3.0)[:, None] + self.direction
             self.theta = np.unique(panels.edges[:-1] + turns)
             self.theta_jumps = np.unique(panels.jumps + turns)
-            self.theta_fine = np.unique(np.concatenate([self.theta, fine]))
             points, weights = gauss(panels.edges[:-1], panels.edges[1:])
             density = system.spreading(some[:, None], points.ravel(), float(system.spectrum.peak))
             unity = np.sum(
@@ -419,14 +428,18 @@ class Part:
                 float(unity[np.argmax(np.abs(unity - 1.0))]) if self.variance > 0.0 else 1.0
             )
 
+    def spectrum_at(self, k: Real) -> tuple[Real, Real]:
+        """Return omega and S at k > 0."""
+        omega = dispersion.angular_frequency(k, self.depth, self.tension)
+        if self.knows_waves:
+            return omega, self.system.spectrum.at_waves(omega, k)  # type: ignore[attr-defined]
+        return omega, self.system.spectrum(omega)
+
     def radial(self, k: Real) -> tuple[Real, Real]:
         """Return omega and S d omega/dk at k > 0."""
-        omega = dispersion.angular_frequency(k, self.depth, self.tension)
+        omega, s = self.spectrum_at(k)
         slope = omega / k * dispersion.group_to_phase_speed(k, self.depth, self.tension)
-        if self.knows_waves:
-            at_waves = self.system.spectrum.at_waves  # type: ignore[attr-defined]
-            return omega, at_waves(omega, k) * slope
-        return omega, self.system.spectrum(omega) * slope
+        return omega, s * slope
 
     def density(self, k: Real, theta: Real) -> Real:
         """
@@ -438,6 +451,15 @@ class Part:
         return s * self.system.spreading(
             omega, theta - self.direction, float(self.system.spectrum.peak)
         )
+
+    def between(self, low: float, high: float) -> float:
+        """Return the variance between two wavenumbers, in all directions [m^2]."""
+        last = min(high, float(self.k[-1]))
+        if not low < last:
+            return 0.0
+        _, first, end = split(np.array([low]), np.array([last]), self.k)
+        k, weight = gauss(first, end)
+        return float(np.sum(self.radial(k)[1] * weight))
 
     def along_rays(self, theta: Real, weight: Real, first: Real, last: Real) -> Real:
         """
@@ -483,6 +505,11 @@ class Part:
     def angularly(self, theta: Real, half: Real) -> tuple[Real, Flags]:
         """Return the same for direction panels, of angles `half` to both sides of theta."""
         return _beside(self.theta, self.theta_jumps, theta - half, theta + half, np.inf)
+
+
+def parts_of_sea(sea: Sea) -> list[Part]:
+    """Return the parts of a sea, which the cells of all tiles can share."""
+    return [Part(share, part, sea) for system in sea.systems for share, part in parts_of(system)]
 
 
 def _beside(

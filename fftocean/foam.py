@@ -27,6 +27,7 @@ from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import DISPLACEMENT_GRADIENT, potential_factor
+from fftocean.foam_coverage import threshold_for
 from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
@@ -47,7 +48,7 @@ class Foam:
     waves of a 10 m/s wind cover about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at
     choppiness 1 and samples 0.8 m apart. The eigenvalues of linear waves hardly depend on the wind,
     but they do on choppiness and on the shortest wave: with finer samples or more choppiness use a
-    lower threshold, for storms a higher one.
+    lower threshold, for storms a higher one. `from_wind` finds it.
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
@@ -58,6 +59,34 @@ class Foam:
 
     def __post_init__(self) -> None:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
+
+    @classmethod
+    def from_wind(
+        cls,
+        source: Cascade | Ocean,
+        wind_speed: float,
+        *,
+        tau: float = 3.5,
+        strength: float = 60.0,
+        shortest: float = 0.0,
+    ) -> "Foam":
+        """
+        Return the foam that covers as much of some water as whitecaps cover in a wind, on average.
+
+        The share is 2.95e-6 U^3.52 (Monahan & O'Muircheartaigh 1980), within a tenth or so for
+        winds from 7 to 20 m/s.
+
+        Args:
+            source: the water; its choppiness and its shortest waves matter, its samples do not.
+            wind_speed: 10 m above the sea [m/s]; in still air there is no foam.
+            tau, strength: as of `Foam`.
+            shortest: waves shorter than this are left out [m], as by `Window`.
+
+        Raises:
+            ParameterError: no cascade or ocean, or a value out of range.
+        """
+        threshold = threshold_for(source, wind_speed, tau=tau, strength=strength, shortest=shortest)
+        return cls(tau=tau, threshold=threshold, strength=strength)
 
     def loop(self, ocean: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
         """

@@ -56,6 +56,24 @@ def in_child(renew: Callable[[], None]) -> None:
     _renewals.append(renew)
 
 
+class Process:
+    """
+    The process that made an object.
+
+    A forked child inherits the object without the threads behind it, so it makes those anew.
+    """
+
+    __slots__ = ("_number",)
+
+    def __init__(self) -> None:
+        self._number = os.getpid()
+
+    @property
+    def is_current(self) -> bool:
+        """True in the process that made the object; False in its forked children."""
+        return self._number == os.getpid()
+
+
 @contextlib.contextmanager
 def no_fork() -> Iterator[None]:
     """

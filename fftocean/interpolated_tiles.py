@@ -1,7 +1,6 @@
 """Interpolation of the frames of one or more tiles at points."""
 
 import math
-import os
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -12,6 +11,7 @@ import numpy.typing as npt
 
 from fftocean.arrays import Real
 from fftocean.fields import GEOMETRY, potential_factor
+from fftocean.forks import Process
 from fftocean.kernels import interpolate
 from fftocean.kernels import query as kernels
 from fftocean.ocean import Ocean
@@ -60,7 +60,7 @@ class InterpolatedTiles:
             * self._choppiness
             * math.sqrt(sum(_mean_square_displacement(ocean) for ocean in used))
         )
-        self._lock, self._pid = threading.Lock(), os.getpid()
+        self._lock, self._process = threading.Lock(), Process()
         self._last = _TexelGroups(math.nan)
 
     def _filtered(self, ocean: Ocean, gain: "float | Real") -> Ocean:
@@ -89,8 +89,8 @@ class InterpolatedTiles:
 
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
-        if self._pid != os.getpid():
-            self._lock, self._pid = threading.Lock(), os.getpid()
+        if not self._process.is_current:
+            self._lock, self._process = threading.Lock(), Process()
         groups = ["motion", *(group for group, name in _GROUPS.items() if name in fields)]
         with self._lock:
             if self._last.t != t:

@@ -1,10 +1,10 @@
 """Frames computed on a thread of their own while the consumer uses the one before."""
 
-import os
 from collections import deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 
+from fftocean.forks import Process
 from fftocean.frame import Frame
 from fftocean.limits import AHEAD
 
@@ -40,17 +40,17 @@ def _ahead(tasks: Iterator[Task], ahead: int, reuse: bool) -> Iterator[Frame]:
     finished: list[Frame] = []  # frames that the consumer no longer needs
     pending: deque[tuple[Task, Future[Frame] | None]] = deque()
     failure: BaseException | None = None
-    pid = os.getpid()
+    process = Process()
 
     def next_frame() -> Frame:
         task, future = pending.popleft()
         # Not started, or started by a thread of the parent process, which a forked child lacks.
-        if future is None or pid != os.getpid():
+        if future is None or not process.is_current:
             return task()
         return future.result()
 
     def start(task: Task) -> Future[Frame] | None:
-        if pid != os.getpid():
+        if not process.is_current:
             return None
         try:
             return worker.submit(task, out=finished.pop() if finished else None)
@@ -78,7 +78,7 @@ def _ahead(tasks: Iterator[Task], ahead: int, reuse: bool) -> Iterator[Frame]:
             for _, future in pending:
                 if future is not None:
                     future.cancel()
-            if pid != os.getpid():
+            if not process.is_current:
                 worker.shutdown(wait=False)
     if failure is not None:
         raise failure

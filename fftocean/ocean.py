@@ -1,7 +1,6 @@
 """A periodic patch of water: `Ocean.frame(t)` is a pure function of the ocean and the time."""
 
 import math
-import os
 import threading
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,7 +16,7 @@ from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
-from fftocean.forks import in_child, no_fork
+from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
@@ -160,10 +159,16 @@ class Ocean:
         return ocean
 
     def with_amplitudes(
-        self, amplitudes: Amplitudes, *, planning: str | None = None, threads: int | None = None
+        self,
+        amplitudes: Amplitudes,
+        *,
+        sea: Sea | None = None,
+        choppiness: float | None = None,
+        planning: str | None = None,
+        threads: int | None = None,
     ) -> "Ocean":
         """
-        Return an ocean of other waves, with the sea, seed, choppiness and computation of this one.
+        Return an ocean of other waves, with the seed and computation of this one.
 
         Filtered waves, say, come from `dataclasses.replace(ocean.amplitudes, forward=...,
         backward=...)`. The grid, depth and loop are those of the new amplitudes.
@@ -171,21 +176,26 @@ class Ocean:
         Args:
             amplitudes: the waves at t = 0, (ny, nx // 2 + 1) each [m]; see `Amplitudes`. Its
                 arrays become read-only.
-            planning, threads: as in `Ocean`; None for those of this ocean.
+            sea: the sea that they realise; None for that of this ocean.
+            choppiness, planning, threads: as in `Ocean`; None for those of this ocean.
 
         Raises:
-            ParameterError: `amplitudes` is of another type, fields overflow `dtype`, too little
-                memory, or a value out of range.
+            ParameterError: `amplitudes` or `sea` is of another type, fields overflow `dtype`, too
+                little memory, or a value out of range.
         """
         if not isinstance(amplitudes, Amplitudes):
             raise ParameterError(f"amplitudes must be Amplitudes, got {described(amplitudes)}")
+        if not isinstance(sea, Sea | None):
+            raise ParameterError(f"sea must be a Sea, got {described(sea)}")
         computation = self._computation
         if planning is not None:
             computation = replace(computation, planning=planning)
         if threads is not None:
             computation = replace(computation, threads=threads)
         _require_memory(amplitudes.grid, self.dtype)
-        return from_amplitudes(self.sea, self.seed, amplitudes, self.choppiness, computation)
+        sea = self.sea if sea is None else sea
+        choppiness = self.choppiness if choppiness is None else choppiness
+        return from_amplitudes(sea, self.seed, amplitudes, choppiness, computation)
 
     def _set_up(
         self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, computation: Computation
@@ -201,7 +211,7 @@ class Ocean:
             self._synthesis = Synthesis(amplitudes, computation)
         self._frequency = _frequencies(amplitudes, self._synthesis.columns)
         self._few_cycles = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
-        self._lock, self._pid = threading.Lock(), os.getpid()
+        self._lock, self._process = threading.Lock(), Process()
         self._recipe = (sea, self.seed, amplitudes, choppiness, computation)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -412,9 +422,8 @@ class Ocean:
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
         """Return the arrays to write to: new ones, or those of an earlier frame."""
-        shapes = {
-            name: (*self.grid.shape, 3) if name == "normal" else self.grid.shape for name in fields
-        }
+        plane = self._synthesis.shape
+        shapes = {name: (*plane, 3) if name == "normal" else plane for name in fields}
         if out is None:
             return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
         arrays: dict[str, Real] = {}
@@ -451,12 +460,12 @@ class Ocean:
 
         A forked child makes a lock and threads of its own, since it has none of its parent's.
         """
-        if self._pid != os.getpid():
+        if not self._process.is_current:
             with _after_fork:  # several threads of the child can arrive at once
-                if self._pid != os.getpid():
+                if not self._process.is_current:
                     self._synthesis.restart()
                     self._lock = threading.Lock()
-                    self._pid = os.getpid()
+                    self._process = Process()
         return self._lock
 
     def __repr__(self) -> str:
@@ -529,10 +538,15 @@ def _require_memory(grid: Grid, dtype: str) -> None:
     require_memory(f"an ocean of n = {grid.nx} x {grid.ny}", memory_needed(grid, dtype))
 
 
-def longest_period(sea: Sea, band: Band) -> float:
-    """Return the period of the sea's peak, or of the longest waves of a band above it [s]."""
+def longest_period(sea: Sea, band: Band, tp: float | None = None) -> float:
+    """
+    Return the period of the sea's peak, or of the longest waves of a band above it [s].
+
+    `tp` spares the search for the sea's peak if that is known.
+    """
+    tp = sea.tp if tp is None else tp
     slowest = float(dispersion.angular_frequency(band[0], sea.depth, sea.surface_tension))
-    return min(sea.tp, 2.0 * math.pi / slowest) if slowest > 0.0 else sea.tp
+    return min(tp, 2.0 * math.pi / slowest) if slowest > 0.0 else tp
 
 
 def _checked_band(band: Any) -> Band:

@@ -1,7 +1,6 @@
 """Height, normal, velocity and acceleration of the water surface at points of the world."""
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -13,6 +12,7 @@ from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
 from fftocean.errors import FieldError, ParameterError
+from fftocean.forks import Process
 from fftocean.gerstner.waves import Waves
 from fftocean.interpolated_tiles import InterpolatedTiles
 from fftocean.limits import THREADS, TIME, Quantity
@@ -184,7 +184,7 @@ class Query:
             if self.threads > 1
             else None
         )
-        self._pid = os.getpid()
+        self._process = Process()
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Set an attribute once, as in an ocean."""
@@ -220,7 +220,7 @@ class Query:
                 +-1e12 s, or an unknown field.
         """
         fields = check_fields(fields, WANTED)
-        if self._pid != os.getpid():  # a forked child has none of its parent's threads
+        if not self._process.is_current:  # a forked child has none of its parent's threads
             self._start()
         xs, ys, ts = (
             as_coordinates(name, values) for name, values in (("x", x), ("y", y), ("t", t))

@@ -184,7 +184,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
         loop=None
         if len(tiles) > 1 or ocean.loop is None
         else loop_error(first.amplitudes, ocean.loop),
-        folding=_folding(tiles, FRAMES.check("frames", frames), 10.0 * tp),
+        folding=folding_over(tiles, FRAMES.check("frames", frames), 10.0 * tp),
     )
 
 
@@ -194,7 +194,7 @@ _POINTS = 2**16
 """Points at which the water of several tiles is summed to look for folds."""
 
 
-def _folding(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
+def folding_over(tiles: tuple[Ocean, ...], count: int, span: float) -> Folding:
     """
     Return the folds of all tiles together, in `count` frames over the loop, or over `span` [s].
 

@@ -241,6 +241,7 @@ class Synthesis:
         dtype = computation.dtype
         self._dtype = np.dtype(dtype)
         grid = self._grid
+        self.shape = grid.shape  # of a field, (ny, nx)
         # Columns of the half plane; the Nyquist column, where there is one, is always zero.
         self.columns = (grid.nx + 1) // 2
         self._unit = largest_wave(amplitudes)

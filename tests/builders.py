@@ -77,4 +77,15 @@ def ocean(sea=None, **arguments):
 
 def environment(**more):
     """Return this process's environment, in which processes find this package."""
-    return {**os.environ, "PYTHONPATH": str(ROOT), **more}
+    import fftocean as fo
+
+    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
+
+
+def tree(folder):
+    """Return the bytes of every file under a folder, by its path there."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(Path(folder).rglob("*"))
+        if path.is_file()
+    }

@@ -25,7 +25,7 @@ SWELL = fo.Sea(
 )
 
 
-def density_by_hand(sea, kx, ky):
+def expected_density(sea, kx, ky):
     """
     S(omega) D(theta) (d omega/dk)/k, with a central difference for d omega/dk, written out again.
     """
@@ -50,7 +50,7 @@ def test_cell_variance_is_the_integral_over_the_cell(sea, mx, my):
     """
     dk = 2.0 * np.pi / 400.0
     truth = integrate.dblquad(
-        lambda y, x: density_by_hand(sea, x, y),
+        lambda y, x: expected_density(sea, x, y),
         (mx - 0.5) * dk,
         (mx + 0.5) * dk,
         (my - 0.5) * dk,

@@ -55,8 +55,8 @@ def flat(level):
 
 def test_no_energy_twice_and_none_missing():
     """
-    Where every share is an area: all tiles together cover the last one's rectangle less the cell of
-    the first at k = 0.
+    With a flat density every share is an area: all tiles together cover the last one's rectangle
+    less the cell of the first at k = 0.
     """
     made = cascade(flat(1e-4))
     first, *_, last = (ocean.grid for ocean in made.oceans)

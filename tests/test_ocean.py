@@ -741,6 +741,15 @@ def test_with_amplitudes_shows_the_given_waves():
     assert all(np.array_equal(twin.frame(4.2)[name], other.frame(4.2)[name]) for name in EIGHT)
 
 
+def test_with_amplitudes_of_another_sea():
+    one, other = (fo.Sea.from_wind(speed=u, fetch=50e3) for u in (8.0, 12.0))
+    wanted = ocean(other, choppiness=1.3)
+    made = ocean(one, choppiness=0.7).with_amplitudes(wanted.amplitudes, sea=other, choppiness=1.3)
+    assert (made.sea, made.choppiness, made.seed) == (other, 1.3, wanted.seed)
+    for name in ("height", "jacobian"):
+        assert np.array_equal(made.frame(4.2, (name,))[name], wanted.frame(4.2, (name,))[name])
+
+
 def test_with_amplitudes_may_change_the_grid():
     """The same waves on twice the samples: every second sample is the old one."""
     given = fo.Ocean.from_modes([(1, 2, 0.5, 0.1), (0, -3, 0.2, 1.0)], n=8, size=9.0)
@@ -755,6 +764,8 @@ def test_with_amplitudes_may_change_the_grid():
     [
         (lambda o: o.with_amplitudes(None), "amplitudes must be Amplitudes, got None"),
         (lambda o: o.with_amplitudes(o), "amplitudes must be Amplitudes, got"),
+        (lambda o: o.with_amplitudes(o.amplitudes, sea="sea"), "sea must be a Sea, got "),
+        (lambda o: o.with_amplitudes(o.amplitudes, choppiness=-1.0), "choppiness must be"),
         (lambda o: o.with_amplitudes(o.amplitudes, threads=0), "threads must be"),
         (lambda o: o.with_amplitudes(o.amplitudes, planning="best"), "planning must be one of"),
         (

@@ -133,7 +133,7 @@ def test_peak_period_of_a_large_tile():
     assert s.spread == pytest.approx(s.specified.spread, rel=0.05)
 
 
-def test_loop_error_by_hand():
+def test_loop_error_of_a_given_frame():
     """Three waves: the energy-weighted rms and mean of (2 pi n / T) / omega - 1."""
     waves = [(1, 0, 1.0, 0.0), (4, 2, 0.5, 0.0), (0, -3, 0.7, 1.0)]
     o = fo.Ocean.from_modes(waves, n=16, size=200.0, loop=23.0)

@@ -184,8 +184,8 @@ def test_an_interrupted_thread_waits_for_the_others():
     first = synthesis._workspaces[0]
     still_at_it, begun = [], threading.Event()
 
-    def work(desk, _):
-        if desk is first:
+    def work(workspace, _):
+        if workspace is first:
             begun.wait(600.0)
             raise KeyboardInterrupt
         still_at_it.append(True)

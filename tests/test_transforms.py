@@ -256,7 +256,7 @@ def test_a_user_without_a_home_measures_every_time(monkeypatch):
 
 
 @pytest.mark.process
-def test_pyfftw_is_whole_for_whoever_asks_first():
+def test_pyfftw_is_whole_for_the_first_of_several_threads():
     """Eight threads at once in a fresh process: none sees what another has imported half."""
     script = """
 import threading, sys

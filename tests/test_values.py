@@ -98,7 +98,7 @@ def test_what_they_show(values):
     assert "TabulatedSpectrum(64 frequencies, 0.05 to 0.5 Hz" in repr(values["system"])
 
 
-DOORS = {
+CALLS = {
     "measure": (fo.measure, ("ocean", "cascade")),
     "Query": (fo.Query, ("ocean", "cascade", "modes")),
     "Ocean": (lambda v: fo.Ocean(v, n=8, size=50.0), ("sea",)),
@@ -135,13 +135,13 @@ DOORS = {
 }
 
 
-@pytest.mark.parametrize("door", DOORS)
-def test_wrong_objects_are_refused_by_name(values, door, tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", CALLS)
+def test_wrong_objects_are_refused_by_name(values, name, tmp_path, monkeypatch):
     """
     Anything that is not theirs: an error of the package's own, on one line, that says what it got.
     """
     monkeypatch.chdir(tmp_path)
-    call, welcome = DOORS[door]
+    call, welcome = CALLS[name]
     others = {
         "none": None,
         "number": 3,

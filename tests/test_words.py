@@ -27,12 +27,31 @@ IN_NAMES = re.compile(r"\b(claims?|rooms?|hands?|guests?)\b", re.IGNORECASE)
 PARTS = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
 
 
+PRONOUN = re.compile(r"(It|They)\b")
+"""Words that no docstring begins with: a reader does not know yet what they stand for."""
+
+
 @cache
 def files():
     """Return the text of every source file of the package, by its path."""
+    return texts(PACKAGE)
+
+
+@cache
+def all_files():
+    """Return the text of every source file of package, tests and tools, but for this one."""
+    folders = (PACKAGE, ROOT / "tests", ROOT / "tools", ROOT / "benchmarks")
+    every = {path: text for folder in folders for path, text in texts(folder).items()}
+    return {path: text for path, text in every.items() if path != "tests/test_words.py"}
+
+
+def texts(folder):
+    """Return the text of every source file below a folder, by its path."""
     return {
         path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
-        for path in sorted(PACKAGE.rglob("*.py"))
+        for path in sorted(folder.rglob("*.py"))
+        if "node_modules" not in path.parts  # npm packages of the page's tools
+        if "node_modules" not in path.parts
     }
 
 
@@ -56,8 +75,18 @@ def metaphors(source):
 def test_no_docstring_begins_with_a_question_word():
     found = [
         f"{path}:{line}: {text}"
-        for path, source in files().items()
+        for path, source in all_files().items()
         for line, text in questions(source)
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_no_docstring_begins_with_a_pronoun():
+    found = [
+        f"{path}:{line}: {text.splitlines()[0]}"
+        for path, source in all_files().items()
+        for line, text in docstrings(source)
+        if PRONOUN.match(text)
     ]
     assert not found, "\n".join(found)
 
@@ -65,7 +94,7 @@ def test_no_docstring_begins_with_a_question_word():
 def test_no_line_is_longer_than_100_columns():
     found = [
         f"{path}:{i}: {width}"
-        for path, source in files().items()
+        for path, source in all_files().items()
         for i, width in enumerate(widths(source), 1)
         if width > 100
     ]
@@ -74,7 +103,7 @@ def test_no_line_is_longer_than_100_columns():
 
 def test_no_metaphors_in_docstrings_comments_and_names():
     found = {}
-    for path, source in files().items():
+    for path, source in all_files().items():
         for line, word in metaphors(source):
             found.setdefault(f"{path}: {word.lower()}, lines", []).append(str(line))
     assert not found, "\n".join(f"{where} {', '.join(lines)}" for where, lines in found.items())

@@ -26,6 +26,8 @@ def modules_in(folder: Path) -> dict[str, str]:
     """
     found = {}
     for path in sorted(folder.rglob("*.py")):
+        if "node_modules" in path.parts:  # npm packages of the page's tools
+            continue
         parts = path.relative_to(folder).with_suffix("").parts
         found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path.read_text(
             encoding="utf-8"
@@ -43,7 +45,7 @@ def imports_in(
     source: str,
     known: Collection[str],
     is_package: bool = False,
-    doors: Mapping[tuple[str, str], str] | None = None,
+    upward: Mapping[tuple[str, str], str] | None = None,
     *,
     inside: bool = True,
 ) -> set[str]:
@@ -59,18 +61,18 @@ def imports_in(
         source: its text.
         known: names of modules.
         is_package: whether the importer is a package's `__init__.py`.
-        doors: imports to leave out, by (module, function).
+        upward: imports to leave out, by (module, function).
         inside: whether imports within functions count.
     """
     tree = ast.parse(source)
     skipped = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef) and (module, node.name) in (doors or {}):
-            door = f"fftocean.{(doors or {})[module, node.name]}"
+        if isinstance(node, ast.FunctionDef) and (module, node.name) in (upward or {}):
+            imported_there = f"fftocean.{(upward or {})[module, node.name]}"
             skipped |= {
                 line
                 for line in node.body
-                if isinstance(line, ast.ImportFrom) and line.module == door
+                if isinstance(line, ast.ImportFrom) and line.module == imported_there
             }
     if not inside:
         functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))

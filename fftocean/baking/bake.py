@@ -19,7 +19,14 @@ from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import compose, read_manifest
 from fftocean.baking.folder import layout
 from fftocean.baking.folder.identity import header_of
-from fftocean.baking.folder.journal import Entry, Journal, entries_of
+from fftocean.baking.folder.journal import (
+    Entry,
+    Journal,
+    Listen,
+    Progress,
+    RunLog,
+    entries_of,
+)
 from fftocean.baking.folder.listing import replace_cascade
 from fftocean.baking.folder.lock import locked, require_free
 from fftocean.baking.folder.ownership import (
@@ -29,7 +36,6 @@ from fftocean.baking.folder.ownership import (
     require_same_bake,
 )
 from fftocean.baking.folder.plan import Plan, frames_of, tasks_of
-from fftocean.baking.folder.run_log import Listen, Progress, RunLog
 from fftocean.baking.previews import previews
 from fftocean.baking.scene import maps
 from fftocean.baking.scene.maps import MAPS
@@ -113,7 +119,8 @@ def bake(
         plan = Plan(job, downsample, header, chosen, str(folder), lock.token)
         set_scene(plan.identity, scene)
         try:
-            replace_cascade(folder, overwrite=overwrite)
+            if layout.is_cascade(folder):
+                replace_cascade(folder, overwrite=overwrite)
             known = _earlier_entries(folder, plan, scene, overwrite)
             make_folder(folder / layout.WORK_FOLDER)
             with Journal(folder / layout.JOURNAL, plan.identity, known) as journal:

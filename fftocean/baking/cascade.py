@@ -9,9 +9,9 @@ from fftocean.baking.bake import bake
 from fftocean.baking.cascade_setup import TileSet, outside, prepare, tile_in_words
 from fftocean.baking.estimate import Estimate, estimate
 from fftocean.baking.folder import layout, listing
+from fftocean.baking.folder.journal import Listen, Progress
 from fftocean.baking.folder.layout import CASCADE_FILE, CASCADE_JOB, MANIFEST_FILE
 from fftocean.baking.folder.lock import locked, require_free
-from fftocean.baking.folder.run_log import Listen, Progress
 from fftocean.baking.folder.sealed import sealed
 from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile

@@ -181,7 +181,7 @@ class TileSet:
             f"{', '.join(self.job.maps)} of each tile; "
             "normal, Jacobian and foam are formed of the sums",
         )
-        yield "between frames", blend.sentence(blend.loss(self.cascade, self.job.frames))
+        yield "between frames", blend.sentence(blend.describe(self.cascade, self.job.frames))
 
 
 def prepare(

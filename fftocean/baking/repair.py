@@ -14,7 +14,7 @@ from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.folder.identity import HEADER, differences
-from fftocean.baking.folder.run_log import Listen, Progress
+from fftocean.baking.folder.journal import Listen, Progress
 from fftocean.baking.folder.sealed import read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError, SeaWarning
 from fftocean.files import as_json, path_of, remove, write_whole

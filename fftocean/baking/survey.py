@@ -9,9 +9,8 @@ import numpy as np
 
 from fftocean import foam
 from fftocean.baking.folder import layout
-from fftocean.baking.folder.journal import Entry
+from fftocean.baking.folder.journal import Entry, RunLog
 from fftocean.baking.folder.plan import Plan, Task, TaskKind, tasks_of
-from fftocean.baking.folder.run_log import RunLog
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.baking.workers.local import Executor

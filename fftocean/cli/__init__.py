@@ -1,4 +1,4 @@
-"""Command line: `fftocean bake | check | info | verify | bench | plot | presets`."""
+"""Command line: `fftocean bake | check | info | verify | bench | plot | presets | view`."""
 
 from fftocean.cli.entry_point import main as main
 

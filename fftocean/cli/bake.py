@@ -204,7 +204,7 @@ def _summarise(folder: Path, manifest: Mapping[str, Any], seconds: float, kept: 
         before = f", {kept} of {len(frames)} frames from an earlier run" if kept else ""
         print(f"{maps} in {seconds:.1f} s{before}: {plain(folder)}")
     notes.note_folds(manifest["extremes"])
-    print(notes.blending(manifest["blend"]))
+    notes.print_blending(manifest["blend"])
     if "preview" in manifest:
         print(f"preview: {plain(folder / SHEET)}")
 
@@ -240,7 +240,7 @@ def _bake_cascade(
     for line in summary(listed):
         print(line)
     notes.note_folds(listed["extremes"])
-    print(notes.blending(listed["blend"]))
+    notes.print_blending(listed["blend"])
     if "preview" in listed:
         print(f"preview: {plain(options.output / listed['preview']['path'])}")
     notes.print_loading(job)

@@ -1,4 +1,4 @@
-"""`fftocean check`: find what is wrong with a bake, and repair it."""
+"""`fftocean check`: find what is wrong with a bake or a run-time package, and repair a bake."""
 
 import argparse
 from collections.abc import Callable, Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def add_flags(parser: argparse.ArgumentParser) -> None:
     """Add the flags of `fftocean check`."""
-    parser.add_argument("folder", metavar="DIR", type=path, help="folder of a bake")
+    parser.add_argument("folder", metavar="DIR", type=path, help="folder of a bake or of a package")
     parser.add_argument(
         "--repair", action="store_true", help="write wrong files again, with the same bytes"
     )
@@ -44,8 +44,16 @@ def run(options: argparse.Namespace) -> int:
     from fftocean.baking.finished.manifest import read_manifest
     from fftocean.baking.folder.layout import is_cascade
     from fftocean.baking.folder.listing import read_listing
+    from fftocean.errors import JobError
+    from fftocean.runtime.folder import is_package
 
     with json_events(options.json) as print_json:
+        package = is_package(options.folder)
+        if package and options.repair:
+            raise JobError(
+                f"{options.folder} must be a bake to be repaired, and is a run-time package: "
+                "export it again"
+            )
         silent = options.quiet or options.json
         with progress_bar("checking", "maps", shown=not silent) as show:
             findings = check(
@@ -56,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
             _repair(options, print_json)
             findings = check(options.folder)
             _report(findings, options, print_json)
-        if not findings and not options.json:
+        if not findings and not options.json and not package:
             read = read_listing if is_cascade(options.folder) else read_manifest
             note_folds(read(options.folder)["extremes"])
         if print_json:
@@ -123,8 +131,8 @@ def _report(
 COMMAND = Command(
     name="check",
     arguments="DIR",
-    summary="find files of a bake that are missing or changed, and maps that fail physical checks "
-    "(seam, loop, range, normals)",
+    summary="find missing or changed files of a bake or package, and maps that fail "
+    "physical checks (seam, loop, range, normals)",
     examples=("fftocean check sea", "fftocean check sea --repair"),
     run=run,
     add_flags=add_flags,

@@ -147,7 +147,7 @@ def _cost(cost: "Estimate", job: "Job", ocean: "Ocean") -> Iterator[tuple[str, s
     yield "memory", notes.memory(cost)
     yield "video memory", f"{notes.video_memory(cost)}, as textures in an engine"
     yield "time to bake", f"about {cost.seconds:.0f} s here"
-    yield "frame blending", blend_loss.sentence(blend_loss.loss(ocean, job.frames))
+    yield "frame blending", blend_loss.sentence(blend_loss.describe(ocean, job.frames))
 
 
 def _describe_cascade(options: argparse.Namespace, job: "Job") -> int:

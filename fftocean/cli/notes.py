@@ -57,18 +57,11 @@ def print_loading(job: "Job") -> None:
         print(f"{job.format} in {job.engine}: {profile_for(job.engine, job.format).note}")
 
 
-def blending(blend: Mapping[str, Any]) -> str:
-    """Return a line on the amplitude that players keep which blend two frames."""
-    rate, enough = blend["frames_per_second"], blend["enough"]
-    kept = (
-        f"{100.0 * blend['height']:.0f} % of the waves' height, "
-        f"{100.0 * blend['slopes']:.0f} % of their slopes"
-    )
-    more = ""
-    if blend["slopes"] < enough["amplitude"]:
-        share = f"{100.0 * enough['amplitude']:.0f} %"
-        more = f"; {enough['slopes']['frames']} frames would keep {share}"
-    return f"blending frames at {rate:.3g} a second keeps {kept}{more}"
+def print_blending(blend: Mapping[str, Any]) -> None:
+    """Print the amplitude that players keep which blend two frames."""
+    from fftocean.blend_loss import sentence
+
+    print(sentence(blend))
 
 
 def memory(cost: "Estimate") -> str:

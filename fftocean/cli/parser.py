@@ -8,17 +8,19 @@ from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, info, plot, presets, verify
+from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify, view
 from fftocean.cli.console import plain
 
 COMMANDS = (
     bake.COMMAND,
+    export_sea.COMMAND,
     check.COMMAND,
     info.COMMAND,
     verify.COMMAND,
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    view.COMMAND,
 )
 
 EXIT_CODES = (

@@ -96,9 +96,11 @@ class Job:
             raise JobError(f"{path} must be UTF-8 text, and is not at byte {error.start}") from None
 
     @classmethod
-    def from_toml(cls, text: str, *, source: str = "job") -> "Job":
+    def from_toml(cls, text: str, *, source: str = "job", at_sea: bool = True) -> "Job":
         """
         Parse a job; errors are those of `read`. A byte-order mark at the start is skipped.
+
+        With `at_sea` its sea is set up and checked too, for which its measured files must exist.
         """
         if not isinstance(text, str):
             raise JobError(f"a job must be TOML text, got {described(text)}")
@@ -121,7 +123,7 @@ class Job:
             raise JobError(
                 f"{source} must be TOML that is not nested so deeply: {error!s:.80}"
             ) from None
-        return cls.from_tree(tree, source=source)
+        return cls.from_tree(tree, source=source, at_sea=at_sea)
 
     @classmethod
     def from_tree(

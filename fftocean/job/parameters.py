@@ -138,7 +138,8 @@ WIND = (
     Parameter(
         "sea.wind.direction",
         0.0,
-        "direction toward which the wind blows, counter-clockwise from +x (east)",
+        "direction toward which the wind blows, counter-clockwise from +x (east); the default job "
+        "has 25",
         limits.DIRECTION,
     ),
     Parameter(

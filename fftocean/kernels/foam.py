@@ -48,3 +48,31 @@ def coverage(state: Real, out: Real) -> None:
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             out[j, i] = -np.expm1(-state[j, i])
+
+
+@compiled
+def means_on_loop(
+    eigenvalue: Real, threshold: float, gain: float, decay: float, every: int
+) -> tuple[float, float]:
+    """
+    Return the means of 1 - e^{-f} and of f over loops of the foam equation.
+
+    f[i] = decay f[i - 1] + gain max(threshold - eigenvalue[i], 0) is the state that returns to
+    itself; one loop a row. Coverage is taken at one sample in `every`.
+    """
+    covered, total, taken = 0.0, 0.0, 0
+    count = eigenvalue.shape[1]
+    for row in eigenvalue:
+        f = 0.0
+        for i in range(count):
+            below = threshold - row[i]
+            f = decay * f + (gain * below if below > 0.0 else 0.0)
+        f /= -np.expm1(count * np.log(decay))
+        for i in range(count):
+            below = threshold - row[i]
+            f = decay * f + (gain * below if below > 0.0 else 0.0)
+            total += f
+            if i % every == 0:
+                covered -= np.expm1(-f)
+                taken += 1
+    return covered / taken, total / eigenvalue.size

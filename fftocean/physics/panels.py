@@ -10,6 +10,7 @@ values change there, and are bisected until eight Gauss points resolve each of t
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -25,7 +26,17 @@ Index = npt.NDArray[np.intp]
 Sampled = Callable[[Real], Real]
 """From points (m,) to values >= 0 of several curves, (curves, m)."""
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+@cache
+def gauss_rule(order: int) -> tuple[Real, Real]:
+    """Return Gauss-Legendre points and weights on [-1, 1]."""
+    points, weights = np.polynomial.legendre.leggauss(order)
+    points.setflags(write=False)
+    weights.setflags(write=False)
+    return points, weights
+
+
+_NODES, _WEIGHTS = gauss_rule(8)
 _HIGHEST = np.array([np.polynomial.legendre.Legendre.basis(n)(_NODES) * (n + 0.5) for n in (6, 7)])
 _TOLERANCE = (
     1e-6  # of a curve's integral: what a panel's two highest Legendre coefficients may come to
@@ -44,7 +55,7 @@ class Panels(NamedTuple):
 
 def gauss(low: Real, high: Real, order: int = 8) -> tuple[Real, Real]:
     """Return Gauss-Legendre points and weights on intervals, each (intervals, order)."""
-    x, w = np.polynomial.legendre.leggauss(order) if order != 8 else (_NODES, _WEIGHTS)
+    x, w = gauss_rule(order)
     half = 0.5 * (high - low)
     return low[:, None] + half[:, None] * (1.0 + x), half[:, None] * w
 

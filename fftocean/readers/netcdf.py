@@ -393,6 +393,16 @@ def _require_sane_read(
 
 
 def _numbers(where: str, variable: "DataArray") -> Real:
+    """
+    Return the values of a variable as float64; NaN stands for a missing one.
+
+    This is the only conversion of arrays from netCDF files. `Quantity.check_array` is for
+    arguments: it judges entries by a range and blames the caller. Here the type of the variable is
+    judged, the entries later by what they mean, and the file is blamed.
+
+    Raises:
+        ReaderError: the variable holds times, texts or objects.
+    """
     if variable.dtype.kind not in "fiu":
         raise ReaderError(f"{where} must hold numbers, got {variable.dtype}")
     return np.array(variable.values, dtype=np.float64)

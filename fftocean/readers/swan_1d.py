@@ -11,29 +11,37 @@ on DSPR: spread^2 = integral of (2 sin(theta/2))^2 D = 2 (1 - r1), with r1 the f
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.errors import ReaderError
-from fftocean.limits import Count
-from fftocean.readers import bounded_reads, dataset_layout, moments, swan
+from fftocean.readers import bounded_reads, dataset_layout, moments
 from fftocean.readers.reader import Head, Reader
+from fftocean.readers.swan_lines import (
+    ENERGY,
+    Lines,
+    number_of_quantities,
+    read_blocks,
+    read_header,
+    site_of,
+)
+from fftocean.readers.swan_lines import recognises as begins_as_swan
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
 _DENSITIES: Final = {
     ("VaDens", "m2/Hz"): 1.0,
-    ("EnDens", "J/m2/Hz"): 1.0 / swan._ENERGY,
+    ("EnDens", "J/m2/Hz"): 1.0 / ENERGY,
 }
 _KINDS: Final = ("VaDens", "EnDens", "NDIR", "CDIR", "DSPRDEGR")
 
 
 def recognises(head: Head) -> bool:
     """Return True if a SWAN file names its quantities without directions before them."""
-    if not swan.recognises(head.first_line):
+    if not begins_as_swan(head.first_line):
         return False
     axes = 0
     for _, line in bounded_reads.lines(head.path):
@@ -58,40 +66,20 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
             cut.
         ParameterError: `site` is not in the file.
     """
-    lines = swan._Lines(path)
-    lines.next("SWAN")
-    dated, axes, places = _header(lines)
-    site = Count("", 0, len(places) - 1).check("site", site)
-    keyword = lines.next("AFREQ or RFREQ").split()[0]
-    if keyword not in ("AFREQ", "RFREQ"):
-        raise ReaderError(f"{lines.where} must be AFREQ or RFREQ, got {keyword!r:.40}")
-    f = lines.table("frequencies", 1)[:, 0]
+    lines = Lines(path)
+    header = read_header(lines)
+    site, f = site_of(header, site), header.frequency
     quantities = _quantities(lines)
-    time: list[Any] = []
-    blocks: list[Real] = []
-    while (line := lines.maybe()) is not None:
-        if dated:
-            time.append(swan._time(lines.where, line))
-        elif blocks:
-            raise ReaderError(
-                f"{lines.where} must be the end of a file without TIME, got {line!r:.40}"
-            )
-        for place in range(len(places)):
-            line = lines.next("LOCATION or NODATA") if dated or place else line
-            block = _block(lines, line, f.size, quantities, number=place + 1)
-            if place == site:
-                blocks.append(block)
-        if len(blocks) * f.size * bins > dataset_layout.MAX_VALUES:
-            raise ReaderError(
-                f"{lines.where} must have at most {dataset_layout.MAX_VALUES} values, got more"
-            )
-    if not blocks:
-        raise ReaderError(
-            f"{lines.name} must hold at least one spectrum after its header, got none"
-        )
-    values = np.array(blocks)  # (time, f, quantity)
+    values, time = read_blocks(  # (time, f, quantity)
+        lines,
+        header,
+        site,
+        lambda line, place: _block(lines, line, f.size, quantities, number=place + 1),
+        first_words="LOCATION or NODATA",
+        values=f.size * bins,
+    )
     kept, notes = dataset_layout.above_zero(f)
-    frequency, order = dataset_layout.frequencies(f"{lines.name}: {keyword}", f[kept])
+    frequency, order = dataset_layout.frequencies(header.frequency_name, f[kept])
     values = values[:, kept][:, order]
     columns = {name: values[:, :, i] for i, (name, _, _) in enumerate(quantities)}
     name, scale = next(
@@ -111,35 +99,16 @@ def read(path: Path, *, site: int, bins: int) -> "Dataset":
         frequency=frequency,
         density=density,
         direction=direction,
-        time=np.array(time, dtype="datetime64[s]") if dated else None,
-        position=dict(zip(axes, places[site].tolist(), strict=True)),
-        notes={**counts, **notes, "site": site, "sites": len(places)},
+        time=time,
+        position=dict(zip(header.axes, header.places[site].tolist(), strict=True)),
+        notes={**counts, **notes, "site": site, "sites": len(header.places)},
     )
 
 
-def _header(lines: swan._Lines) -> tuple[bool, tuple[str, str], Real]:
-    """Return True if the file has times, the names of the coordinates, and the places."""
-    keyword = lines.next("TIME or LONLAT").split()[0]
-    dated = keyword == "TIME"
-    if dated:
-        code = bounded_reads.count(lines.where, lines.next("the time coding option"), 6)
-        if code != 1:
-            raise ReaderError(
-                f"{lines.where}: the time coding must be 1 (20161011.000000), got {code}"
-            )
-        keyword = lines.next("LONLAT or LOCATIONS").split()[0]
-    if keyword not in ("LONLAT", "LOCATIONS"):
-        raise ReaderError(f"{lines.where} must be LONLAT or LOCATIONS, got {keyword!r:.40}")
-    return dated, ("lon", "lat") if keyword == "LONLAT" else ("x", "y"), lines.table("places", 2)
-
-
-def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
+def _quantities(lines: Lines) -> list[tuple[str, float, float]]:
     """Return name, factor to SI and exception value of each column."""
-    keyword = lines.next("QUANT").split()[0]
-    if keyword != "QUANT":
-        raise ReaderError(f"{lines.where} must be QUANT, got {keyword!r:.40}")
     found = []
-    for _ in range(bounded_reads.count(lines.where, lines.next("the number of quantities"), 3)):
+    for _ in range(number_of_quantities(lines, 3)):
         name = lines.next("a quantity").split()[0]
         if name not in _KINDS:
             raise ReaderError(f"{lines.where} must be one of {', '.join(_KINDS)}, got {name!r:.40}")
@@ -172,7 +141,7 @@ def _quantities(lines: swan._Lines) -> list[tuple[str, float, float]]:
 
 
 def _block(
-    lines: swan._Lines,
+    lines: Lines,
     line: str,
     rows: int,
     quantities: list[tuple[str, float, float]],

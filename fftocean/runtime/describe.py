@@ -8,17 +8,26 @@ import numpy as np
 
 from fftocean.arrays import Integer, Real
 from fftocean.fields import potential_factor
+from fftocean.foam import Foam
+from fftocean.foam_coverage import GivenWaves, threshold_for
 from fftocean.physics import moments
 from fftocean.physics.sea import Sea
 from fftocean.runtime.records import Records
 from fftocean.runtime.source import Source
-from fftocean.statistics import measure, peak_period, specified
+from fftocean.slope_variance import beyond_tiles, captured_by_tiles
+from fftocean.statistics import folding_over, peak_period, specified
 from fftocean.wave_list import oceans_of
 
 MOMENTS = 8
 """Moments of the loop at which bounds are measured."""
 DEVIATIONS = 5.0
 """Standard deviations of the bounds that are estimated: 1 in 2 million samples lies beyond."""
+SEEN = 1.0
+"""Length of the shortest waves that make foam, where its threshold follows the wind [m]."""
+
+Wind = tuple[float, float]
+"""Speed 10 m above the sea [m/s], and direction toward which it blows [degrees]."""
+
 _BINS = 64
 _LOWEST, _HIGHEST, _FREQUENCIES = 0.2, 30.0, 512  # of a spectrum, in its peak frequency
 
@@ -60,31 +69,49 @@ def realised_state(waves: WaveTable, loop: float) -> dict[str, float]:
     }
 
 
-def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float | None] | None:
+def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float] | None:
     """
     Return Hs [m], Tp [s] and mean direction [degrees] of a sea; None for given waves.
 
-    Unless `exact`, Hs is a sum over a fixed grid of frequencies, good to 1 %, and the direction,
-    which takes an integral over all of the spectrum, is None.
+    Unless `exact`, integrals are sums over a fixed grid of frequencies, good to 1 %, and the
+    direction is the mean of the systems' own directions, weighted with energy.
     """
     if sea is None:
         return None
     if exact:
         state = specified(sea)
         return {"hs": state.hs, "tp": state.tp, "direction": state.mean_direction}
-    m0 = 0.0
-    for system in sea.systems:
+    energy = np.zeros(len(sea.systems))
+    for i, system in enumerate(sea.systems):
         omega = np.geomspace(_LOWEST, _HIGHEST, _FREQUENCIES) * system.spectrum.peak
-        m0 += float(np.trapezoid(system.spectrum(omega) * omega, np.log(omega)))
-    return {"hs": 4.0 * math.sqrt(m0), "tp": sea.tp, "direction": None}
+        energy[i] = np.trapezoid(system.spectrum(omega) * omega, np.log(omega))
+    direction, _ = moments.mean_direction_and_spread(
+        energy, np.radians([system.direction for system in sea.systems])
+    )
+    return {"hs": 4.0 * math.sqrt(float(np.sum(energy))), "tp": sea.tp, "direction": direction}
 
 
-def captured_slopes(waves: WaveTable) -> list[float]:
-    """Return the variances xx, yy and the covariance xy of the slopes of the waves [-]."""
-    return [
-        float(np.sum(waves.variance * a * b))
-        for a, b in ((waves.kx, waves.kx), (waves.ky, waves.ky), (waves.kx, waves.ky))
-    ]
+def roughness(source: Source, wind: Wind | None) -> dict[str, list[float]]:
+    """Return the slope variance of the tiles, of the whole sea, and beyond the tiles [-]."""
+    speed, direction = (None, 0.0) if wind is None else wind
+    found = beyond_tiles(captured_by_tiles(source.tiles), speed, direction)
+    return {name: list(getattr(found, name)) for name in ("captured", "total", "beyond")}
+
+
+def foam_for(source: Source, wind: Wind | None) -> dict[str, float]:
+    """
+    Return parameters of foam: such that it covers what whitecaps do in a wind, if that is known.
+
+    Waves shorter than `SEEN` do not count, as in maps of foam with cells of half of it.
+    """
+    foam = Foam()
+    threshold = foam.threshold
+    if wind is not None:
+        waves = GivenWaves(source.tiles, source.choppiness)
+        threshold = threshold_for(
+            waves, wind[0], tau=foam.tau, strength=foam.strength, shortest=SEEN
+        )
+    return {"decay": foam.tau, "threshold": threshold, "strength": foam.strength}
 
 
 def spectrum_table(waves: WaveTable, loop: float, sea: Sea | None) -> dict[str, Any] | None:
@@ -144,16 +171,16 @@ def measured_bounds(source: Source) -> dict[str, Any]:
 
     Those of several tiles are the sums of what each reaches; the Jacobian is that of their sum.
     """
-    water = source.water()
+    oceans = oceans_of(source.water())
     height = moved = 0.0
-    for ocean in oceans_of(water):
+    for ocean in oceans:
         frames = [
             ocean.loop_frame(j, MOMENTS, ("height", "displace_x", "displace_y"))
             for j in range(MOMENTS)
         ]
         height += max(float(np.max(np.abs(f.height))) for f in frames)
         moved += max(float(np.max(np.hypot(f.displace_x, f.displace_y))) for f in frames)
-    folding = measure(water, frames=MOMENTS).folding
+    folding = folding_over(oceans, MOMENTS, source.loop)
     return {
         "height": height,
         "displacement": source.choppiness * moved,

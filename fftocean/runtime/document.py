@@ -4,9 +4,12 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 import fftocean
 from fftocean.constants import GRAVITY
 from fftocean.foam import Foam
+from fftocean.grid import Grid
 from fftocean.runtime import describe
 from fftocean.runtime.layout import FORMAT, VERSION
 from fftocean.runtime.planes import Planes
@@ -54,8 +57,6 @@ def compose(
     first = source.tiles[0]
     loop = source.loop
     waves = describe.wave_table(source, records)
-    captured = describe.captured_slopes(waves)
-    foam = foam or Foam()
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -73,8 +74,10 @@ def compose(
             "specified": describe.specified_state(source.sea, exact=quality == "exact"),
             "realised": describe.realised_state(waves, loop),
         },
-        "slope_variance": {"captured": captured, "total": captured, "beyond": [0.0, 0.0, 0.0]},
-        "foam": {"decay": foam.tau, "threshold": foam.threshold, "strength": foam.strength},
+        "slope_variance": describe.roughness(source, wind),
+        "foam": describe.foam_for(source, wind)
+        if foam is None
+        else {"decay": foam.tau, "threshold": foam.threshold, "strength": foam.strength},
         "wind": None if wind is None else {"speed": wind[0], "direction": wind[1]},
         "bounds": describe.measured_bounds(source)
         if measured
@@ -88,7 +91,7 @@ def compose(
                 "seed": seed,
                 "waves": len(own),
                 "most_cycles": plane.most_cycles,
-                "mixed": lift_of(tile.grid.lx, tile.grid.ly),
+                "mixed": lift_of(tile.grid, own),
             }
             for tile, seed, plane, own in zip(
                 source.tiles, source.seeds, whole, records, strict=True
@@ -97,11 +100,17 @@ def compose(
     }
 
 
-def lift_of(lx: float, ly: float) -> float:
+def lift_of(grid: Grid, waves: Records) -> float:
     """
     Return the power of two that lifts d displace_x/dy to the size of the height.
 
     Transforms of two real fields in one complex one round the smaller field by the larger one's
-    size. A power of two costs no digit.
+    size. A power of two costs no digit. The two sizes are those of the waves in deep water, where
+    one is the other times kx ky / k.
     """
-    return 2.0 ** round(math.log2(math.sqrt(lx * ly) / 64.0))
+    kx, ky = waves["mx"] * grid.dkx, waves["my"] * grid.dky
+    weight = waves["re"].astype(np.float64) ** 2 + waves["im"].astype(np.float64) ** 2
+    height, stretch = np.sum(weight), np.sum(weight * (kx * ky) ** 2 / (kx**2 + ky**2))
+    if not stretch > 0.0:  # no waves, or all of them along an axis
+        return 1.0
+    return 2.0 ** round(0.5 * math.log2(height / stretch))

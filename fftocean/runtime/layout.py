@@ -18,13 +18,15 @@ SIDES = tuple(2**i for i in range(1, 11))
 """Samples a side that the transforms of the readers can have: 2 to 1024."""
 MOST_CYCLES = 2**16 - 1
 """Cycles in a loop that a record can hold."""
-MOST_TICKS = 2**20
+LEAST_TICKS, MOST_TICKS = 2, 2**20
 """Moments of a loop, at most: at 60 a second, four and a half hours."""
 PHASES = 2**32
 """Cycles times ticks stay below this, so that a phase is exact in unsigned integers of 32 bits."""
 MOST_TILES = 16
 MOST_DOCUMENT = 2**20  # bytes
-MOST_BYTES = 2**29  # of all files: far more than 16 tiles of 1024 x 1024 waves and their textures
+MOST_JOB = 2**18  # characters: four times those of the longest job file
+MOST_POINTS = 4096  # of a tile, at which check.json has the fields
+MOST_BYTES = 2**30  # of all files: 16 tiles of 1024 x 1024 waves and their textures have 640 MB
 
 _NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*", re.ASCII)
 _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.ASCII | re.IGNORECASE)
@@ -99,11 +101,12 @@ def require_ticks(ticks: Any, most_cycles: int) -> int:
     if (
         isinstance(ticks, bool)
         or not isinstance(ticks, (int, np.integer))
-        or not 1 <= ticks <= MOST_TICKS
+        or not LEAST_TICKS <= ticks <= MOST_TICKS
         or int(ticks) & (int(ticks) - 1)
     ):
         raise ParameterError(
-            f"ticks must be a power of two between 1 and {MOST_TICKS}, got {ticks!r:.60}"
+            f"ticks must be a power of two between {LEAST_TICKS} and {MOST_TICKS}, "
+            f"got {ticks!r:.60}"
         )
     if most_cycles * int(ticks) >= PHASES:
         raise ParameterError(
@@ -125,3 +128,13 @@ def require_cycles(most_cycles: int) -> None:
             f"the fastest wave must make at most {MOST_CYCLES} cycles in a loop, got "
             f"{most_cycles}; a shorter loop or a coarser tile has fewer"
         )
+
+
+def is_digest(value: Any) -> bool:
+    """Return whether a value is a SHA-256 as the document has it."""
+    return isinstance(value, str) and re.fullmatch(r"[0-9a-f]{64}", value) is not None
+
+
+def is_package_file(name: str) -> bool:
+    """Return whether a file is named like one of a package's own."""
+    return name == REFERENCE or re.fullmatch(r"tile\d+(\.waves|_(h0|wave)\.bin)", name) is not None

@@ -6,9 +6,10 @@ from typing import Any
 
 from fftocean.arrays import brief_repr
 from fftocean.cascade import Cascade
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, described
 from fftocean.files import digest
 from fftocean.foam import Foam
+from fftocean.limits import DIRECTION, WIND_SPEED, Count, check_bool
 from fftocean.ocean import Ocean
 from fftocean.runtime import document, layout, planes
 from fftocean.runtime.records import records_of
@@ -51,9 +52,10 @@ def pack(
             and measure the bounds of the fields; a number is that of the points a tile.
         job: the job of the sea as TOML text.
         quality: "exact", or "moving" for a sea that is being changed: without whatever takes
-            time, that is `check.json`, checksums and the specified direction.
+            time, that is `check.json`, checksums, and integrals over the specified sea.
         ticks: moments of the loop, a power of two; None for the most that keep phases exact.
-        foam: parameters of foam; None for the defaults of `Foam`.
+        foam: parameters of foam; None for those that cover what whitecaps do in the wind, or the
+            defaults of `Foam` where the wind is not known.
         wind: speed [m/s] and direction [degrees] of the wind, where it is known.
 
     Raises:
@@ -62,8 +64,16 @@ def pack(
     source = Source.of(source)
     if quality not in QUALITIES:
         raise ParameterError(f"quality must be 'exact' or 'moving', got {quality!r:.40}")
-    exact = quality == "exact"
-    measured = exact and bool(reference)
+    check_bool("textures", textures)
+    if foam is not None and not isinstance(foam, Foam):
+        raise ParameterError(f"foam must be a Foam, got {described(foam)}")
+    if job is not None and (not isinstance(job, str) or len(job) > layout.MOST_JOB):
+        raise ParameterError(
+            f"job must be TOML text of at most {layout.MOST_JOB} characters, got {described(job)}"
+        )
+    points = _points(reference)
+    measured = quality == "exact" and points > 0
+    wind = _checked_wind(wind)
     whole = []
     for i, tile in enumerate(source.tiles):
         layout.require_sides(tile.grid, f"tile {i}")
@@ -82,35 +92,62 @@ def pack(
         wind=wind,
         job=job,
     )
-    files: dict[str, bytes] = {}
-    rows: list[dict[str, Any]] = []
-
-    def add(name: str, data: bytes, dtype: str, shape: list[int], order: str) -> None:
-        checksum = digest(data) if exact else None
-        files[name] = data
-        rows.append(
-            {
-                "name": name,
-                "bytes": len(data),
-                "sha256": checksum,
-                "dtype": dtype,
-                "shape": shape,
-                "order": order,
-            }
-        )
-
+    contents["files"] = []
+    package = SeaPackage(contents, {})
     for i, (tile, plane, waves) in enumerate(zip(source.tiles, whole, records, strict=True)):
-        add(layout.waves_file(i), waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
+        name = layout.waves_file(i)
+        add_file(package, name, waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
         if textures:
             arrays = planes.textures_of(plane, tile.grid, tile.depth)
             for name, array in zip(layout.texture_files(i), arrays, strict=True):
-                add(name, array.tobytes(), "float32", list(array.shape), "row, column, channel")
+                axes = "row, column, channel"
+                add_file(package, name, array.tobytes(), "float32", list(array.shape), axes)
     if measured:
-        points = POINTS if reference is True else int(reference)
         data = json.dumps(reference_of(source, ticks, points), separators=(",", ":")).encode()
-        add(layout.REFERENCE, data, "json", [], "")
-    contents["files"] = rows
-    return SeaPackage(contents, files)
+        add_file(package, layout.REFERENCE, data, "json", [], "")
+    return package
+
+
+def _points(reference: Any) -> int:
+    """Return the number of points a tile at which a package has the fields."""
+    if isinstance(reference, bool):
+        return POINTS if reference else 0
+    return Count("", 0, layout.MOST_POINTS).check("reference", reference)
+
+
+def _checked_wind(wind: Any) -> tuple[float, float] | None:
+    """Return speed [m/s] and direction [degrees] of a wind, or None."""
+    if wind is None:
+        return None
+    if not isinstance(wind, (tuple, list)) or len(wind) != 2:
+        raise ParameterError(f"wind must be (speed, direction), got {described(wind)}")
+    return WIND_SPEED.check("wind[0]", wind[0]), DIRECTION.check("wind[1]", wind[1])
+
+
+def add_file(
+    package: SeaPackage, name: str, data: bytes, dtype: str, shape: list[int], order: str
+) -> None:
+    """
+    Add a file to a package that is being made.
+
+    Args:
+        package: the package.
+        name: of the file, without folders.
+        data: its bytes.
+        dtype, shape: of the array that it holds.
+        order: names of the array's axes, the slowest first.
+    """
+    package.files[name] = data
+    package.document["files"].append(
+        {
+            "name": name,
+            "bytes": len(data),
+            "sha256": digest(data) if package.document["quality"] == "exact" else None,
+            "dtype": dtype,
+            "shape": shape,
+            "order": order,
+        }
+    )
 
 
 RECORD_TEXT = "int16 mx, int16 my, uint16 cycles, float32 re, float32 im"

@@ -101,6 +101,7 @@ def textures_of(planes: Planes, grid: Grid, depth: float) -> tuple[Real, Real]:
     h0 = np.stack(
         [planes.h0.real, planes.h0.imag, opposite.real, opposite.imag], axis=-1, dtype=np.float32
     )
+    h0 += np.float32(0.0)  # no zero with a minus sign, which the conjugate of an absent wave has
     some = (planes.h0 != 0.0) | (opposite != 0.0)
     factor = potential_factor(grid.k, depth)
     wave = np.stack(

@@ -11,6 +11,10 @@ from fftocean.limits import CHOPPINESS
 from fftocean.ocean import Ocean, from_amplitudes
 from fftocean.physics.sea import Sea
 from fftocean.runtime.layout import MOST_TILES
+from fftocean.statistics import loop_error
+
+PROPOSED = 64.0
+"""Period near which a loop is proposed for waves without one [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +28,10 @@ class Source:
     given: Ocean | Cascade | None = None  # of which these are the waves
 
     def __post_init__(self) -> None:
-        CHOPPINESS.check("choppiness", self.choppiness)
+        object.__setattr__(self, "choppiness", CHOPPINESS.check("choppiness", self.choppiness))
+        for tile in self.tiles:
+            if not isinstance(tile, Amplitudes):
+                raise ParameterError(f"tiles must be Amplitudes, got {described(tile)}")
         seeds = self.seeds or (None,) * len(self.tiles)
         object.__setattr__(self, "seeds", seeds)
         if not 1 <= len(self.tiles) <= MOST_TILES or len(seeds) != len(self.tiles):
@@ -35,7 +42,7 @@ class Source:
         if None in loops:
             raise ParameterError(
                 "waves must repeat to be written as a run-time package: "
-                "give the ocean or cascade a loop, such as loop=64.0"
+                f"give the ocean or cascade a loop, such as {_proposal(self.tiles[0])}"
             )
         if len(loops) > 1:
             raise ParameterError(
@@ -90,9 +97,16 @@ class Source:
         return oceans[0] if len(oceans) == 1 else from_oceans(self.sea, 0, oceans)
 
 
+def _proposal(tile: Amplitudes) -> str:
+    """Return a loop for waves, with the error of its frequencies."""
+    found = loop_error(tile, PROPOSED)
+    error = 100.0 * found.better_rms
+    return f"loop={found.better_period:g}, whose frequencies are off by {error:.2g} % (rms)"
+
+
 _INSTEAD = {
     "Eulerian": "an Eulerian, whose fields over places are not linear; give its ocean",
-    "Window": "a Window, which shows a part of a cascade; give its cascade",
+    "Window": "a Window, which shows a part of its source; give its source",
     "Query": "a Query; give the ocean or cascade that it asks",
     "Job": "a Job; give job.ocean()",
     "Sea": "a Sea, which has no waves yet; give Ocean(sea, ...) or Cascade(sea, ...)",

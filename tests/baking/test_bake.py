@@ -23,6 +23,7 @@ from pathlib import Path
 import builders
 import numpy as np
 import pytest
+from builders import environment, tree
 from PIL import Image
 
 import fftocean as fo
@@ -68,15 +69,6 @@ def some_statistics():
     return dataclasses.replace(
         still, specified=SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     )
-
-
-def tree(folder):
-    """Every file under a folder with its bytes."""
-    return {
-        str(p.relative_to(folder)): p.read_bytes()
-        for p in sorted(Path(folder).rglob("*"))
-        if p.is_file()
-    }
 
 
 def made(folder):
@@ -272,11 +264,6 @@ def test_another_process_writes_the_same_bytes(whole, tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert tree(tmp_path / "again") == tree(folder)
-
-
-def environment(**more):
-    """This process's environment, with this package in sight."""
-    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
 
 
 @pytest.mark.usefixtures("small_picture")

@@ -10,11 +10,11 @@ import signal
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import builders
 import numpy as np
 import pytest
+from builders import tree
 
 import fftocean as fo
 from fftocean import statistics
@@ -41,16 +41,8 @@ JOB = builders.job(
 )
 
 
-def tree(folder):
-    return {
-        str(p.relative_to(folder)): p.read_bytes()
-        for p in sorted(Path(folder).rglob("*"))
-        if p.is_file()
-    }
-
-
 def told(folder):
-    """What `check` finds, in short."""
+    """Return the kind and path of each problem that `check` finds."""
     return {(f.kind, f.path) for f in fo.check(folder)}
 
 
@@ -106,7 +98,7 @@ def copy(made, tmp_path):
 
 
 def test_each_tile_is_the_cascade_s_own(tmp_path):
-    """What is on the disk is what `Cascade` shows, to the bit: the same seeds, the same bands."""
+    """The files hold the values of `Cascade`, to the bit: the same seeds, the same bands."""
     listed = bake(tmp_path / "sea", tiles=TILES)
     cascade = fo.Cascade(
         JOB.sea(), TILES, seed=JOB.settings["ocean.seed"], loop=JOB.settings["ocean.loop"]

@@ -11,6 +11,7 @@ from pathlib import Path
 import builders
 import numpy as np
 import pytest
+from builders import tree
 
 import fftocean as fo
 from fftocean.baking import bake as baker
@@ -38,16 +39,8 @@ def job(**changes):
     return builders.job(small, **changes)
 
 
-def tree(folder):
-    return {
-        str(p.relative_to(folder)): p.read_bytes()
-        for p in sorted(Path(folder).rglob("*"))
-        if p.is_file()
-    }
-
-
 def told(findings):
-    """What was found, in short."""
+    """Return the kind, path and frame of each problem."""
     return {(f.kind, f.path, f.frame) for f in findings}
 
 
@@ -294,8 +287,8 @@ def test_a_link_is_no_file_of_a_bake(exr, tmp_path):
     }
 
 
-def test_what_godot_makes_of_its_import_file_is_its_own_affair(tmp_path):
-    """It may add to it and reorder it; what we said must still be said."""
+def test_godot_may_add_to_its_import_file(tmp_path):
+    """Keys may be added and reordered; those that the bake wrote must keep their values."""
     fo.bake(job(bake__format="exr-atlas", bake__engine="godot", bake__maps=["height"]), tmp_path)
     path = tmp_path / "height.exr.import"
     written = path.read_text()
@@ -554,7 +547,7 @@ def test_repair_removes_what_would_be_taken_for_a_frame(exr):
 
 
 def test_repair_of_a_part_and_of_less_samples(tmp_path):
-    """It is told by the folder what that was."""
+    """The subset and the factor are read from the folder."""
     fo.bake(job(), tmp_path, frames="0:9:2", downsample=2)
     expected = tree(tmp_path)
     (tmp_path / "normal/0004.exr").unlink()

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import builders
 import pytest
+from builders import environment, tree
 
 import fftocean as fo
 from fftocean.baking.folder.lock import locked
@@ -40,14 +41,6 @@ def job(**changes):
         "bake.pictures": ["tiling"],
     }
     return builders.job(small, **changes)
-
-
-def tree(folder):
-    return {
-        str(p.relative_to(folder)): p.read_bytes()
-        for p in sorted(Path(folder).rglob("*"))
-        if p.is_file()
-    }
 
 
 @pytest.fixture(scope="module")
@@ -95,10 +88,6 @@ def test_a_program_without_a_guard_may_bake_with_processes(expected, tmp_path):
     )
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
     assert tree(tmp_path / "out") == expected
-
-
-def environment():
-    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent)}
 
 
 def test_a_worker_that_is_killed_is_replaced(expected, tmp_path, monkeypatch):
@@ -184,7 +173,7 @@ def _parent(path):
 
 
 def alive(pid):
-    """Whether a process is there and is more than an entry that nobody has asked for yet."""
+    """Return True if a process exists and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in ("Z", "X")
     except OSError:
@@ -243,8 +232,7 @@ def test_workers_end_with_the_bake(tmp_path, number):
 
 def test_a_worker_ends_when_its_bake_is_gone():
     """
-    Where the system does not see to it: at the end of what comes in, in the middle of whatever it
-    is doing.
+    A worker that the system does not end stops at the end of its input, in the middle of a task.
     """
     process = subprocess.Popen(
         [sys.executable, "-P", "-c", local.worker_process.BOOT],
@@ -341,7 +329,7 @@ def test_a_script_without_a_guard_is_told_so_by_dask(tmp_path):
 
 
 def line(pid):
-    """What a process was started with."""
+    """Return the command line of a process."""
     try:
         return Path(f"/proc/{pid}/cmdline").read_bytes()
     except OSError:
@@ -451,7 +439,7 @@ def test_a_worker_of_a_bake_that_was_given_up_writes_no_more(tmp_path):
 
 
 def test_a_worker_with_other_libraries_refuses(tmp_path, monkeypatch):
-    """It would write other bytes; the message says which library."""
+    """Its files would have other bytes; the message names the library."""
     with locked(tmp_path) as hold:
         plan = plan_of(tmp_path, hold.token)
         scenes.clear_scene()

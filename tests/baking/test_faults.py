@@ -18,10 +18,10 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import builders
 import pytest
+from builders import environment, tree
 
 import fftocean as fo
 from fftocean import files
@@ -53,18 +53,6 @@ def quick(monkeypatch):
     specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
     monkeypatch.setattr(preview, "tiling", lambda *_: b"picture")
-
-
-def tree(folder):
-    return {
-        str(p.relative_to(folder)): p.read_bytes()
-        for p in sorted(Path(folder).rglob("*"))
-        if p.is_file()
-    }
-
-
-def environment(**more):
-    return {**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent), **more}
 
 
 def frames_written(sea_job, folder, **how):
@@ -150,7 +138,7 @@ def identity(sea_job):
     )
 
 
-def test_what_the_disk_does_not_bear_out_is_written_again(tmp_path):
+def test_frames_whose_files_are_not_as_recorded_are_written_again(tmp_path):
     """
     A journal is believed only where the files are what it says; nor is a file without a line
     believed.
@@ -509,7 +497,7 @@ def test_another_part_or_size_is_another_bake(tmp_path, how, key):
 
 @pytest.mark.parametrize("key", ["fft", "arrays", "compiler", "encoder"])
 def test_another_library_is_another_bake(tmp_path, key, monkeypatch):
-    """It may give other bits: the half that is there and the half to come would be of two kinds."""
+    """Other libraries may give other bits, so the two halves of a bake could differ."""
     fo.bake(job(), tmp_path)
     before = tree(tmp_path)
     name = {"fft": None, "arrays": "numpy", "compiler": "numba", "encoder": "openexr"}[key]

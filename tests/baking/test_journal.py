@@ -10,7 +10,7 @@ from fftocean.baking.folder import journal
 from fftocean.baking.folder.journal import Journal, entries_of
 from fftocean.errors import OutputError
 
-CLAIM = "c" * 64
+IDENTITY = "c" * 64
 ENTRIES = [
     {
         "row": {
@@ -25,25 +25,25 @@ ENTRIES = [
 
 @pytest.fixture
 def path(tmp_path):
-    with Journal(tmp_path / "journal", CLAIM, []) as book:
+    with Journal(tmp_path / "journal", IDENTITY, []) as book:
         for entry in ENTRIES:
             book.add(entry)
     return tmp_path / "journal"
 
 
 def test_what_was_written_is_read(path):
-    assert entries_of(path, CLAIM) == ENTRIES
+    assert entries_of(path, IDENTITY) == ENTRIES
     assert path.read_bytes().count(b"\n") == 6
 
 
 def test_no_journal_is_an_empty_one(tmp_path, path):
-    assert entries_of(tmp_path / "none", CLAIM) == []
+    assert entries_of(tmp_path / "none", IDENTITY) == []
     assert entries_of(path, "d" * 64) == []  # of another job
     (tmp_path / "folder").mkdir()
     (tmp_path / "link").symlink_to(path)
     os.mkfifo(tmp_path / "pipe")
     for name in ("folder", "link", "pipe"):
-        assert entries_of(tmp_path / name, CLAIM) == []
+        assert entries_of(tmp_path / name, IDENTITY) == []
 
 
 def test_a_journal_cut_anywhere_has_the_lines_before(path):
@@ -56,7 +56,7 @@ def test_a_journal_cut_anywhere_has_the_lines_before(path):
     for length in range(len(data) + 1):
         path.write_bytes(data[:length])
         whole = sum(end <= length for end in ends) - 1
-        assert entries_of(path, CLAIM) == ENTRIES[: max(whole, 0)]
+        assert entries_of(path, IDENTITY) == ENTRIES[: max(whole, 0)]
 
 
 def test_any_flipped_bit_costs_its_line_and_no_other(path):
@@ -71,7 +71,7 @@ def test_any_flipped_bit_costs_its_line_and_no_other(path):
         bent = bytearray(data)
         bent[bit // 8] ^= 1 << bit % 8
         path.write_bytes(bent)
-        read = entries_of(path, CLAIM)
+        read = entries_of(path, IDENTITY)
         if bit // 8 < first - 1:
             assert read == []
         else:
@@ -82,9 +82,9 @@ def test_any_flipped_bit_costs_its_line_and_no_other(path):
 def test_a_journal_goes_on_without_what_was_damaged(path):
     """Written anew with what is known, so that a half line at the end does not spoil the next."""
     path.write_bytes(path.read_bytes()[:-20])
-    with Journal(path, CLAIM, entries_of(path, CLAIM)) as book:
+    with Journal(path, IDENTITY, entries_of(path, IDENTITY)) as book:
         book.add({"row": {"frame": 9}})
-    assert entries_of(path, CLAIM) == [*ENTRIES[:-1], {"row": {"frame": 9}}]
+    assert entries_of(path, IDENTITY) == [*ENTRIES[:-1], {"row": {"frame": 9}}]
 
 
 @pytest.mark.parametrize(
@@ -92,17 +92,17 @@ def test_a_journal_goes_on_without_what_was_damaged(path):
 )
 def test_a_file_that_is_no_journal_is_an_empty_one(path, text):
     path.write_bytes(text)
-    assert entries_of(path, CLAIM) == []
+    assert entries_of(path, IDENTITY) == []
 
 
 def test_numbers_come_back_as_they_were(tmp_path):
     """To the bit: what is resumed must give the same manifest."""
     values = [0.1, 1e-308, 5e-324, 1.7976931348623157e308, -0.0, 2**53 + 1, 16.0 / 3.0]
-    with Journal(tmp_path / "journal", CLAIM, []) as book:
+    with Journal(tmp_path / "journal", IDENTITY, []) as book:
         book.add({"range": values})
         with pytest.raises(ValueError, match="JSON"):
             book.add({"range": [float("nan")]})
-    (entry,) = entries_of(tmp_path / "journal", CLAIM)
+    (entry,) = entries_of(tmp_path / "journal", IDENTITY)
     assert [value.hex() if isinstance(value, float) else value for value in entry["range"]] == [
         value.hex() if isinstance(value, float) else value for value in values
     ]
@@ -111,7 +111,7 @@ def test_numbers_come_back_as_they_were(tmp_path):
 @pytest.mark.parametrize(("call", "error"), [("write", errno.ENOSPC), ("fsync", errno.EIO)])
 def test_a_line_that_is_not_on_the_disk_is_an_output_error(path, monkeypatch, call, error):
     real = getattr(os, call)
-    with Journal(path, CLAIM, []) as book:
+    with Journal(path, IDENTITY, []) as book:
         calls = []
 
         def fail(*arguments):
@@ -128,7 +128,7 @@ def test_a_line_that_is_not_on_the_disk_is_an_output_error(path, monkeypatch, ca
         ):
             book.add(ENTRIES[0])
         monkeypatch.undo()
-    assert entries_of(path, CLAIM) == ([] if call == "write" else [ENTRIES[0]])
+    assert entries_of(path, IDENTITY) == ([] if call == "write" else [ENTRIES[0]])
 
 
 def test_a_line_is_flushed_before_it_counts(path, monkeypatch):
@@ -137,7 +137,7 @@ def test_a_line_is_flushed_before_it_counts(path, monkeypatch):
     monkeypatch.setattr(
         journal.os, "fsync", lambda descriptor: calls.append(descriptor) or real(descriptor)
     )
-    with Journal(path, CLAIM, []) as book:
+    with Journal(path, IDENTITY, []) as book:
         calls.clear()
         book.add(ENTRIES[0])
         assert len(calls) == 1

@@ -161,7 +161,7 @@ def test_from_above_north_is_up_and_east_is_right():
         assert np.ptp(picture[..., 1]) > 0.001
     mean = np.zeros((16, 8))
     mean[:, 1], mean[:, 4] = frame.slope_y[:, 0], frame.stretch_yy[:, 0]
-    view = np.broadcast_to([0.0, -0.80, 0.60], (16, 3))
+    view = np.broadcast_to([0.0, -0.92, 0.39191836], (16, 3))
     lit = render.shade(mean, water, view, frame.height[:, 0], np.zeros(16))
     assert np.allclose(picture[::-1, 0], lit, atol=1e-5)  # float32 fields
 
@@ -306,7 +306,7 @@ def test_a_cascade_has_all_previews():
 
 
 def test_a_pond_is_not_a_storm():
-    """What a wind does is seen: more waves above the horizon, more foam, a wider glitter."""
+    """A stronger wind shows: more waves above the horizon, more foam, a wider glitter."""
     views = {}
     for wind, fetch, size in ((3.0, 300.0, 12.0), (28.0, 800e3, 1200.0)):
         sea = fo.Ocean(

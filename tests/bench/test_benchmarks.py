@@ -398,7 +398,7 @@ def test_each_goal_is_held_to_its_reading(script):
 
 def test_every_goal_names_a_reading_that_its_question_makes(script, tmp_path):
     """
-    What the goals look for is what the questions write: at tiny sizes, put in the goals' place.
+    The names that the goals look for are those that the questions write, at tiny sizes here.
     """
     report = script("report")
     made = {"frame": asked(script, "frame", tmp_path, "--n", "16", "--seconds", "0")[0]}

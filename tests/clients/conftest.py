@@ -58,6 +58,16 @@ def browser(npm, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def live_tools():
+    """Return the folder of the npm packages by which the live page is built and checked."""
+    folder = LIVE.parent / "node_modules"
+    require(shutil.which("npm"), "npm is not installed")
+    for package in ("@eslint/js", "esbuild", "eslint", "globals", "prettier"):
+        require((folder / package).is_dir(), f"the npm package {package} is not installed")
+    return folder
+
+
+@pytest.fixture(scope="session")
 def blender():
     """Return the Python that has Blender as a module."""
     given = os.environ.get("FFTOCEAN_BLENDER_PYTHON")

@@ -83,7 +83,7 @@ def luminance(answer, picture):
 
 
 def elevations(picture):
-    """Return the elevation of the ray of each pixel [radians], (height, width), row 0 at the top."""
+    """Return the elevation of the ray of each pixel [rad], (height, width), row 0 on top."""
     width, height = picture["width"], picture["height"]
     camera = picture["camera"]
     pitch, half = math.radians(camera["pitch"]), math.radians(camera["fieldOfView"] / 2)
@@ -230,7 +230,17 @@ def test_two_pictures_of_a_still_sea_are_equal(show):
 
 def test_every_view_shows_something_of_its_own(show):
     """Each view draws without an error, and no two look alike."""
-    names = "sea height slopes normals jacobian foam roughness tiles wireframe".split()
+    names = [
+        "sea",
+        "height",
+        "slopes",
+        "normals",
+        "jacobian",
+        "foam",
+        "roughness",
+        "tiles",
+        "wireframe",
+    ]
     pictures = [
         {
             "camera": {"height": 8.0, "yaw": 215.0, "pitch": -14.0, "fieldOfView": 50.0},

@@ -3,8 +3,10 @@ A server on a free port of the loopback interface, and a headless browser that o
 """
 
 import base64
+import contextlib
 import functools
 import http.server
+import itertools
 import json
 import queue
 import subprocess
@@ -82,6 +84,7 @@ class Browser:
             str(modules),
         ]
         self._log = log
+        self._names = itertools.count(1)
 
     def __enter__(self):
         self._errors = self._log.open("wb")
@@ -112,12 +115,34 @@ class Browser:
 
     def run(self, page, args):
         """Return the result of `run(args)` of a page, and its console; fail the test on errors."""
-        url = f"{self.site.address}/pages/{page}"
-        self._process.stdin.write(json.dumps({"url": url, "args": args}).encode() + b"\n")
+        answer = self.ask({"url": f"{self.site.address}/pages/{page}", "args": args})
+        return answer["value"], answer["log"]
+
+    @contextlib.contextmanager
+    def page(self, url, **options):
+        """
+        Open a page, give it as a `Page`, and close it.
+
+        Args:
+            url: any address.
+            options: `width` and `height` of the window, `reducedMotion`, and `before`, a script
+                that runs before the page's own.
+        """
+        name = f"page {next(self._names)}"
+        opened = Page(self, name)
+        try:
+            opened.heard(self.ask({"open": name, "url": url, **options}))
+            yield opened
+        finally:
+            self.ask({"close": name})
+
+    def ask(self, request):
+        """Return the driver's answer to a request; fail the test on errors of the page."""
+        self._process.stdin.write(json.dumps(request).encode() + b"\n")
         self._process.stdin.flush()
         answer = self._answer()
         assert not answer["failures"], "\n".join([*answer["failures"], *answer["log"]])
-        return answer["value"], answer["log"]
+        return answer
 
     def _read(self):
         for line in self._process.stdout:
@@ -135,6 +160,40 @@ class Browser:
                 f"the browser's driver ended: {self._log.read_text(errors='replace')[-2000:]}"
             )
         return json.loads(line)
+
+
+class Page:
+    """A page that is open: what is done to it, what it says and what it asks for."""
+
+    def __init__(self, browser, name):
+        self._browser, self._name = browser, name
+        self.log, self.requests = [], []
+
+    def heard(self, answer):
+        """Note what a page said and asked for; return the values."""
+        self.log += answer["log"]
+        self.requests += answer["requests"]
+        return answer["value"]
+
+    def do(self, *steps):
+        """Do steps of `driver.mjs`, and return the result of each."""
+        return self.heard(self._browser.ask({"page": self._name, "steps": steps}))
+
+    def evaluate(self, expression):
+        """Return the value of an expression; a promise is waited for."""
+        return self.do({"evaluate": expression})[0]
+
+    def until(self, expression):
+        """Wait until an expression is true, and return its value."""
+        return self.do({"until": expression})[0]
+
+    def press(self, *keys):
+        """Press keys, one after the other."""
+        self.do({"press": keys})
+
+    def screenshot(self):
+        """Return the bytes of a PNG of the window."""
+        return base64.b64decode(self.do({"screenshot": True})[0])
 
 
 def floats(text, *shape):

@@ -1055,7 +1055,7 @@ def test_erratum_gpu_gems_waves_run_backwards():
     assert ours[1] - ours[0] == pytest.approx(omega / k * later, abs=2e-4)
 
 
-# --- at the door
+# --- checks of arguments
 
 
 def test_direction_of_a_vector():

@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import os
+import re
 import time
 import warnings
 from pathlib import Path
@@ -21,7 +22,7 @@ from fftocean.export.formats import FORMATS
 from fftocean.export.profiles import PROFILES
 from fftocean.fields import FIELDS
 from fftocean.foam import Foam
-from fftocean.job import job as job_room
+from fftocean.job import job as job_module
 from fftocean.job.job import Job, parse_setting, parse_value
 from fftocean.job.parameters import BY_KEY, PARAMETERS
 from fftocean.physics.spectra import SPECTRA as SPECTRUM_KINDS
@@ -149,8 +150,8 @@ def test_a_bad_value_of_any_key_is_refused_or_gives_finite_water(key):
 
 def passes_at(kind, key, keys=()):
     """
-    What a kind makes of `BAD`, by the meaning of its keys: no waves are waves, and a wind of 0
-    raises none; calm is number 0.
+    Return the values of `BAD` that a kind accepts, by the meaning of its keys: a height or a wind
+    of 0 is flat water, and calm is number 0.
     """
     if key in ("number", "member"):
         return ("0",)
@@ -785,7 +786,7 @@ def test_limits_of_a_file_admit_every_honest_job():
     """A sea of 20 partitions, under 20 kB of comment."""
     text = ("# " + "x" * 200 + "\n") * 100 + f"[[sea.systems]]\n{SWELL}\n" * 20
     assert len(Job.from_toml(text).systems) == 20
-    assert job_room.MAX_SYSTEMS >= 20
+    assert job_module.MAX_SYSTEMS >= 20
 
 
 def test_refusals_are_value_errors():
@@ -957,3 +958,14 @@ def test_a_misspelt_value_is_answered_with_the_nearest(key, word, meant):
         Job.default().replaced({key: word})
     with pytest.raises(JobError, match=r"got 'xyzzy'$"):
         Job.default().replaced({key: ["xyzzy"] if isinstance(word, list) else "xyzzy"})
+
+
+def test_settings_of_the_default_job_that_differ_from_the_defaults_are_stated():
+    """The description of such a key, and the comment in the default job, name both values."""
+    differing = {
+        key: value for key, value in Job.default().settings.items() if value != BY_KEY[key].default
+    }
+    assert list(differing) == ["sea.wind.direction"]
+    assert "the default job has 25" in BY_KEY["sea.wind.direction"].help
+    text = Path(job_module.__file__).with_name("default.toml").read_text(encoding="utf-8")
+    assert re.search(r"^direction = 25\.0 .* a job without it has 0$", text, re.MULTILINE)

@@ -183,7 +183,7 @@ def models_of(package, protocol):
     places = [vars(package), {name: getattr(fo, name) for name in fo.__all__}]
     classes = {value for place in places for value in place.values() if inspect.isclass(value)}
     own = {c for c in classes if c.__module__.startswith(f"{package.__name__}.")}
-    return {c for c in own if "__call__" in vars(c)} - {protocol}
+    return {c for c in own if any("__call__" in vars(base) for base in c.__mro__)} - {protocol}
 
 
 @pytest.mark.parametrize(

@@ -143,10 +143,10 @@ def test_many_gradients_at_once_are_those_of_one(spline):
         if spline
         else (interpolate.bilinear_gradient, interpolate.bilinear_gradients)
     )
-    desk = np.full(interpolate.ROWS * block, 7.0)
-    rows = desk.reshape(-1, block)
+    workspace = np.full(interpolate.ROWS * block, 7.0)
+    rows = workspace.reshape(-1, block)
     rows[:2, :count] = points(count, far=0.9)
-    many(flat, 0, NX, NY, 2.0, 3.0, count, desk)
+    many(flat, 0, NX, NY, 2.0, 3.0, count, workspace)
     expected = (
         np.array([one(flat, 0, NX, NY, u, v) for u, v in rows[:2, :count].T]).T
         * np.array([[1, 1, 1, 2, 3, 2, 3]]).T

@@ -156,20 +156,20 @@ def test_pack_and_split(nx):
     packed = np.zeros((3, nx), dtype=complex)
     first, second = np.empty((2, 2, nx))
 
-    def laid_out(ahead, astern):
-        conjugated = np.repeat(astern, 2)[:1:-1]
+    def laid_out(plus, minus):
+        conjugated = np.repeat(minus, 2)[:1:-1]
         conjugated[1::2] *= -1
-        return np.repeat(ahead, 2), conjugated
+        return np.repeat(plus, 2), conjugated
 
     def real_field(half):
         padded[:, :columns] = half
         return np.fft.irfft(padded[1:], nx) * nx
 
-    for (ahead, astern), factors, fields in (
+    for (plus, minus), factors, fields in (
         ((0, 1), laid_out(np.ones(columns), np.ones(columns)), (real_field(a), real_field(b))),
         ((2, 2), laid_out(1 - 0.5 * k, 1 + 0.5 * k), (real_field(a), 0.5 * real_field(1j * k * a))),
     ):
-        passes.pack(parts(between), 1, 2, ahead, astern, *factors, parts(packed))
+        passes.pack(parts(between), 1, 2, plus, minus, *factors, parts(packed))
         transformed = parts(np.fft.ifft(packed[:2], axis=-1) * nx)
         passes.split(transformed, 4.0, first, second)
         assert np.max(np.abs(first - fields[0])) < 1e-13

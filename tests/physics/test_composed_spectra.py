@@ -69,7 +69,7 @@ def test_every_spectrum_is_finite_and_serves_a_sea(s):
 
 @pytest.mark.parametrize(("hs", "tp"), [(0.1, 2.0), (3.0, 9.0), (12.0, 14.0)])
 def test_bretschneider_is_pierson_moskowitz_of_any_height_and_period(hs, tp):
-    """m0 = Hs^2/16 exactly, and the same curve as the other room's, point by point."""
+    """m0 = Hs^2/16 exactly, and the same curve as the other module's, point by point."""
     s = Bretschneider(hs=hs, tp=tp)
     assert moment(s, 0) == pytest.approx(hs**2 / 16.0, rel=1e-11)  # the quadrature's own tolerance
     omega = s.peak * np.geomspace(0.2, 50.0, 301)

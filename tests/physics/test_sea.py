@@ -169,8 +169,8 @@ def test_the_short_way_is_the_long_way():
 
 def test_a_sea_is_a_spectrum():
     """
-    It can be carried into depth, added to another sea, integrated: it is called with omega and has
-    a peak.
+    A sea can be carried into depth, added to another sea and integrated, since it is called with
+    omega and has a peak.
     """
     sea = Sea(WIND_SEA, SWELL)
     assert isinstance(sea, FrequencySpectrum)

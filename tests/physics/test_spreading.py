@@ -159,8 +159,8 @@ def test_donelan_banner_coefficients():
 @pytest.mark.parametrize(("x", "step"), [(0.95, 2e-3), (1.6, 1e-4)])
 def test_donelan_banner_joins_up(x, step):
     """
-    What the published coefficients leave: 0.18 % at 0.95 and 0.008 % at 1.6; the formulas' slopes
-    add 1e-9.
+    The published coefficients leave steps of 0.18 % at 0.95 and 0.008 % at 1.6; the formulas'
+    slopes add 1e-9.
     """
     below, above = donelan_banner_beta(np.array([x * (1.0 - 1e-9), x * (1.0 + 1e-9)]))
     assert abs(above / below - 1.0) < step

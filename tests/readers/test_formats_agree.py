@@ -73,11 +73,11 @@ def test_the_same_sea_in_every_format(name, tmp_path):
     write, which = WRITERS[name]
     got = density(readers.open(write(tmp_path / "file", specified), **which), time=1)
     # Not read from anywhere: the layout itself, made by hand.
-    by_hand = xr.Dataset(
+    made = xr.Dataset(
         {"efth": (("dir", "freq"), specified.density[1].T)},
         {"freq": FREQUENCY, "dir": (TO + 180.0) % 360.0},
     )
-    want = density(by_hand)
+    want = density(made)
     assert np.max(np.abs(got - want)) <= 1e-6 * np.max(want)
 
 

@@ -18,7 +18,7 @@ from fftocean.readers import Realised, sea_from_spectrum
 xr = lazy("xarray")
 
 
-def by_hand(density, *, frequency=FREQUENCY, toward=TO, **coords):
+def dataset_of(density, *, frequency=FREQUENCY, toward=TO, **coords):
     """Return the layout of the wavespectra package, without any attributes."""
     return xr.Dataset(
         {"efth": (("freq", "dir"), density)},
@@ -81,7 +81,7 @@ def test_a_known_sea_comes_back():
     dirs = np.arange(0.0, 360.0, 5.0)
     spread = CosinePower(s=10.0)(1.0, np.radians(90.0 - dirs) - np.radians(20.0), 1.0)
     density = spectrum(2.0 * np.pi * f)[:, None] * spread * (2.0 * np.pi) * (np.pi / 180.0)
-    made = sea_from_spectrum(by_hand(density, frequency=f, toward=dirs))
+    made = sea_from_spectrum(dataset_of(density, frequency=f, toward=dirs))
     assert made.hs == pytest.approx(2.0, rel=2e-3)
     assert made.tp == pytest.approx(9.0, abs=0.2)
     assert made.systems[0].direction == pytest.approx(20.0, abs=1e-6)
@@ -91,7 +91,7 @@ def test_a_masked_frequency_is_bridged_and_a_masked_bin_is_empty():
     specified = sea().density[0].copy()
     specified[12] = np.nan
     specified[14, 3] = np.nan
-    made = Realised.from_spectrum(by_hand(specified))
+    made = Realised.from_spectrum(dataset_of(specified))
     f = np.delete(FREQUENCY, 12)
     rest = np.nan_to_num(np.delete(specified, 12, axis=0)).sum(axis=1) * 15.0
     assert made.hs_source == pytest.approx(
@@ -114,7 +114,7 @@ def test_a_sector_is_closed_with_nothing():
     quarter = np.arange(50.0, 140.0, 10.0)
     f = np.array([0.05, 0.1, 0.15])
     density = np.tile([0.5, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.5], (3, 1))
-    made = Realised.from_spectrum(by_hand(density, frequency=f, toward=quarter))
+    made = Realised.from_spectrum(dataset_of(density, frequency=f, toward=quarter))
     assert made.hs_source == pytest.approx(4.0 * math.sqrt(17.0 * 10.0 * 0.15), rel=1e-12)
     got = made.sea.density(2.0 * np.pi * 0.1, np.radians(np.arange(0.0, 360.0, 5.0)))
     toward = (90.0 - np.arange(0.0, 360.0, 5.0)) % 360.0
@@ -126,7 +126,7 @@ def test_a_sector_is_closed_with_nothing():
 
 def test_an_empty_spectrum_is_a_flat_sea_and_says_so():
     with pytest.warns(SeaWarning, match="holds no energy: the sea is exactly flat"):
-        made = Realised.from_spectrum(by_hand(np.zeros((30, 24))))
+        made = Realised.from_spectrum(dataset_of(np.zeros((30, 24))))
     assert made.sea.systems == ()
     assert (made.hs_source, made.factor) == (0.0, 1.0)
 
@@ -150,7 +150,7 @@ def test_a_spectrum_without_directions_asks_for_them():
     with pytest.raises(
         ParameterError, match=r"must be given without others, got direction=30\.0, spreading=None"
     ):
-        sea_from_spectrum(by_hand(sea().density[0]), direction=30.0)
+        sea_from_spectrum(dataset_of(sea().density[0]), direction=30.0)
 
 
 def test_one_direction_only_is_none_as_the_wavespectra_package_has_it():
@@ -197,7 +197,7 @@ def test_attributes_left_over_from_wavewatch_do_not_turn_the_sea_round(left):
     The wavespectra package turns directions and leaves WAVEWATCH's attributes on them: FROM all the
     same, with a warning.
     """
-    data = by_hand(sea(toward=70.0).density[0])
+    data = dataset_of(sea(toward=70.0).density[0])
     want = sea_from_spectrum(data).systems[0].direction
     assert want == pytest.approx(20.0, abs=0.5)
     data.efth.attrs["units"] = "m2 s degree-1"
@@ -214,7 +214,7 @@ def test_an_explicit_direction_is_believed_and_said():
     In a layout whose documents say FROM, a file that says TO, and its unit, and that no package
     left it behind.
     """
-    data = by_hand(sea(toward=70.0).density[0])
+    data = dataset_of(sea(toward=70.0).density[0])
     want = sea_from_spectrum(data).systems[0].direction
     data.efth.attrs["units"] = "m2 s degree-1"
     data.dir.attrs["standard_name"] = "sea_surface_wave_to_direction"
@@ -228,7 +228,9 @@ def test_an_explicit_direction_is_believed_and_said():
 
 def test_what_attributes_do_not_say_is_noted():
     """Nothing is said in a dataset made by hand; all is in what WAVEWATCH writes."""
-    (note,) = (n for n in Realised.from_spectrum(by_hand(sea().density[0])).notes if "assumed" in n)
+    (note,) = (
+        n for n in Realised.from_spectrum(dataset_of(sea().density[0])).notes if "assumed" in n
+    )
     for word in (
         "densities per degree",
         "frequencies in Hz",
@@ -257,7 +259,7 @@ def test_half_a_circle_is_closed_with_nothing_and_said():
     half = np.arange(0.0, 190.0, 10.0)
     density = np.tile(np.sin(np.radians(half)) + 1e-3, (3, 1))
     made = Realised.from_spectrum(
-        by_hand(density, frequency=np.array([0.05, 0.1, 0.15]), toward=half)
+        dataset_of(density, frequency=np.array([0.05, 0.1, 0.15]), toward=half)
     )
     assert "directions leave out 160 degrees of the circle: nothing comes from there" in made.notes
 
@@ -267,7 +269,7 @@ def test_frequencies_that_may_be_in_radians_are_doubted():
     0.22 to 3.5, as rad/s under the name of Hz; a buoy's do not reach so far, nor does a tank's
     begin so low as a buoy's.
     """
-    data = by_hand(1e-3 * sea().density[0], frequency=2.0 * np.pi * FREQUENCY)
+    data = dataset_of(1e-3 * sea().density[0], frequency=2.0 * np.pi * FREQUENCY)
     with pytest.warns(
         SeaWarning,
         match=r"frequencies go from 0\.217 to 3\.44 Hz, which is rare at sea: are they in rad/s\?",
@@ -298,7 +300,7 @@ def test_a_height_that_no_sea_has_is_refused():
         ReaderError,
         match=r"significant wave height must be between 0 and 100 m, got .* \(in other units",
     ):
-        sea_from_spectrum(by_hand(1e4 * sea().density[0]))
+        sea_from_spectrum(dataset_of(1e4 * sea().density[0]))
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,8 @@ def check(
     """
     Check that the files of a bake are unchanged, and that their pixels are a sea surface.
 
-    Of a cascade every tile is checked, and that the tiles belong together.
+    Of a cascade every tile is checked, and that the tiles belong together. The folder of a
+    run-time package is checked too (see `runtime.check`).
 
     Args:
         folder: the folder of a bake, or the one around the tiles of a cascade.
@@ -100,6 +101,10 @@ def check(
     if not folder.is_dir():
         reason = "is not a folder" if folder.exists() else "does not exist"
         raise OutputError(f"{folder} must be the folder of a bake, and {reason}")
+    from fftocean.runtime.check import check_package, is_package
+
+    if is_package(folder):
+        return check_package(folder)
     return _cascade(folder, progress) if layout.is_cascade(folder) else _bake(folder, progress)
 
 

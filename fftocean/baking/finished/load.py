@@ -1,6 +1,6 @@
 """Bakes as arrays, whatever their format and engine, in the conventions of the package."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -109,7 +109,7 @@ def load(
     maps: Iterable[str] | None = None,
     frames: Iterable[int] | None = None,
     verify: bool = True,
-) -> Any:
+) -> Bake | BakedCascade:
     """
     Load the maps of a finished bake.
 
@@ -173,14 +173,20 @@ def _bake(
     require_memory(
         f"{folder}", 4.0 * len(places) * contents.shape[0] * contents.shape[1] * channels
     )
-    loaded = {name: _stack(contents, name, places, verify) for name in wanted}
+    loaded = {name: read_frames(contents, name, places, verify) for name in wanted}
     rows = contents.manifest["frames"]
     times = np.array([rows[place]["t"] for place in places])
     return Bake(loaded, times, tuple(contents.frames[place] for place in places), contents.manifest)
 
 
-def _stack(contents: Contents, name: str, places: list[int], verify: bool) -> Real:
-    """Return the frames of a map at some places, as one array."""
+def read_frames(contents: Contents, name: str, places: Sequence[int], verify: bool = True) -> Real:
+    """
+    Return the frames of a map at some places of the sequence, as one array.
+
+    Raises:
+        IntegrityError: a file is missing, damaged or, with `verify`, not the one that was written;
+            the message names the file and the frame.
+    """
     out = np.empty((len(places), *contents.shape, len(MAPS[name].names)), dtype=np.float32)
     i = 0
     try:

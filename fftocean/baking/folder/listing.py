@@ -198,12 +198,11 @@ def replace_cascade(folder: Path, *, overwrite: bool) -> None:
     Raises:
         OutputError: the folder holds a cascade and `overwrite` is False.
     """
-    if layout.is_cascade(folder):
-        if not overwrite:
-            raise OutputError(
-                f"{folder} holds the tiles of a cascade; choose another folder, or --overwrite"
-            )
-        remove_cascade(folder)
+    if not overwrite:
+        raise OutputError(
+            f"{folder} holds the tiles of a cascade; choose another folder, or --overwrite"
+        )
+    remove_cascade(folder)
 
 
 def inconsistencies(

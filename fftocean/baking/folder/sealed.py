@@ -19,15 +19,15 @@ def sealed(tree: Mapping[str, Any]) -> dict[str, Any]:
     return {**tree, CHECK: digest(as_json(tree))}
 
 
-def read_sealed(path: Path) -> dict[str, Any]:
+def read_sealed(path: Path, most: int = MAX_BYTES) -> dict[str, Any]:
     """
     Read a file that holds the JSON of a `sealed` tree; return the tree without its checksum.
 
     Raises:
-        OutputError: the file cannot be read.
+        OutputError: the file cannot be read, or is larger than `most` bytes.
         IntegrityError: the file does not exist, or one of its bytes was changed.
     """
-    data = read_whole(path, MAX_BYTES)
+    data = read_whole(path, most)
     if data is None:
         raise IntegrityError(f"{path} does not exist")
     try:

@@ -348,7 +348,10 @@ class _View:
 
 def from_above(water: Water, width: int, height: int) -> Image:
     """
-    Return the first tile's area from high above its south, north up, with the sun in the north.
+    Return a map of the first tile's area, north up, with the sun in the north.
+
+    Every point is lit as for an eye in the south, 23 degrees above the horizon: lower, more of the
+    sky's mirror image shows the waves; higher, foam stands out more.
 
     Args:
         water: the surface to render.
@@ -361,7 +364,7 @@ def from_above(water: Water, width: int, height: int) -> Image:
     grain = np.full(x.size, min(lx / nx, ly / ny))
     mean, foam = _averages(water, x, y, grain)
     z = _points(water.layers, x, y, grain, HEIGHT)[:, 0]
-    view = np.broadcast_to([0.0, -0.80, 0.60], (x.size, 3))
+    view = np.broadcast_to([0.0, -0.92, 0.39191836], (x.size, 3))
     return shade(mean, water, view, z, foam).reshape(ny, nx, 3)[::-1]
 
 

@@ -47,6 +47,7 @@ class Scene:
 
     def __init__(self, job: Job) -> None:
         self.job = job
+        self._count, self._maps, self._mips = job.frames, job.maps, job.mips
         self.ocean: Ocean = job.ocean()
         self.form = formats.FORMATS[job.format]
         self.profile = engines.profile_for(job.engine, job.format, job.normals)
@@ -65,13 +66,13 @@ class Scene:
     @property
     def levels(self) -> int:
         """Number of mip levels of each map: down to one sample, or 1 without mips."""
-        return max(self.ocean.grid.shape).bit_length() if self.job.mips else 1
+        return max(self.ocean.grid.shape).bit_length() if self._mips else 1
 
     def frame(self, j: int) -> Frame | EulerianFrame:
         """Return the j-th frame of the loop; the next call may overwrite its arrays."""
         if self._eulerian is not None:
-            return self._eulerian.loop_frame(j, self.job.frames, self._needs)
-        self._frame = self.ocean.loop_frame(j, self.job.frames, self._needs, out=self._frame)
+            return self._eulerian.loop_frame(j, self._count, self._needs)
+        self._frame = self.ocean.loop_frame(j, self._count, self._needs, out=self._frame)
         return self._frame
 
     def extremes(self, j: int, frame: Frame | EulerianFrame) -> dict[str, float | None]:
@@ -82,7 +83,7 @@ class Scene:
         folds are those of the displaced surface.
         """
         if isinstance(frame, EulerianFrame):
-            moved, water = 0.0, self.ocean.loop_frame(j, self.job.frames, STRETCHES)
+            moved, water = 0.0, self.ocean.loop_frame(j, self._count, STRETCHES)
         else:
             moved, water = float(np.max(np.hypot(frame.displace_x, frame.displace_y))), frame
         folds = folding(water)
@@ -102,13 +103,13 @@ class Scene:
 
         Each array is valid until the next is made.
         """
-        if "foam" not in self.job.maps:
+        if "foam" not in self._maps:
             yield from (None for _ in frames)
             return
         span = frames[0] // foam_module.SPAN
         start = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)[span]
         for j, state in self.foam.states(
-            self.ocean, self.job.frames, start, span * foam_module.SPAN, frames[-1] + 1
+            self.ocean, self._count, start, span * foam_module.SPAN, frames[-1] + 1
         ):
             if j in frames:
                 yield state
@@ -126,10 +127,10 @@ class Scene:
             coverage = foam_module.coverage(
                 state if self._eulerian is None else self._eulerian.resample(state)
             )
-        for name in self.job.maps:
+        for name in self._maps:
             m = MAPS[name]
             state_now = frame, coverage, self._unresolved
-            levels = m.levels(*state_now) if self.job.mips else [m.channels(*state_now)]
+            levels = m.levels(*state_now) if self._mips else [m.channels(*state_now)]
             yield name, [profiles.arrange(self.profile, m.kind, level) for level in levels]
 
     def stored(self, levels: list[Real]) -> list[Real]:

@@ -11,10 +11,10 @@ from fftocean.constants import GRAVITY, SURFACE_TENSION
 from fftocean.errors import ParameterError
 from fftocean.limits import DEPTH, FETCH, WIND_SPEED, Quantity, keep_checked
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
-from fftocean.physics.dispersion import angular_frequency, group_velocity
+from fftocean.physics.dispersion import angular_frequency
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
-from fftocean.physics.spectra.wavenumber_form import per_frequency, scale_wind
+from fftocean.physics.spectra.wavenumber_form import WavenumberForm, scale_wind
 from fftocean.physics.spectra.wind import checked_wind, warn_of_short_fetch
 from fftocean.physics.spreading.elfouhaily import (
     SHORT_PEAK,
@@ -31,7 +31,7 @@ YOUNGEST: Final = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Elfouhaily:
+class Elfouhaily(WavenumberForm):
     """
     The unified spectrum: one formula from the longest wind wave to the shortest ripple.
 
@@ -155,16 +155,6 @@ class Elfouhaily:
         k = np.maximum(np.asarray(k, dtype=np.float64), 0.03 * self._peak_wavenumber)
         f: Real = self.curvature(k) / k**3
         return f
-
-    def __call__(self, omega: RealLike, /) -> Real:
-        """Return S at `omega`, [m^2 s/rad]."""
-        return per_frequency(
-            self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension
-        )
-
-    def at_waves(self, _omega: RealLike, k: Real) -> Real:
-        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
-        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
 
 
 SPECTRA.add(

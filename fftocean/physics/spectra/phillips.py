@@ -17,17 +17,17 @@ from fftocean.limits import (
     keep_checked,
 )
 from fftocean.limits import SURFACE_TENSION as SURFACE_TENSION_RANGE
-from fftocean.physics.dispersion import angular_frequency, group_velocity
+from fftocean.physics.dispersion import angular_frequency
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA
-from fftocean.physics.spectra.wavenumber_form import per_frequency, scale_wind
+from fftocean.physics.spectra.wavenumber_form import WavenumberForm, scale_wind
 from fftocean.physics.spectra.wind import checked_wind
 
 CUTOFF = Quantity("m", 0.0, 1e3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Phillips:
+class Phillips(WavenumberForm):
     """
     Tessendorf's spectrum, P(k) = A exp(-1/(kL)^2) k^-4 cos^2 theta exp(-(kl)^2), L = V^2/g. Not
     calibrated.
@@ -146,16 +146,6 @@ class Phillips:
             * np.exp(-(kl**-2) - (kl * (self.cutoff / self._longest)) ** 2)
         )
         return f
-
-    def __call__(self, omega: RealLike, /) -> Real:
-        """Return S at `omega`, [m^2 s/rad]."""
-        return per_frequency(
-            self.wavenumber_density, omega, self.peak, self.depth, self.surface_tension
-        )
-
-    def at_waves(self, _omega: RealLike, k: Real) -> Real:
-        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
-        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
 
 
 SPECTRA.add(

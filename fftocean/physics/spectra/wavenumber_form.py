@@ -1,6 +1,4 @@
-"""Conversion of spectra that are written in wavenumber."""
-
-from collections.abc import Callable
+"""Spectra that are written in wavenumber, as functions of frequency."""
 
 import numpy as np
 
@@ -9,21 +7,38 @@ from fftocean.physics.dispersion import group_velocity, wavenumber
 from fftocean.physics.spectra.wind import STILL_AIR
 
 
-def per_frequency(
-    density: Callable[[Real], Real],
-    omega: RealLike,
-    peak: float,
-    depth: float,
-    surface_tension: float,
-) -> Real:
+class WavenumberForm:
     """
-    Return S(omega) = F(k) dk/d omega; omega is at least a ten-thousandth of the peak, where both
-    spectra of this form are 0, and at most 1e20 rad/s.
+    A spectrum that is written as a density F(k), `wavenumber_density`; S(omega) = F(k) dk/d omega.
     """
-    k = wavenumber(
-        np.clip(np.asarray(omega, dtype=np.float64), 1e-4 * peak, 1e20), depth, surface_tension
-    )
-    return density(k) / group_velocity(k, depth, surface_tension)
+
+    __slots__ = ()
+
+    depth: float  # still-water depth [m]
+    surface_tension: float  # [N/m]
+
+    @property
+    def peak(self) -> float:
+        """Peak frequency [rad/s]."""
+        raise NotImplementedError
+
+    def wavenumber_density(self, k: RealLike, /) -> Real:
+        """Return F at wavenumbers `k` [rad/m], [m^3/rad]."""
+        raise NotImplementedError
+
+    def __call__(self, omega: RealLike, /) -> Real:
+        """Return S at `omega`, [m^2 s/rad]."""
+        # Below a ten-thousandth of the peak all spectra of this form are 0.
+        k = wavenumber(
+            np.clip(np.asarray(omega, dtype=np.float64), 1e-4 * self.peak, 1e20),
+            self.depth,
+            self.surface_tension,
+        )
+        return self.at_waves(omega, k)
+
+    def at_waves(self, _omega: RealLike, k: Real) -> Real:
+        """Return S where the wavenumbers `k` [rad/m] are known, [m^2 s/rad]."""
+        return self.wavenumber_density(k) / group_velocity(k, self.depth, self.surface_tension)
 
 
 def scale_wind(speed: float) -> float:

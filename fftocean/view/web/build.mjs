@@ -9,7 +9,41 @@ import { build } from 'esbuild';
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = path.join(here, '..', 'page');
 const check = process.argv.includes('--check');
-const options = { bundle: true, minify: true, target: 'es2022', charset: 'utf8', write: false };
+
+/**
+ * Return a source with the comments and the indentation of its shaders left out: what stands between backquotes in
+ * the modules that hold shaders is GLSL, which the bundler takes for text.
+ */
+export function withoutShaderComments(source) {
+  return source.replace(/`(?:[^`\\]|\\.)*`/g, (text) =>
+    /\b(?:vec[234]|float|void|uniform)\b/.test(text)
+      ? text
+          .replace(/\/\*[^]*?\*\//g, '')
+          .replace(/\/\/[^\n`]*/g, '')
+          .replace(/[ \t]+/g, ' ')
+          .replace(/ *\n[ \n]*/g, '\n')
+          .replace(/ ?([=*/<>,;{}?:]) ?/g, '$1')
+      : text,
+  );
+}
+
+const shaders = {
+  name: 'shaders',
+  setup(bundler) {
+    bundler.onLoad({ filter: /src[/\\].*\.js$/ }, async ({ path: file }) => ({
+      contents: withoutShaderComments(await readFile(file, 'utf8')),
+      loader: 'js',
+    }));
+  },
+};
+const options = {
+  plugins: [shaders],
+  bundle: true,
+  minify: true,
+  target: 'es2022',
+  charset: 'utf8',
+  write: false,
+};
 
 /** Return one bundled source as bytes. */
 async function bundled(source, more) {

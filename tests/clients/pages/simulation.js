@@ -1,9 +1,9 @@
 // The live page's simulation: the fields that it computes of a sea at given ticks, and its maps.
 import { decodeSea, decodeReference } from '/live/container.js';
-import { program, drawFullscreen, target, texture } from '/live/gl.js';
+import { drawFullscreen, program, target, texture, watchContext } from '/live/gl.js';
 import { createSimulation } from '/live/simulation.js';
 import { Clock } from '/live/clock.js';
-import { verifyTile, verifyPoints } from '/live/verify.js';
+import { verifyTile } from '/live/verify.js';
 import { base64, bytes } from './common.js';
 
 const canvas = document.getElementById('canvas');
@@ -48,7 +48,18 @@ function mapsOf(simulation, level) {
 }
 
 const sea = async (name) => decodeSea(await bytes(`/bakes/${name}`));
-const make = (decoded, options) => createSimulation(gl, decoded, { makeWorker, anisotropy: 1, ...options });
+/** Return a simulation; the page's own Worker is started if `workerSource` names a bundle of it. */
+async function make(decoded, { workerSource, ...options } = {}) {
+  if (workerSource) globalThis.WORKER_SOURCE = await (await fetch(`/bakes/${workerSource}`)).text();
+  const own = workerSource ? {} : { makeWorker };
+  return createSimulation(gl, decoded, { anisotropy: 1, ...own, ...options });
+}
+
+/** Let an extension be missing. */
+function withhold(missing) {
+  const { getExtension } = gl;
+  gl.getExtension = (name) => (name === missing ? null : getExtension.call(gl, name));
+}
 
 /** Return an error's message, or null. */
 const refusal = async (action) => {
@@ -62,12 +73,15 @@ const refusal = async (action) => {
 
 const tasks = {
   /** The fields and maps at ticks. */
-  async fields({ name, ticks, options = {}, choppiness, level = 0 }) {
+  async fields({ name, ticks, options = {}, choppiness, level = 0, missing = '', maps = false }) {
+    withhold(missing);
+    if (maps) gl.getExtension('EXT_color_buffer_float'); // to read them
     const simulation = await make(await sea(name), options);
     const frames = [];
     for (const tick of ticks) {
       await simulation.step(tick, choppiness);
-      frames.push({ fields: await fieldsOf(simulation), maps: mapsOf(simulation, level) });
+      const fields = await fieldsOf(simulation);
+      frames.push({ fields, maps: maps ? mapsOf(simulation, level) : null });
     }
     const { kind, note, document } = simulation;
     simulation.dispose();
@@ -110,15 +124,17 @@ const tasks = {
     await simulation.step(tick);
     const before = await fieldsOf(simulation);
     const extension = gl.getExtension('WEBGL_lose_context');
-    const lost = new Promise((resolve) => {
-      canvas.addEventListener('webglcontextlost', (event) => resolve(event.preventDefault()));
+    const events = [];
+    const restored = new Promise((resolve) => {
+      const forget = watchContext(canvas, {
+        // a context can be restored only after the event of its loss
+        lost: () => events.push('lost') && setTimeout(() => extension.restoreContext()),
+        restored: () => resolve(forget()),
+      });
     });
-    const back = new Promise((resolve) => canvas.addEventListener('webglcontextrestored', resolve));
     extension.loseContext();
-    await lost;
     await simulation.step(tick + 1); // changes nothing, fails nothing
-    extension.restoreContext();
-    await back;
+    await restored;
     const start = performance.now();
     const { sea: kept } = simulation;
     simulation.dispose();
@@ -127,7 +143,7 @@ const tasks = {
     const after = await fieldsOf(simulation);
     const seconds = (performance.now() - start) / 1000;
     simulation.dispose();
-    return { before, after, seconds };
+    return { before, after, seconds, events };
   },
 
   /** What the page's own comparison finds. */
@@ -137,7 +153,6 @@ const tasks = {
     await simulation.step(tick);
     const answer = decodeReference(await bytes(`/bakes/${reference}`));
     const found = await verifyTile(simulation, answer);
-    const points = await verifyPoints(simulation, decoded.reference);
     const altered = decodeReference(await bytes(`/bakes/${wrong}`));
     const failing = await verifyTile(simulation, altered);
     await simulation.step(tick + 1);
@@ -148,12 +163,7 @@ const tasks = {
     await simulation.step(tick);
     const blending = await refusal(() => verifyTile(simulation, answer));
     simulation.dispose();
-    return { found, points, failing, moved, blending };
-  },
-
-  /** Refusals of seas that cannot be shown. */
-  async refused({ name }) {
-    return refusal(async () => make(await sea(name)));
+    return { found, failing, moved, blending };
   },
 };
 

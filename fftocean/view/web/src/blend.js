@@ -27,14 +27,18 @@ export class AmplitudeBlend {
     this.scaleFrom = 0;
     this.scaleTo = 1;
     this.duration = 0;
+    this.numbers = null; // of the document, while they change
     this.next = null; // a sea that rises after this one has come to rest
     this.pending = null; // tiles whose phases are brought to those of `sea` at the next tick
     this.revision++;
   }
 
-  /** The document of the sea whose loop and ticks are in use. */
+  /**
+   * The document of the sea whose loop and ticks are in use; its numbers for shading change as the
+   * amplitudes do.
+   */
   get document() {
-    return this.sea.document;
+    return this.numbers ? { ...this.sea.document, ...this.numbers.now } : this.sea.document;
   }
 
   /** The newest sea, which will be shown alone in the end. */
@@ -57,6 +61,7 @@ export class AmplitudeBlend {
     const seen = this.pending ?? { sea: this.sea, tiles: this.shown(), tick: this.lastTick };
     this.from = seen.tiles;
     this.revision++;
+    const numbers = { from: this.document, to: sea.document, total: seconds, passed: 0 };
     if (alike(seen.sea, sea)) {
       this.pending = seen;
       this.sea = sea;
@@ -69,6 +74,19 @@ export class AmplitudeBlend {
       this.to = seen.tiles;
       this.next = sea;
       this.begin(1, 0, 0, 0, seconds / 2);
+    }
+    this.numbers = numbers;
+    this.average();
+  }
+
+  /** Bring the numbers of the document to the time that has passed. */
+  average() {
+    const { from, to, passed, total } = this.numbers;
+    this.numbers.now = {};
+    for (const name of SHADING) {
+      if (name in from && name in to) {
+        this.numbers.now[name] = between(from[name], to[name], Math.min(1, passed / total));
+      }
     }
   }
 
@@ -90,17 +108,20 @@ export class AmplitudeBlend {
   advance(seconds) {
     if (this.duration === 0 || !(seconds > 0)) return;
     this.elapsed += seconds;
+    this.numbers.passed += seconds;
+    this.average();
     const share = Math.min(1, this.elapsed / this.duration);
     const { scaleFrom, scaleTo } = this.ends;
     this.scaleFrom = scaleFrom + share * (this.lastFrom - scaleFrom);
     this.scaleTo = scaleTo + share * (this.lastTo - scaleTo);
     if (share < 1) return;
-    const { next } = this;
-    if (next) {
-      const { duration } = this;
+    if (this.next) {
+      const { duration, next, numbers } = this;
       this.show(next);
+      this.numbers = numbers;
       this.begin(0, 0, 0, 1, duration);
     } else {
+      this.numbers = null;
       this.scaleFrom = 0; // exactly
       this.scaleTo = 1;
       this.duration = 0;
@@ -124,6 +145,17 @@ export class AmplitudeBlend {
   }
 }
 
+/** Members of a document that a renderer shades by. */
+const SHADING = ['choppiness', 'slope_variance', 'foam'];
+
+/** Return what lies between two numbers, or two lists or objects of them. */
+function between(from, to, share) {
+  if (typeof from === 'number' && typeof to === 'number') return from + share * (to - from);
+  if (!from || !to || typeof from !== 'object') return to;
+  const entries = Object.keys(to).map((name) => [name, between(from[name], to[name], share)]);
+  return Array.isArray(to) ? entries.map(([, value]) => value) : Object.fromEntries(entries);
+}
+
 /** Return true if a tick of both documents is the same share of the same loop. */
 function sameTicks(a, b) {
   return a.loop === b.loop && a.ticks === b.ticks;
@@ -134,32 +166,35 @@ export function alike(a, b) {
   return (
     a.tiles.length === b.tiles.length &&
     a.tiles.every((tile, i) =>
-      ['nx', 'ny', 'lx', 'ly', 'mixed'].every((name) => tile[name] === b.tiles[i][name]),
+      ['nx', 'ny', 'lx', 'ly'].every((name) => tile[name] === b.tiles[i][name]),
     )
   );
 }
 
 /** Return a tile whose amplitudes are a sum, and whose factors are an average. */
 function mixedTile(from, to, scaleFrom, scaleTo) {
-  const h0 = to.h0.map((value, i) => scaleFrom * from.h0[i] + scaleTo * value);
+  const h0 = new Float32Array(to.h0.length);
+  const [earlier, later] = [from.h0, to.h0];
+  for (let i = 0; i < h0.length; i++) h0[i] = scaleFrom * earlier[i] + scaleTo * later[i];
   const wave = to.wave.slice();
   if (scaleFrom > 0) {
     const share = scaleFrom / (scaleFrom + scaleTo);
-    for (let i = 1; i < wave.length; i += 2) wave[i] += share * (from.wave[i] - wave[i]);
+    const { wave: before } = from;
+    for (let i = 1; i < wave.length; i += 2) wave[i] += share * (before[i] - wave[i]);
   }
   return { ...to, h0, wave };
 }
 
 /** Return a tile with the cycles of another where only that one has a wave. */
 function withMissingCycles(tile, other) {
-  const missing = (i) => tile.wave[i] === 0 && other.wave[i] > 0;
-  let wave = tile.wave;
-  for (let i = 0; i < wave.length; i += 2) {
-    if (!missing(i)) continue;
-    if (wave === tile.wave) wave = tile.wave.slice();
-    wave[i] = other.wave[i];
+  const [own, others] = [tile.wave, other.wave];
+  let wave = own;
+  for (let i = 0; i < own.length; i += 2) {
+    if (own[i] !== 0 || others[i] === 0) continue;
+    if (wave === own) wave = own.slice();
+    wave[i] = others[i];
   }
-  return wave === tile.wave ? tile : { ...tile, wave };
+  return wave === own ? tile : { ...tile, wave };
 }
 
 /**
@@ -167,21 +202,26 @@ function withMissingCycles(tile, other) {
  * the phases that they have now with their own.
  */
 function rebased(tile, tick, ticks, other, otherTick, otherTicks) {
-  let h0 = tile.h0;
-  for (let i = 0; i < tile.wave.length; i += 2) {
-    const cycles = tile.wave[i];
-    const later = other.wave[i] || cycles;
-    if (cycles === later && ticks === otherTicks && tick === otherTick) continue;
+  const [own, others] = [tile.wave, other.wave];
+  const sameMoment = ticks === otherTicks && tick === otherTick;
+  let { h0 } = tile;
+  for (let i = 0; i < own.length; i += 2) {
+    const cycles = own[i];
+    const later = others[i] || cycles;
+    if (cycles === 0 || (sameMoment && cycles === later)) continue;
     const turns =
       ((cycles * tick) % ticks) / ticks - ((later * otherTick) % otherTicks) / otherTicks;
     if (h0 === tile.h0) h0 = tile.h0.slice();
     const c = Math.cos(2 * Math.PI * turns);
     const s = Math.sin(2 * Math.PI * turns);
-    const [a, b, p, q] = tile.h0.subarray(2 * i, 2 * i + 4);
-    h0[2 * i] = a * c + b * s;
-    h0[2 * i + 1] = b * c - a * s;
-    h0[2 * i + 2] = p * c - q * s;
-    h0[2 * i + 3] = q * c + p * s;
+    for (const [at, sine] of [
+      [2 * i, s],
+      [2 * i + 2, -s],
+    ]) {
+      const re = h0[at];
+      h0[at] = re * c + h0[at + 1] * sine;
+      h0[at + 1] = h0[at + 1] * c - re * sine;
+    }
   }
   return { ...tile, h0 };
 }

@@ -13,6 +13,8 @@ export const FIELDS = [
 ];
 
 const ALIGNMENT = 16;
+const MOST_TABLES = 16; // to keep
+const MOST_LIFT = 40; // a power of two that leaves single precision enough of its range
 const WAVE_BYTES = 14; // int16 mx, my; uint16 cycles; float32 re, im
 
 /** Return the number of bytes with its padding. */
@@ -118,8 +120,9 @@ export function decodeTile(about, waves, depth) {
     throw new Error(`waves must be records of ${WAVE_BYTES} bytes, got ${waves.length} bytes`);
   }
   const h0 = new Float32Array(4 * nx * ny);
-  const wave = potentialFactors(nx, ny, lx, ly, depth);
+  const wave = potentialFactors(nx, ny, lx, ly, depth).slice();
   const view = new DataView(waves.buffer, waves.byteOffset, waves.byteLength);
+  const variances = new Float64Array(8); // of pairs of fields, but for a common factor
   for (let at = 0; at < waves.length; at += WAVE_BYTES) {
     const mx = view.getInt16(at, true);
     const my = view.getInt16(at + 2, true);
@@ -136,22 +139,59 @@ export function decodeTile(about, waves, depth) {
     h0[4 * opposite + 2] = re;
     h0[4 * opposite + 3] = -im;
     wave[2 * here] = wave[2 * opposite] = view.getUint16(at + 4, true);
+    addVariances(variances, mx / lx, my / ly, re * re + im * im, wave[2 * here + 1]);
   }
-  const mixed = about.mixed ?? 2 ** Math.round(Math.log2(lx / 64));
-  return { nx, ny, lx, ly, mixed, h0, wave };
+  return { nx, ny, lx, ly, lifts: liftsOf(variances), h0, wave };
 }
+
+/** Add the variances of one wave's eight fields, in pairs; `kx` and `ky` are in cycles a metre. */
+function addVariances(sums, kx, ky, height, factor) {
+  const [xx, yy] = [(2 * Math.PI * kx) ** 2, (2 * Math.PI * ky) ** 2];
+  const potential = height * factor * factor;
+  sums[0] += potential * xx; // displace_x
+  sums[1] += potential * yy; // displace_y
+  sums[2] += height;
+  sums[3] += potential * xx * yy; // stretch_xy
+  sums[4] += height * xx; // slope_x
+  sums[5] += height * yy; // slope_y
+  sums[6] += potential * xx * xx; // stretch_xx
+  sums[7] += potential * yy * yy; // stretch_yy
+}
+
+/**
+ * Return the powers of two that lift the second of two fields to the size of the first.
+ *
+ * Two real fields are the parts of one complex one, whose rounding errors are those of the larger
+ * part: without a lift the smaller field would drown in them, where waves run along an axis, say.
+ *
+ * @returns {number[]} for displace_y, stretch_xy, slope_y and stretch_yy, beside displace_x,
+ *   height, slope_x and stretch_xx
+ */
+function liftsOf(variances) {
+  return [0, 2, 4, 6].map((first) => {
+    // Where one of them is 0 the ratio is 0 or infinite, or no number without any waves.
+    const exponent = Math.round(Math.log2(variances[first] / variances[first + 1]) / 2) || 0;
+    return 2 ** Math.min(Math.max(exponent, -MOST_LIFT), MOST_LIFT);
+  });
+}
+
+const factors = new Map(); // tables of `potentialFactors` by their arguments: sliders ask often
 
 /** Return the table of a tile's waves without cycles: 0 and 1/(k tanh kh). */
 function potentialFactors(nx, ny, lx, ly, depth) {
+  const key = [nx, ny, lx, ly, depth].join();
+  if (factors.has(key)) return factors.get(key);
   const wave = new Float32Array(2 * nx * ny);
   for (let j = 0; j < ny; j++) {
     const ky = (2 * Math.PI * (2 * j < ny ? j : j - ny)) / ly;
     for (let i = 0; i < nx; i++) {
       const kx = (2 * Math.PI * (2 * i < nx ? i : i - nx)) / lx;
-      const k = Math.hypot(kx, ky);
+      const k = Math.sqrt(kx * kx + ky * ky);
       if (k > 0) wave[2 * (j * nx + i) + 1] = 1 / (k * Math.tanh(k * depth));
     }
   }
+  if (factors.size >= MOST_TABLES) factors.clear();
+  factors.set(key, wave);
   return wave;
 }
 

@@ -22,6 +22,42 @@ export class ContextLost extends Error {
   }
 }
 
+/**
+ * Return the WebGL 2 context of a canvas.
+ *
+ * @throws {Error} there is none; the message is a sentence for the screen
+ */
+export function openContext(canvas, attributes = {}) {
+  const gl = canvas.getContext('webgl2', { powerPreference: 'high-performance', ...attributes });
+  if (!gl) {
+    throw new Error(
+      'This browser offers no WebGL 2, which the sea is drawn with: turn on hardware ' +
+        'acceleration in its settings, update the graphics driver, or use another browser.',
+    );
+  }
+  return gl;
+}
+
+/**
+ * Call functions when the context of a canvas is lost, and when a new one can be used.
+ *
+ * What was made in a lost context is gone: dispose of it, and make it again of the data.
+ *
+ * @returns {function()} call it to watch no longer
+ */
+export function watchContext(canvas, { lost, restored }) {
+  const onLost = (event) => {
+    event.preventDefault(); // or the context would never come back
+    lost();
+  };
+  canvas.addEventListener('webglcontextlost', onLost);
+  canvas.addEventListener('webglcontextrestored', restored);
+  return () => {
+    canvas.removeEventListener('webglcontextlost', onLost);
+    canvas.removeEventListener('webglcontextrestored', restored);
+  };
+}
+
 /** Return the formats of the data of a sized internal format. */
 function layout(gl, format) {
   const layouts = {
@@ -41,6 +77,13 @@ function layout(gl, format) {
   return layouts[format];
 }
 
+/** Delete the object of a context, unless it went with a context that was lost. */
+function free(owner, kind) {
+  const { gl, handle } = owner;
+  if (handle && gl[`is${kind}`](handle)) gl[`delete${kind}`](handle);
+  owner.handle = null;
+}
+
 /** A linked program; its uniforms are set by name. */
 export class Program {
   /**
@@ -49,8 +92,9 @@ export class Program {
    * @param {WebGL2RenderingContext} gl
    * @param {string} fragment source of the fragment shader
    * @param {string} [vertex] source of the vertex shader
+   * @param {string[]} [feedback] outputs of the vertex shader to read back, interleaved
    */
-  constructor(gl, fragment, vertex = FULLSCREEN_VERTEX) {
+  constructor(gl, fragment, vertex = FULLSCREEN_VERTEX, feedback = []) {
     this.gl = gl;
     this.handle = gl.createProgram();
     const shaders = [
@@ -64,6 +108,9 @@ export class Program {
       gl.attachShader(this.handle, shader);
       return shader;
     });
+    if (feedback.length) {
+      gl.transformFeedbackVaryings(this.handle, feedback, gl.INTERLEAVED_ATTRIBS);
+    }
     gl.linkProgram(this.handle);
     const linked = gl.getProgramParameter(this.handle, gl.LINK_STATUS);
     const messages = shaders.map((shader) => gl.getShaderInfoLog(shader));
@@ -105,8 +152,7 @@ export class Program {
 
   /** Free the program. */
   dispose() {
-    this.gl.deleteProgram(this.handle);
-    this.handle = null;
+    free(this, 'Program');
   }
 }
 
@@ -156,8 +202,8 @@ const SETTERS = {
 };
 
 /** Return a program; see `Program`. */
-export function program(gl, fragment, vertex = FULLSCREEN_VERTEX) {
-  return new Program(gl, fragment, vertex);
+export function program(gl, fragment, vertex = FULLSCREEN_VERTEX, feedback = []) {
+  return new Program(gl, fragment, vertex, feedback);
 }
 
 /** A two-dimensional texture of fixed size. */
@@ -225,8 +271,7 @@ export class Texture {
 
   /** Free the texture. */
   dispose() {
-    this.gl.deleteTexture(this.handle);
-    this.handle = null;
+    free(this, 'Texture');
   }
 }
 
@@ -278,8 +323,7 @@ export class Target {
 
   /** Free the framebuffer, and its textures too unless they are kept. */
   dispose({ keepTextures = false } = {}) {
-    this.gl.deleteFramebuffer(this.handle);
-    this.handle = null;
+    free(this, 'Framebuffer');
     if (keepTextures) return;
     for (const one of this.textures) one.dispose();
     this.depth?.dispose();
@@ -292,7 +336,7 @@ export function target(gl, textures, depth = null) {
 }
 
 /**
- * Draw a program over the whole of a target, or of the current viewport if the target is null.
+ * Draw a program over the whole of a target, or of what is bound now if the target is null.
  *
  * Depth test and blending are left as they are.
  */

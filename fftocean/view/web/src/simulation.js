@@ -96,8 +96,8 @@ export class GpuSimulation {
     for (const tile of this.tiles) {
       const fields = this.fieldsOf(tile);
       const [input_first, input_second] = fields.textures;
-      const { mixed } = tile;
-      const values = { input_first, input_second, choppiness, mixed };
+      const { lifts } = tile;
+      const values = { input_first, input_second, choppiness, lifts };
       drawFullscreen(gl, this.shade, values, tile.target);
       for (const map of tile.target.textures) map.generateMips();
     }
@@ -115,7 +115,7 @@ export class GpuSimulation {
     FIELDS.forEach((name, field) => {
       const values = new Float32Array(tile.nx * tile.ny);
       const plane = planes[field >> 2];
-      const factor = name === 'stretch_xy' ? 1 / tile.mixed : 1; // a power of two
+      const factor = field & 1 ? 1 / tile.lifts[field >> 1] : 1; // a power of two
       for (let i = 0; i < values.length; i++) values[i] = factor * plane[4 * i + (field & 3)];
       fields[name] = values;
     });
@@ -135,7 +135,7 @@ export class GpuSimulation {
   /** Return the target that holds the fields of a tile at the tick. */
   fieldsOf(tile) {
     const { blend } = this;
-    const { nx, ny, lx, ly, mixed } = tile;
+    const { nx, ny, lx, ly, lifts } = tile;
     const values = {
       ...tile.tables,
       samples: [nx, ny],
@@ -143,7 +143,7 @@ export class GpuSimulation {
       tick: this.tick,
       mask: this.document.ticks - 1,
       turns_per_tick: 1 / this.document.ticks,
-      mixed,
+      lifts,
       scale_to: blend.scaleTo,
       scale_from: blend.scaleFrom,
     };
@@ -160,8 +160,8 @@ export class GpuSimulation {
       this.tiles = blend.to.map(({ nx, ny }) => makeTile(gl, nx, ny, this.anisotropy));
     }
     this.tiles.forEach((tile, i) => {
-      const { lx, ly, mixed, h0, wave } = blend.to[i];
-      Object.assign(tile, { lx, ly, mixed });
+      const { lx, ly, lifts, h0, wave } = blend.to[i];
+      Object.assign(tile, { lx, ly, lifts });
       tile.tables.h0_to.upload(h0);
       tile.tables.wave_to.upload(wave);
       tile.tables.h0_from.upload(blend.from[i].h0);

@@ -62,33 +62,3 @@ export function judged(errors, limit) {
   const worst = Math.max(...Object.values(errors));
   return { errors, worst, limit, passed: worst <= limit };
 }
-
-/**
- * Compare a simulation with the points of check.json, at their ticks; the tick is then as before.
- *
- * A point's error is relative to the largest reference value of its field and tile.
- *
- * @param {object} simulation see `createSimulation`
- * @param {object} reference of `decodeSea`
- * @returns {Promise<object[]>} of each tile: tile, errors, worst, limit and passed
- */
-export async function verifyPoints(simulation, reference) {
-  const why = whyNotExact(simulation);
-  if (why) throw new Error(`nothing to verify: ${why}`);
-  const { tick: earlier } = simulation;
-  const found = reference.tiles.map(() => Object.fromEntries(FIELDS.map((name) => [name, 0])));
-  for (const [moment, tick] of reference.moments.entries()) {
-    await simulation.step(tick);
-    for (const [tile, { columns, rows, fields }] of reference.tiles.entries()) {
-      const { nx } = simulation.tiles[tile];
-      const computed = await simulation.readFields(tile);
-      for (const name of FIELDS) {
-        const values = columns.map((column, i) => computed[name][rows[i] * nx + column]);
-        const error = relativeError(values, fields[name][moment]);
-        found[tile][name] = Math.max(found[tile][name], error);
-      }
-    }
-  }
-  await simulation.step(earlier);
-  return found.map((errors, tile) => ({ tile, ...judged(errors, LIMITS[simulation.kind]) }));
-}

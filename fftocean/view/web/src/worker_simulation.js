@@ -31,9 +31,13 @@ export class WorkerSimulation {
   }
 
   /** Start a Worker. */
-  constructor(gl, sea, { anisotropy = 8, makeWorker = startWorker } = {}) {
+  constructor(gl, sea, { prefer, anisotropy = 8, makeWorker = startWorker } = {}) {
     this.gl = gl;
     this.kind = 'worker';
+    this.reason =
+      prefer === 'worker'
+        ? 'As asked for'
+        : 'This graphics card cannot draw into 32-bit floats (EXT_color_buffer_float)';
     this.anisotropy = anisotropy;
     this.blend = new AmplitudeBlend(this.fitted(sea));
     this.shown = { tick: 0, choppiness: sea.document.choppiness ?? 1 };
@@ -71,13 +75,13 @@ export class WorkerSimulation {
 
   /** Return a sea with no more samples than can be computed, and say what it lacks. */
   fitted(sea) {
-    const { tiles, lost } = reduced(sea.tiles, MOST_SAMPLES);
+    const { sea: less, lost } = reduced(sea, MOST_SAMPLES);
     const lacks = lost ? `; the ${lost} shortest waves are left out` : '';
     this.note =
-      'This graphics card cannot draw into 32-bit floats: JavaScript computes the sea, ' +
+      `${this.reason}: JavaScript computes the sea, ` +
       `with at most ${MOST_SAMPLES} x ${MOST_SAMPLES} samples a tile${lacks}.`;
     this.reduced = lost > 0;
-    return { ...sea, tiles };
+    return less;
   }
 
   /**
@@ -188,14 +192,16 @@ export class WorkerSimulation {
 }
 
 /**
- * Return tiles of at most `most` samples a side, and the number of waves that those cannot hold.
+ * Return a sea of at most `most` samples a side, and the number of waves that it cannot hold.
  *
- * Every other sample of a tile shows the same waves, but for those that are too short for them.
+ * Every other sample of a tile shows the same waves, but for those that are too short for them;
+ * the variance of their slopes is then beyond the tiles.
  */
-export function reduced(tiles, most) {
+export function reduced(sea, most) {
   let lost = 0;
-  const fitting = tiles.map((tile) => {
-    const { nx, ny, h0, wave } = tile;
+  const slopes = [0, 0, 0]; // xx, yy, xy
+  const tiles = sea.tiles.map((tile) => {
+    const { nx, ny, lx, ly, h0, wave } = tile;
     if (nx <= most && ny <= most) return tile;
     const [fewerX, fewerY] = [Math.min(nx, most), Math.min(ny, most)];
     const less = {
@@ -214,10 +220,22 @@ export function reduced(tiles, most) {
           const to = (my & (fewerY - 1)) * fewerX + (mx & (fewerX - 1));
           less.h0.set(h0.subarray(4 * at, 4 * at + 4), 4 * to);
           less.wave.set(wave.subarray(2 * at, 2 * at + 2), 2 * to);
-        } else if (h0[4 * at] || h0[4 * at + 1]) lost++;
+        } else if (h0[4 * at] || h0[4 * at + 1]) {
+          const variance = 2 * (h0[4 * at] ** 2 + h0[4 * at + 1] ** 2); // a^2/2
+          const [kx, ky] = [(2 * Math.PI * mx) / lx, (2 * Math.PI * my) / ly];
+          [kx * kx, ky * ky, kx * ky].forEach((factor, n) => (slopes[n] += variance * factor));
+          lost++;
+        }
       }
     }
     return less;
   });
-  return { tiles: fitting, lost };
+  const { slope_variance: whole } = sea.document;
+  if (!lost || !whole) return { sea: { ...sea, tiles }, lost };
+  const slope_variance = {
+    ...whole,
+    captured: whole.captured.map((value, n) => value - slopes[n]),
+    beyond: whole.beyond.map((value, n) => value + slopes[n]),
+  };
+  return { sea: { ...sea, tiles, document: { ...sea.document, slope_variance } }, lost };
 }

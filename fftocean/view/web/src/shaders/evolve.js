@@ -39,7 +39,8 @@ uniform sampler2D h0_to, h0_from, wave_to, wave_from;
 uniform ivec2 samples;
 uniform vec2 wavenumber_step;
 uniform uint tick, mask;
-uniform float turns_per_tick, mixed, scale_to, scale_from;
+uniform float turns_per_tick, scale_to, scale_from;
+uniform vec4 lifts;
 layout(location = 0) out vec4 first;
 layout(location = 1) out vec4 second;
 
@@ -76,9 +77,8 @@ void main() {
   vec2 stretch_xx = -k.x * k.x * potential;
   vec2 stretch_xy = -k.x * k.y * potential;
   vec2 stretch_yy = -k.y * k.y * potential;
-  // A real field comes out of each part of a complex one. stretch_xy is lifted to the size of
-  // height, whose rounding errors would drown it.
-  first = vec4(displace_x + times_i(displace_y), height + mixed * times_i(stretch_xy));
-  second = vec4(slope_x + times_i(slope_y), stretch_xx + times_i(stretch_yy));
+  // A real field comes out of each part of a complex one; see the lifts in container.js.
+  first = vec4(displace_x + lifts.x * times_i(displace_y), height + lifts.y * times_i(stretch_xy));
+  second = vec4(slope_x + lifts.z * times_i(slope_y), stretch_xx + lifts.w * times_i(stretch_yy));
 }`;
 }

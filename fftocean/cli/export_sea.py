@@ -1,0 +1,157 @@
+"""`fftocean export-sea`: write the waves of a sea for programs that run it."""
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fftocean.cli.arguments import add_tiles_flag, path
+from fftocean.cli.command import Command
+from fftocean.cli.console import plain, size_in_words
+from fftocean.cli.job_flags import add_job_flags, job_of
+from fftocean.cli.progress import json_events
+
+if TYPE_CHECKING:
+    from fftocean.cascade import Cascade
+    from fftocean.job.job import Job
+    from fftocean.ocean import Ocean
+
+
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Add the flags of `fftocean export-sea`."""
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=path,
+        default=Path("sea"),
+        metavar="DIR",
+        help="folder to write to (default: sea)",
+    )
+    parser.add_argument(
+        "--overwrite", action="store_true", help="replace a folder that holds another sea"
+    )
+    parser.add_argument(
+        "--textures",
+        action="store_true",
+        help="add the waves as float32 textures, ready for a graphics processor",
+    )
+    parser.add_argument(
+        "--ticks",
+        type=int,
+        metavar="N",
+        help="moments of the loop, a power of two (default: the most that keep phases exact)",
+    )
+    add_tiles_flag(parser)
+    parser.add_argument(
+        "--json", action="store_true", help="print events as lines of JSON: done, error"
+    )
+    parser.add_argument("--quiet", action="store_true", help="no summary")
+    add_job_flags(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write a sea as a run-time package."""
+    from fftocean.foam import Foam
+    from fftocean.runtime.folder import export_sea
+
+    with json_events(options.json) as print_json:
+        job = job_of(options)
+        wind = None
+        if job.wind:
+            wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        document = export_sea(
+            _water(job, options.tiles),
+            options.output,
+            textures=options.textures,
+            job=_job_text(job, options.tiles),
+            ticks=options.ticks,
+            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            wind=wind,
+            overwrite=options.overwrite,
+        )
+        if print_json:
+            print_json({"event": "done", "folder": str(options.output), **_sizes(document)})
+        elif not options.quiet:
+            _summarise(options.output, document)
+    return 0
+
+
+def _water(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Cascade":
+    """
+    Return the ocean of a job, or the cascade of its sea on some tiles.
+
+    Raises:
+        JobError: tiles that cannot share the sea, or a band beside tiles.
+    """
+    if not tiles:
+        return job.ocean()
+    from fftocean.cascade import Cascade
+    from fftocean.errors import JobError, ParameterError
+    from fftocean.job.parameters import BY_KEY
+
+    s = job.settings
+    for key in ("ocean.band_low", "ocean.band_high"):
+        if s[key] != BY_KEY[key].default:
+            raise JobError(
+                f"{job.source}: {key} must be left out where there are tiles, "
+                "whose bands follow from their sizes"
+            )
+    try:
+        return Cascade(
+            job.sea(),
+            tiles,
+            seed=s["ocean.seed"],
+            loop=s["ocean.loop"],
+            choppiness=s["ocean.choppiness"],
+            amplitudes=s["ocean.amplitudes"],
+        )
+    except JobError:
+        raise
+    except ParameterError as error:
+        raise JobError(f"{job.source}: {error}") from None
+
+
+def _job_text(job: "Job", tiles: list[tuple[int, float]] | None) -> str:
+    """Return the job as TOML; tiles, which a job does not have, in a comment."""
+    from fftocean.view.job_text import job_text
+
+    given = ",".join(f"{n}:{size:g}" for n, size in tiles or ())
+    flags = f" --tiles {given}" if tiles else ""
+    return job_text(job, comments=[f"fftocean export-sea job.toml -o sea{flags}"])
+
+
+def _sizes(document: Mapping[str, Any]) -> dict[str, int]:
+    """Return the number of tiles, waves and bytes of a package."""
+    return {
+        "tiles": len(document["tiles"]),
+        "waves": sum(tile["waves"] for tile in document["tiles"]),
+        "bytes": sum(file["bytes"] for file in document["files"]),
+    }
+
+
+def _summarise(folder: Path, document: Mapping[str, Any]) -> None:
+    """Print what a package holds."""
+    specified, realised = (document["statistics"][key] for key in ("specified", "realised"))
+    print(
+        f"Hs {specified['hs']:.3g} m specified, {realised['hs']:.3g} m realised; "
+        f"Tp {realised['tp']:.3g} s"
+    )
+    sizes = _sizes(document)
+    print(
+        f"{sizes['waves']} waves on {sizes['tiles']} tile{'s' * (sizes['tiles'] != 1)}, loop "
+        f"{document['loop']:g} s in {document['ticks']} ticks, {size_in_words(sizes['bytes'])}: "
+        f"{plain(folder)}"
+    )
+
+
+COMMAND = Command(
+    name="export-sea",
+    arguments="[JOB.toml] [-o DIR]",
+    summary="write the waves of a sea for programs that evolve them: pages, engines",
+    examples=(
+        "fftocean export-sea -o sea --n 256",
+        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures",
+    ),
+    run=run,
+    add_flags=add_flags,
+)

@@ -1,0 +1,169 @@
+"""Seas as the page gets them: the document's roughness, foam, wind and notes."""
+
+import asyncio
+import threading
+
+import numpy as np
+import pytest
+from serving import small_state
+
+import fftocean as fo
+from fftocean.errors import ParameterError
+from fftocean.runtime.container import from_bytes
+from fftocean.view.seas import SEEN, MovingSeas, SeaMaker, make_exact, reference_fields
+from fftocean.view.state import State
+from fftocean.view.worker import Worker
+
+
+def test_slopes_of_tiles_and_beyond_are_those_of_the_wind():
+    """Cox & Munk 1954 along and across a wind toward 30 degrees, written out."""
+    state = small_state()
+    found = make_exact(state, 1).document["slope_variance"]
+    angle = np.radians(30.0)
+    along, across = 0.00316 * 11.0, 0.003 + 0.00192 * 11.0
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    total = turn @ np.diag([along, across]) @ turn.T
+    expected = [total[0, 0], total[1, 1], total[0, 1]]
+    np.testing.assert_allclose(found["total"], expected, rtol=1e-12)
+    np.testing.assert_allclose(
+        np.add(found["captured"], found["beyond"]), expected, rtol=1e-12, atol=1e-15
+    )
+
+
+def test_foam_covers_what_whitecaps_cover():
+    """2.95e-6 U^3.52 (Monahan & O'Muircheartaigh 1980), by the library's mean coverage."""
+    from fftocean.foam_coverage import mean_coverage
+
+    state = State.default(tiles=[(64, 300.0), (64, 40.0)]).changed({"wind_speed": 14.0})
+    made = make_exact(state, 1)
+    foam = made.document["foam"]
+    covered = mean_coverage(made.cascade, foam["threshold"], shortest=SEEN)
+    assert covered == pytest.approx(2.95e-6 * 14.0**3.52, rel=0.02)  # the solver's own bound
+
+
+def test_a_job_that_bakes_foam_keeps_its_own():
+    text = '[ocean]\nn = 16\n[bake]\nmaps = ["foam"]\n[bake.foam]\nthreshold = 0.5\ntau = 2.0\n'
+    foam = make_exact(State.of_job(fo.Job.from_toml(text)), 1).document["foam"]
+    assert foam == {"decay": 2.0, "threshold": 0.5, "strength": 60.0}
+
+
+def test_notes_are_the_warnings_of_the_library():
+    made = make_exact(small_state(wind_speed=0.0, swell_speed=0.0), 1)
+    assert any("exactly flat" in note for note in made.notes)
+    assert make_exact(small_state(), 1).notes == ()
+    short = make_exact(small_state(loop=10.0), 1)
+    assert any("loop of 10 s" in note for note in short.notes)
+
+
+def test_the_container_is_a_package_that_the_library_reads():
+    made = make_exact(small_state(), 5, points=4)
+    package = from_bytes(made.data)
+    assert package.document["id"] == 5
+    assert package.document["wind"] == {"speed": 11.0, "direction": 30.0}
+    assert make_exact(small_state(wind_speed=0.0), 1).document["wind"] is None
+
+
+def test_moving_seas_are_made_for_another_sea_on_the_same_tiles_alone():
+    state, moving = small_state(), MovingSeas()
+    assert not moving.can_make(state)
+    moving.start(make_exact(state, 1))
+    for changes in (
+        {"wind_speed": 6.0},
+        {"wind_direction": 90.0},
+        {"fetch": 20e3},
+        {"swell_speed": 0.0},
+        {"swell_direction": 0.0},
+        {"swell_share": 0.1},
+        {"depth": 15.0},
+    ):
+        changed = state.changed(changes)
+        assert moving.can_make(changed), changes
+        made = moving.make(changed, 2)
+        assert (made.quality, made.cascade) == ("moving", None)
+        if changes.keys() & {"wind_speed", "depth"}:
+            exact = make_exact(changed, 3)
+            hs = [sea.document["statistics"]["realised"]["hs"] for sea in (made, exact)]
+            assert hs[0] == pytest.approx(hs[1], rel=0.01)  # variance within 2 %
+    for changes in ({"seed": 1}, {"loop": 80.0}, {"choppiness": 0.5}, {"model": "pms"}):
+        assert not moving.can_make(state.changed(changes)), changes
+
+
+def test_waves_are_used_again_where_only_the_choppiness_changes():
+    state = small_state()
+    before = make_exact(state, 1)
+    after = make_exact(state.changed({"choppiness": 0.5}), 2, before=before)
+    for one, other in zip(before.cascade.oceans, after.cascade.oceans, strict=True):
+        assert one.amplitudes is other.amplitudes
+    assert (after.document["choppiness"], after.cascade.choppiness) == (0.5, 0.5)
+    another = make_exact(state.changed({"seed": 9}), 3, before=before)
+    assert another.cascade.oceans[0].amplitudes is not before.cascade.oceans[0].amplitudes
+
+
+def test_a_reference_at_the_end_of_the_loop_is_that_at_its_beginning():
+    made = make_exact(small_state(), 1)
+    first, last = (reference_fields(made, tick)[0] for tick in (0, made.document["ticks"]))
+    assert first[-8 * 4 * 256 :] == last[-8 * 4 * 256 :]
+
+
+def run_maker(states, *, until):
+    """Ask for states one after another at once; return the seas and the failures."""
+    made, failed = [], []
+
+    async def run():
+        worker = Worker()
+        maker = SeaMaker(worker, made.append, lambda state, error: failed.append((state, error)))
+        making = asyncio.create_task(maker.run())
+        for state in states:
+            maker.want(state)
+            await asyncio.sleep(0)
+        while not until(made, failed) or maker.busy:
+            await asyncio.sleep(0.005)
+        making.cancel()
+        assert worker.stop(20.0)
+        return maker
+
+    return made, failed, asyncio.run(run())
+
+
+def test_the_newest_state_wins():
+    states = [small_state(seed=i) for i in range(50)]
+    made, failed, maker = run_maker(
+        states, until=lambda made, _: made and made[-1].state is states[-1]
+    )
+    assert failed == []
+    assert len(made) <= 3  # the first, perhaps one more, the last
+    assert [sea.number for sea in made] == sorted(sea.number for sea in made)
+    assert maker.exact(None).state is states[-1]
+    with pytest.raises(ParameterError, match="an exact sea that is kept"):
+        maker.exact(10**6)
+
+
+def test_a_sea_that_fails_in_any_way_is_told_and_the_next_is_made(monkeypatch):
+    good, bad = small_state(), small_state(seed=1)
+    cascade = State.cascade
+
+    def fail(state, **options):
+        if state.values["seed"] == 1:
+            raise MemoryError("no memory")
+        return cascade(state, **options)
+
+    monkeypatch.setattr(State, "cascade", fail)
+    _, failed, _ = run_maker([bad], until=lambda _, failed: failed)
+    assert [(state, repr(error)) for state, error in failed] == [(bad, "MemoryError('no memory')")]
+    made, _, _ = run_maker([good], until=lambda made, _: made)
+    assert made[0].state is good
+
+
+def test_a_worker_ends_without_waiting_for_its_function():
+    release = threading.Event()
+
+    async def run():
+        worker = Worker()
+        task = asyncio.create_task(worker.run(lambda: release.wait(20.0)))
+        await asyncio.sleep(0.05)
+        assert not worker.stop(0.0)
+        task.cancel()
+        release.set()
+        assert worker.stop(20.0)
+
+    asyncio.run(run())
