@@ -162,7 +162,7 @@ def test_tiles_that_are_not_square():
 
 
 def test_adjoining_bands_share_out_the_cells():
-    """What two bands hold of the same cells adds up to what one band over both holds."""
+    """Variances of two bands of the same cells add up to those of one band over both."""
     grid, edge = Grid.of(32, 200.0), 0.31
     sea = WIDE["40 m"]
     (whole,) = CellLattice([grid], [WHOLE]).variances(sea)

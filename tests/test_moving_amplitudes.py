@@ -47,7 +47,7 @@ def test_another_sea_has_the_waves_of_its_own_cascade(draw):
 
 
 def test_the_cascade_of_another_sea():
-    """It has the settings of the first, and gives nearly the frames of the exact one."""
+    """A moving cascade has the settings of the first, and nearly the frames of the exact one."""
     start = fo.Cascade(FIRST, TILES, seed=9, loop=64.0, choppiness=0.8, dtype="float64")
     moving = MovingAmplitudes(start)
     made = moving.cascade(OTHER)

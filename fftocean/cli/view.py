@@ -82,15 +82,24 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _open_browser(address: str) -> None:
-    """Open the page in the user's browser, or say that it could not be opened."""
-    import webbrowser
+    """
+    Open the page in the user's browser, or say that it could not be opened.
 
-    try:
-        opened = webbrowser.open(address)
-    except (webbrowser.Error, OSError):
-        opened = False
-    if not opened:
-        note("no browser could be opened; open the address above in one on this machine")
+    Some browsers return only when they are closed, so they are started in a thread.
+    """
+    import threading
+
+    def start() -> None:
+        import webbrowser
+
+        try:
+            opened = webbrowser.open(address)
+        except (webbrowser.Error, OSError):
+            opened = False
+        if not opened:
+            note("no browser could be opened; open the address above in one on this machine")
+
+    threading.Thread(target=start, daemon=True).start()
 
 
 def _viewer(options: argparse.Namespace) -> "Viewer":

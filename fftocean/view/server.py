@@ -64,6 +64,7 @@ class PageServer:
         self._port = PORT.check("port", port)
         self._admission = Admission(self._port, new_token())
         self._unfinished: OrderedDict[ServerConnection, None] = OrderedDict()
+        self._connections: set[ServerConnection] = set()
 
     @property
     def address(self) -> str:
@@ -114,7 +115,7 @@ class PageServer:
             server.close()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(server.wait_closed(), STOPPING)
-            for connection in list(server.all_connections):
+            for connection in list(self._connections):
                 connection.transport.abort()
             with contextlib.suppress(asyncio.CancelledError):
                 await making
@@ -123,18 +124,20 @@ class PageServer:
         """Return the class of connections, which keeps account of requests that do not come."""
         from websockets.asyncio.server import ServerConnection
 
-        unfinished = self._unfinished
+        unfinished, connections = self._unfinished, self._connections
 
         class Connection(ServerConnection):
             def connection_made(self, transport: asyncio.BaseTransport) -> None:
                 super().connection_made(transport)
                 unfinished[self] = None
-                # the oldest is given up: whoever means to see the page has sent its request
+                connections.add(self)
+                # the oldest is given up: a browser sends its request at once
                 while len(unfinished) > MOST_UNFINISHED:
                     unfinished.popitem(last=False)[0].transport.abort()
 
             def connection_lost(self, exc: Exception | None) -> None:
                 unfinished.pop(self, None)
+                connections.discard(self)
                 super().connection_lost(exc)
 
         return Connection
@@ -143,7 +146,9 @@ class PageServer:
         """Return the answer to a request; None lets a socket open."""
         self._unfinished.pop(connection, None)
         headers = request.headers
-        objection = self._admission.objection_to_request(request.method, headers.get_all("Host"))
+        # before version 17 websockets itself refuses all methods but GET, and does not tell them
+        method = getattr(request, "method", "GET")
+        objection = self._admission.objection_to_request(method, headers.get_all("Host"))
         if objection is None and request.path == SOCKET_PATH:
             objection = self._admission.objection_to_socket(
                 headers.get_all("Origin"), headers.get_all("Sec-WebSocket-Protocol")

@@ -49,7 +49,7 @@ class Worker:
 
 
 def _settle(future: "asyncio.Future[Any]", result: Any, error: BaseException | None) -> None:
-    """Hand a result to whoever waits for it still."""
+    """Set the result of a future that is still waited for."""
     if future.cancelled():
         return
     if error is None:

@@ -1,6 +1,7 @@
 """`fftocean view`: what it is given, what it refuses, what it writes."""
 
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,16 @@ def page(tmp_path_factory, monkeypatch):
 def served(monkeypatch):
     """Begin to serve and end at once; return the states that were served."""
     states = []
+
+    class AtOnce(threading.Thread):
+        """A thread that has ended when it is started."""
+
+        def start(self):
+            super().start()
+            if self.name != "fftocean-view":
+                self.join(20.0)
+
+    monkeypatch.setattr("threading.Thread", AtOnce)
 
     def serve(server, ready):
         async def once():

@@ -335,7 +335,7 @@ def test_screenshot_and_copies(page):
 
 
 def test_a_text_that_cannot_be_copied_is_shown(page):
-    """Where the browser refuses the clipboard, the text stands selected in a dialog."""
+    """The text stands selected in a dialog if the browser refuses the clipboard."""
     page.evaluate("navigator.clipboard.writeText = () => Promise.reject(new Error('no')); null")
     page.press("b")
     page.until("fftocean.layout.text.node.open")

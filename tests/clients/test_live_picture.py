@@ -24,7 +24,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # the colour behind false colours, which no colour map holds
 PLAIN = (23, 23, 26)
 N = 64
-TICKS = (100000, 230000, 410000)
+TICKS = tuple(range(20000, 520000, 80000))
 
 
 def cox_munk(speed, direction):
@@ -83,7 +83,7 @@ def luminance(answer, picture):
 
 
 def elevations(picture):
-    """Return the elevation of the ray of each pixel [radians], (height, width), row 0 at the top."""
+    """Return the elevation of the ray of each pixel [rad], (height, width), row 0 on top."""
     width, height = picture["width"], picture["height"]
     camera = picture["camera"]
     pitch, half = math.radians(camera["pitch"]), math.radians(camera["fieldOfView"] / 2)
@@ -149,8 +149,8 @@ def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
         {
             "camera": camera,
             "look": look,
-            "width": 512 // part,
-            "height": 288 // part,
+            "width": 384 // part,
+            "height": 216 // part,
             "tick": tick,
             "answer": "radiance",
         }
@@ -162,46 +162,52 @@ def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
         luminance(answer, picture).mean(axis=1)
         for answer, picture in zip(answers, pictures, strict=True)
     ]
-    full = np.mean(rows[: len(TICKS)], axis=0).reshape(72, 4).mean(axis=1)
+    full = np.mean(rows[: len(TICKS)], axis=0).reshape(54, 4).mean(axis=1)
     small = np.mean(rows[len(TICKS) :], axis=0)
     # rows whose upper edge lies a pixel below the horizon
-    row = 36 - 36 * math.tan(math.radians(8.0)) / math.tan(math.radians(25.0))
+    row = 27 - 27 * math.tan(math.radians(8.0)) / math.tan(math.radians(25.0))
     water = slice(math.ceil(row) + 2, None)
     assert np.abs(small[water] / full[water] - 1).max() < 0.05
 
 
 def test_nothing_repeats_from_400_m(show):
     """
-    Straight down from 400 m, the picture and itself one tile further are not alike, for every
-    tile that is wider than a few pixels; the largest tile is 12 wavelengths of the peak wide.
+    Straight down from 400 m, the picture and itself one tile further are not alike, nor are they
+    up to six tiles further; the largest tile is 12 wavelengths of the peak wide.
     """
     speed = 7.0
     peak = fo.Sea.from_wind(speed=speed, fetch=150e3).tp ** 2 * 9.80665 / (2 * math.pi)
     sizes = (12 * peak, 1.7 * peak, 0.24 * peak)
     pixels, metres = 400, 2.5 * 12 * peak
-    field = 2 * math.degrees(math.atan(metres / 2 / 400.0))
     picture = {
-        "camera": {"height": 400.0, "pitch": -90.0, "yaw": 90.0, "fieldOfView": field},
+        "camera": {
+            "height": 400.0,
+            "pitch": -90.0,
+            "yaw": 90.0,
+            "fieldOfView": 2 * math.degrees(math.atan(metres / 2 / 400.0)),
+        },
         "look": {"sunElevation": 4.0, "sunAzimuth": 0.0, "clouds": 0.0},
         "width": pixels,
         "height": pixels,
         "answer": "radiance",
     }
-    (answer,) = show("light-wind", [picture], speed=speed, sizes=sizes, foam=None)
-    seen = luminance(answer, picture)
-    # without the slow changes of light over the picture
-    seen = seen - ndimage.gaussian_filter(seen, 2 * peak / metres * pixels)
-    seen /= np.sqrt(ndimage.gaussian_filter(seen**2, 2 * peak / metres * pixels))
-    for size in sizes[:2]:
-        for axis in (0, 1):
-            step = round(size / metres * pixels)
-            # a tile is no whole number of pixels: the largest of the neighbouring shifts
-            alike = []
-            for shift in range(step - 1, step + 2):
-                first = np.take(seen, range(pixels - shift), axis)
-                second = np.take(seen, range(shift, pixels), axis)
-                alike.append(np.corrcoef(first.ravel(), second.ravel())[0, 1])
-            assert max(alike) < 0.1, (size, axis)
+    pictures = [{**picture, "tick": 75000 * i} for i in range(1, 7)]
+    answers = show("light-wind", pictures, speed=speed, sizes=sizes, foam=None)
+    seen = np.array([luminance(answer, picture) for answer in answers])
+    # what the light does without waves is the mean over moments
+    waves = seen - seen.mean(axis=0)
+    waves /= np.sqrt(ndimage.gaussian_filter((waves**2).mean(axis=0), 12))
+    for size, most in ((sizes[0], 1), (sizes[1], 6)):
+        for axis in (1, 2):
+            for times in range(1, most + 1):
+                # a tile is no whole number of pixels: the largest of the neighbouring shifts
+                step = round(times * size / metres * pixels)
+                alike = []
+                for shift in range(step - 1, step + 2):
+                    first = np.take(waves, range(pixels - shift), axis)
+                    second = np.take(waves, range(shift, pixels), axis)
+                    alike.append(np.corrcoef(first.ravel(), second.ravel())[0, 1])
+                assert max(alike) < 0.1, (size, axis, times)
 
 
 def test_two_pictures_of_a_still_sea_are_equal(show):
@@ -239,8 +245,8 @@ def test_every_view_shows_something_of_its_own(show):
         {
             "camera": {"height": 8.0, "yaw": 215.0, "pitch": -14.0, "fieldOfView": 50.0},
             "look": {"view": name},
-            "width": 96,
-            "height": 54,
+            "width": 256,
+            "height": 144,
             "answer": "colours",
         }
         for name in names
@@ -250,7 +256,7 @@ def test_every_view_shows_something_of_its_own(show):
         for answer, picture in zip(show("breeze", pictures), pictures, strict=True)
     ]
     for i, first in enumerate(seen):
-        assert first[30:].std() > 1.0 or names[i] == "foam"
+        assert first[80:].std() > 1.0 or names[i] == "foam"
         for second in seen[:i]:
             assert np.abs(first - second).mean() > 2.0
 
@@ -314,7 +320,7 @@ def test_the_facets_that_are_seen_have_the_moments_of_all(browser, mean):
     assert first[0] == pytest.approx(moments[0], rel=2e-3)
     for order in range(5):
         found = float(weights @ areas**order)
-        assert found == pytest.approx(moments[order] / moments[0], rel=6e-3), order
+        assert found == pytest.approx(moments[order] / moments[0], rel=1e-2), order
 
 
 @pytest.mark.parametrize(("metres", "pixels"), [(73.7, 512), (737.0, 256)])

@@ -135,7 +135,7 @@ def test_sines_of_the_platform_are_too_coarse(page):
 
 @pytest.mark.parametrize("name", ["cascade", "oblong", "shallow-128"])
 def test_the_worker_computes_every_field(page, name):
-    """It takes over by itself where the GPU has no target of 32-bit floats, and says so."""
+    """The Worker takes over where the GPU has no target of 32-bit floats, and the note says so."""
     oceans, package = sea(name)
     ticks = package.document["ticks"]
     seen = page("fields", name, ticks=five(ticks), missing="EXT_color_buffer_float")

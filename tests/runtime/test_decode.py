@@ -62,7 +62,7 @@ def test_in_float64_only_the_amplitudes_are_rounded(tmp_path):
 
 
 def test_a_loaded_package_is_packed_to_the_same_bytes():
-    """What is stored is all there is: a second generation loses nothing."""
+    """A package of a loaded sea has the same bytes: nothing is lost again."""
     first = build.packed()
     again = runtime.pack(runtime.ocean_of(first), textures=True)
     waves = [name for name in first.files if name.endswith((".waves", ".bin"))]

@@ -142,7 +142,7 @@ def test_the_reference_is_the_direct_sum_of_the_exported_sea():
 
 
 def test_the_frames_are_those_of_the_reference():
-    """What a page checks: its own fields, in float32, at the points of check.json."""
+    """Fields in float32 at the points of check.json, as a page computes them."""
     tree = json.loads(build.packed().files["check.json"])
     for i, tick in enumerate(tree["moments"]):
         frames = build.cascade().loop_frame(tick, tree["ticks"])

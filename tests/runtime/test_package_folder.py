@@ -147,7 +147,7 @@ def test_a_file_that_no_package_lists_is_never_replaced(name, tmp_path):
 
 
 def test_a_changed_document_is_not_overwritten(tmp_path):
-    """What it lists is not known to be of a package."""
+    """Files that it lists are not known to be of a package."""
     fo.export_sea(ocean(), tmp_path)
     text = (tmp_path / "sea.json").read_text()
     (tmp_path / "sea.json").write_text(text.replace("README.md", "notes.txt"))

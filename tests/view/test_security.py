@@ -1,11 +1,15 @@
 """Requests that must get nothing: foreign hosts, origins, tokens, methods and paths."""
 
+import importlib.metadata
 import struct
 
 import pytest
 from serving import PAGE, answer
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
+
+LATE = int(importlib.metadata.version("websockets").partition(".")[0]) >= 17
+"""From this version on websockets leaves the refusal of methods to the server."""
 
 pytestmark = pytest.mark.usefixtures("quiet_seas")
 
@@ -54,9 +58,14 @@ def test_any_other_host_is_refused(shared):
     "method", ["POST", "PUT", "HEAD", "DELETE", "OPTIONS", "PATCH", "get", "TRACE"]
 )
 def test_any_other_method_is_refused(shared, method):
-    status, headers, _ = shared.request("/", method=method)
-    assert (status, headers["allow"]) == (405, "GET")
-    assert shared.handshake(method=method)[0] == 405
+    status, headers, body = shared.request("/", method=method)
+    assert b"<html" not in body
+    if LATE:
+        assert (status, headers["allow"]) == (405, "GET")
+        assert shared.handshake(method=method)[0] == 405
+    else:
+        assert status in (0, 400)
+        assert shared.handshake(method=method)[0] in (0, 400)
 
 
 def test_a_request_with_a_body_gets_nothing(shared):
@@ -107,7 +116,7 @@ def test_every_answer_has_the_headers_that_protect_it(shared):
         shared.request("/favicon.ico"),
         shared.request("/none"),
         shared.request("/", host=["evil.example"]),
-        shared.request("/", method="POST"),
+        *([shared.request("/", method="POST")] if LATE else []),
         shared.handshake(origins=["http://evil.example"]),
     ]
     for _, headers, _ in answers:

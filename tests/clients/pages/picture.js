@@ -1,16 +1,22 @@
 // The live page's pictures: seas drawn by the renderer, as colours of the screen or as radiance.
-import { Camera } from "/live/camera.js";
-import { decodeSea } from "/live/container.js";
-import { target, texture } from "/live/gl.js";
-import { Renderer } from "/live/renderer.js";
-import { createSimulation } from "/live/simulation.js";
-import { base64, bytes } from "./common.js";
+import { Camera } from '/live/camera.js';
+import { decodeSea } from '/live/container.js';
+import { drawFullscreen, FRAGMENT_HEAD, program, target, texture } from '/live/gl.js';
+import { FoamField } from '/live/foam.js';
+import { halfFloats } from '/live/half.js';
+import { Renderer } from '/live/renderer.js';
+import { FOAM_LOOKUP } from '/live/shaders/breaking.js';
+import { VISIBLE_SLOPES } from '/live/shaders/surface.js';
+import { createSimulation } from '/live/simulation.js';
+import { visibleTable } from '/live/visible_slopes.js';
+import { base64, bytes } from './common.js';
 
-const canvas = document.getElementById("canvas");
-const gl = canvas.getContext("webgl2", {
+const canvas = document.getElementById('canvas');
+const gl = canvas.getContext('webgl2', {
   antialias: true,
   preserveDrawingBuffer: true,
 });
+gl.getExtension('EXT_color_buffer_float');
 
 let stage = null;
 
@@ -28,12 +34,7 @@ async function prepare({ name, quality, document: changed = {} }) {
 }
 
 /** Run the foam up to a tick. */
-async function foamUntil(
-  { simulation, renderer },
-  camera,
-  tick,
-  { steps, seconds },
-) {
+async function foamUntil({ simulation, renderer }, camera, tick, { steps, seconds }) {
   const { ticks, loop } = simulation.document;
   renderer.restartFoam();
   for (let i = steps; i >= 0; i--) {
@@ -82,13 +83,7 @@ function colours(width, height) {
 
 /** Draw one picture and return what is asked for of it. */
 async function draw(picture) {
-  const {
-    width,
-    height,
-    tick = 100000,
-    look = {},
-    foam = { steps: 0, seconds: 0 },
-  } = picture;
+  const { width, height, tick = 100000, look = {}, foam = { steps: 0, seconds: 0 } } = picture;
   const made = await prepare(picture);
   const { simulation, renderer } = made;
   const camera = new Camera(picture.camera);
@@ -100,20 +95,17 @@ async function draw(picture) {
     colours(1, 1);
   }
   const began = performance.now();
-  if (picture.answer === "radiance") {
-    answer.radiance = base64(
-      radiance(renderer, simulation, camera, look, width, height),
-    );
+  if (picture.answer === 'radiance') {
+    answer.radiance = base64(radiance(renderer, simulation, camera, look, width, height));
   } else {
     canvas.width = width;
     canvas.height = height;
     renderer.render(simulation, camera, look, width, height);
     answer.colours = base64(colours(width, height));
-    if (picture.answer === "image")
-      answer.image = canvas.toDataURL("image/png").split(",")[1];
+    if (picture.answer === 'image') answer.image = canvas.toDataURL('image/png').split(',')[1];
   }
   answer.milliseconds = performance.now() - began;
-  if (picture.answer === "image") delete answer.colours;
+  if (picture.answer === 'image') delete answer.colours;
   answer.error = gl.getError();
   return answer;
 }
@@ -144,7 +136,7 @@ async function coverage(picture) {
 /** Return the texels of the light and the map of the sky. */
 async function lightOf(picture) {
   const { renderer } = await prepare(picture);
-  await draw({ ...picture, answer: "colours" });
+  await draw({ ...picture, answer: 'colours' });
   const { sky } = renderer;
   return {
     light: [...sky.lightTarget.read(0)],

@@ -58,7 +58,10 @@ async function shown(model) {
   el.style.width = '300px';
   const end = render({ model, el });
   const own = globalThis[Symbol.for('fftocean.live-views')].at(-1);
-  await until(() => own.app?.frames > 0);
+  await until(() => {
+    if (el.textContent.includes('cannot be shown')) throw new Error(el.textContent);
+    return own.app?.frames > 0;
+  });
   return { el, own, end };
 }
 

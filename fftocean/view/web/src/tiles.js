@@ -1,11 +1,17 @@
 // Where the eye stands in each tile of a sea, in double precision.
 import { SHRUNK } from './shaders/tiles.js';
 
-// The shears that keep tiles from repeating: wave vectors in tiles, and the gradient of each.
+// Wave vectors, in tiles, of the shears that keep tiles from repeating. No small multiple of a tile
+// is near a whole wave of both.
 const SHEARS = [
-  { east: 0.368, north: 0.277, gradient: 0.06 },
-  { east: -0.561, north: 0.47, gradient: 0.06 },
+  [0.19, 0.137],
+  [-0.15, 0.217],
 ];
+
+// Their gradients: the largest tile holds many waves, whose crests need to move little; of the
+// others the longest waves are a fifth of the tile.
+const GRADIENT_OF_LARGEST = 0.065;
+const GRADIENT = 0.21;
 
 /** Return the part of a number after the point, also of a negative one. */
 function fraction(value) {
@@ -24,13 +30,15 @@ export function tileUniforms(tiles, east, north) {
   const waves = [];
   const shifts = [];
   const phases = [];
+  const largest = Math.max(...tiles.map((tile) => tile.lx));
   for (const { nx, ny, lx, ly } of tiles) {
+    const gradient = lx === largest ? GRADIENT_OF_LARGEST : GRADIENT;
     const corner = [0.5 / nx, 0.5 / ny]; // texel i lies at i L / n
     const size = Math.max(lx, ly);
     const shear = [];
     const wave = [];
     const phase = [];
-    for (const { east: x, north: y, gradient } of SHEARS) {
+    for (const [x, y] of SHEARS) {
       const length = Math.hypot(x, y);
       const amplitude = (gradient * size) / (2 * Math.PI * length);
       const shift = [(-y / length) * amplitude, (x / length) * amplitude];

@@ -11,11 +11,10 @@ export function eachTile(count, line) {
 /**
  * Return the source that finds places in the maps of some tiles.
  *
- * Each tile's coordinates are sheared a little by two long waves whose lengths are no fraction of
- * the tile's: what repeats meets itself out of step, and no repetition is seen from high above.
- * Shears keep areas, and with them the spectrum; where the waves are turned, at most by 3.5
- * degrees, slopes are not turned with them. At the origin of the world the shears and their
- * gradients vanish.
+ * Each tile's coordinates are sheared by two waves some tiles long, no whole number of them: what
+ * repeats meets itself out of step, and no repetition is seen from high above. Shears keep areas,
+ * and with them the spectrum; they turn waves by some degrees, and slopes and their moments with
+ * them. At the origin of the world the shears and their gradients vanish.
  */
 export function tilePlaces(count) {
   return `
@@ -30,6 +29,17 @@ vec2 tile_place(int tile, vec2 rest) {
   vec2 turned = cos(vec2(dot(waves.xy, rest), dot(waves.zw, rest)) + shear_phases[tile]);
   vec2 sheared = rest + shifts.xy * turned.x + shifts.zw * turned.y;
   return tile_frames[tile].xy + sheared * tile_frames[tile].zw;
+}
+
+// Gradients of the sheared fields from those of the tile's own coordinates.
+void turn_slopes(int tile, vec2 rest, inout vec2 slope, inout vec3 moments) {
+  vec4 waves = shear_waves[tile], shifts = shear_shifts[tile];
+  vec2 rate = sin(vec2(dot(waves.xy, rest), dot(waves.zw, rest)) + shear_phases[tile]);
+  mat2 turn = mat2(1.0) - rate.x * outerProduct(waves.xy, shifts.xy) -
+    rate.y * outerProduct(waves.zw, shifts.zw);
+  slope = turn * slope;
+  mat2 second = turn * mat2(moments.x, moments.z, moments.z, moments.y) * transpose(turn);
+  moments = vec3(second[0][0], second[1][1], second[0][1]);
 }
 `;
 }
@@ -66,7 +76,8 @@ export function slopeSum(count, { spaced = false } = {}) {
   at = tile_place(TILE, rest);
   ${spaced ? 'level = max(log2(spacing * tile_frames[TILE].z * float(textureSize(slope_maps[TILE], 0).x)), 0.0);' : ''}
   slopes = ${look('slope')};
-  moments = ${look('moment')};
+  moments = ${look('moment')}.xyz;
+  turn_slopes(TILE, rest, slopes.xy, moments);
   sums.slope += slopes.xy;
   sums.stretch += vec3(slopes.zw, ${spaced ? '0.0' : `${look('displacement')}.w`});
   // Half floats leave a negative difference now and then.
@@ -82,7 +93,8 @@ struct Sums {
 Sums summed(vec2 rest${spaced ? ', float spacing' : ''}) {
   Sums sums = Sums(vec2(0.0), vec3(0.0), vec3(0.0));
   vec2 at;
-  vec4 slopes, moments;
+  vec4 slopes;
+  vec3 moments;
   ${spaced ? 'float level;' : ''}
   ${eachTile(count, line)}
   return sums;
