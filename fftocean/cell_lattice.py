@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fftocean.arrays import Integer, Real
-from fftocean.cells import QUADRANTS, Band, Cells, Part
+from fftocean.cells import QUADRANTS, Band, Part, parts_of_sea
 from fftocean.errors import ParameterError
 from fftocean.grid import Grid
 from fftocean.kernels import arcs
@@ -129,7 +129,7 @@ class CellLattice:
             ParameterError: the sea's density is negative or not finite somewhere.
         """
         total: list[Real] = [np.zeros((4, tile.ax.size)) for tile in self.tiles]
-        for part in Cells(sea, 1.0, 1.0).parts:
+        for part in parts_of_sea(sea):
             below = self._below(part)
             if not (np.all(np.diff(below) >= 0.0) and below[-1] < np.inf):
                 raise ParameterError(

@@ -143,6 +143,17 @@ class Cells:
             )
         return total
 
+    def _inside(self, half_x: float, half_y: float, band: Band) -> float:
+        """
+        Return the same as `inside` of spreadings with integral 1: what a circle within the
+        rectangle holds is an integral over k alone.
+        """
+        edge = min(half_x, half_y)
+        if not band[0] < edge:
+            return self.inside(half_x, half_y, band)
+        circle = sum(part.share * part.between(band[0], min(edge, band[1])) for part in self.parts)
+        return circle + self.inside(half_x, half_y, (edge, band[1]))
+
     def rays(
         self, half_x: float, half_y: float, band: Band = WHOLE
     ) -> Iterator[tuple["Part", Real, Real, Real]]:
@@ -204,8 +215,8 @@ class Cells:
                     "and jumps in its `breaks`, or wrap it in CustomSpreading"
                 )
         reach_x, reach_y = grid.reach
-        within = self.inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
-        within -= self.inside(0.5 * grid.dkx, 0.5 * grid.dky, band)
+        within = self._inside((reach_x + 0.5) * grid.dkx, (reach_y + 0.5) * grid.dky, band)
+        within -= self._inside(0.5 * grid.dkx, 0.5 * grid.dky, band)
         scale = sum(part.share * part.mainly for part in self.parts)
         if not abs(held - within) <= TOLERANCE * scale:
             raise ParameterError(
@@ -417,14 +428,18 @@ class Part:
                 float(unity[np.argmax(np.abs(unity - 1.0))]) if self.variance > 0.0 else 1.0
             )
 
+    def spectrum_at(self, k: Real) -> tuple[Real, Real]:
+        """Return omega and S at k > 0."""
+        omega = dispersion.angular_frequency(k, self.depth, self.tension)
+        if self.knows_waves:
+            return omega, self.system.spectrum.at_waves(omega, k)  # type: ignore[attr-defined]
+        return omega, self.system.spectrum(omega)
+
     def radial(self, k: Real) -> tuple[Real, Real]:
         """Return omega and S d omega/dk at k > 0."""
-        omega = dispersion.angular_frequency(k, self.depth, self.tension)
+        omega, s = self.spectrum_at(k)
         slope = omega / k * dispersion.group_to_phase_speed(k, self.depth, self.tension)
-        if self.knows_waves:
-            at_waves = self.system.spectrum.at_waves  # type: ignore[attr-defined]
-            return omega, at_waves(omega, k) * slope
-        return omega, self.system.spectrum(omega) * slope
+        return omega, s * slope
 
     def density(self, k: Real, theta: Real) -> Real:
         """
@@ -436,6 +451,15 @@ class Part:
         return s * self.system.spreading(
             omega, theta - self.direction, float(self.system.spectrum.peak)
         )
+
+    def between(self, low: float, high: float) -> float:
+        """Return the variance between two wavenumbers, in all directions [m^2]."""
+        last = min(high, float(self.k[-1]))
+        if not low < last:
+            return 0.0
+        _, first, end = split(np.array([low]), np.array([last]), self.k)
+        k, weight = gauss(first, end)
+        return float(np.sum(self.radial(k)[1] * weight))
 
     def along_rays(self, theta: Real, weight: Real, first: Real, last: Real) -> Real:
         """

@@ -1,12 +1,13 @@
 """Directional spectrum of a sea in cells of frequency and direction."""
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from fftocean.arrays import Real
-from fftocean.cells import Cells
+from fftocean.cells import Part, parts_of_sea
 from fftocean.physics.panels import gauss, split
 from fftocean.physics.sea import Sea
 
@@ -21,7 +22,13 @@ class PolarSpectrum(NamedTuple):
     density: Real  # (rings, sectors) [m^2/Hz/degree]
 
 
-def polar_spectrum(sea: Sea, highest: float, rings: int = 160, sectors: int = 240) -> PolarSpectrum:
+def polar_spectrum(
+    sea: Sea,
+    highest: float,
+    rings: int = 160,
+    sectors: int = 240,
+    parts: Sequence[Part] | None = None,
+) -> PolarSpectrum:
     """
     Average a sea's spectrum over cells of frequency and direction.
 
@@ -31,6 +38,7 @@ def polar_spectrum(sea: Sea, highest: float, rings: int = 160, sectors: int = 24
         sea: the specified sea.
         highest: the frequency at the outer edge [Hz].
         rings, sectors: the number of cells in frequency and in direction.
+        parts: the `cells.parts_of_sea`, if they are known.
 
     Pinned by tests/test_polar_spectrum.py, against the integral of S.
     """
@@ -39,7 +47,7 @@ def polar_spectrum(sea: Sea, highest: float, rings: int = 160, sectors: int = 24
     count = rings * _MIDPOINTS
     omega = (np.arange(count) + 0.5) * (2.0 * math.pi * highest / count)
     density = np.zeros((count, sectors))
-    for part in Cells(sea, 1.0, 1.0).parts:
+    for part in parts_of_sea(sea) if parts is None else parts:
         spectrum = part.share * part.system.spectrum(omega)
         if part.long_crested:
             density[:, int(part.direction / (2.0 * math.pi) * sectors) % sectors] += spectrum

@@ -58,6 +58,19 @@ NARROW = [
 ]
 
 
+@pytest.mark.parametrize("spreading", NARROW)
+@pytest.mark.parametrize(
+    ("half_x", "half_y", "band"),
+    [(3.0, 3.0, (0.0, math.inf)), (3.0, 1.0, (0.2, 2.0)), (0.05, 0.05, (0.0, math.inf))],
+)
+def test_inside_by_a_circle_and_the_rest(spreading, half_x, half_y, band):
+    """Within the circle no direction is needed; panels resolve both integrals to 1e-6."""
+    tile = Cells(sea_of(spreading, 75.0), 0.1, 0.1)
+    assert tile._inside(half_x, half_y, band) == pytest.approx(
+        tile.inside(half_x, half_y, band), abs=2e-5 * tile.specified
+    )
+
+
 def cumulated(omega, spectrum):
     """Variance below omega of a Pierson-Moskowitz sea, in closed form."""
     m0 = spectrum.alpha * GRAVITY**2 / (5.0 * spectrum.peak**4)

@@ -421,6 +421,18 @@ LOCAL = (
         help="colour of the water: 0.03 is clear blue ocean, 10 a green coast",
     ),
     Parameter(
+        name="foam",
+        label="foam",
+        quantity=FACTOR,
+        low=0.0,
+        high=4.0,
+        step=0.1,
+        default=1.0,
+        local=True,
+        group=_LIGHT,
+        help="factor on the foam that breaking crests leave; 1 is that of the wind",
+    ),
+    Parameter(
         name="haze",
         label="haze",
         quantity=FACTOR,

@@ -36,6 +36,7 @@ async function newPage({ width = 320, height = 200, reducedMotion, before }) {
   const log = [], failures = [], requests = [];
   const options = { viewport: { width, height }, reducedMotion: reducedMotion ? 'reduce' : 'no-preference' };
   const context = await browser.newContext(options);
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const page = await context.newPage();
   page.setDefaultTimeout(0); // the test that asked has the only clock
   page.setDefaultNavigationTimeout(0);

@@ -182,28 +182,33 @@ def test_verify_compares_every_field_of_every_tile(page):
     assert verdict["passed"]
     assert "Verified" in page.evaluate("document.querySelector('.verdict').textContent")
     # and it would see a wrong sea
+    page.evaluate("globalThis.size = fftocean.stage.simulation.tiles[1].lx")
     page.evaluate("fftocean.stage.simulation.tiles[1].lx *= 1.0001")
     page.evaluate("fftocean.verify()")
     assert not page.evaluate("fftocean.verdict.passed")
-    page.evaluate("fftocean.stage.simulation.tiles[1].lx /= 1.0001")
+    page.evaluate("fftocean.stage.simulation.tiles[1].lx = size")
 
 
 @pytest.mark.parametrize("restored", [True, False], ids=["restored", "replaced"])
 def test_a_lost_context_comes_back(page, restored):
     """The picture is the same after the loss, on the same canvas or on another one."""
     before = page.evaluate(PICTURE)
-    page.evaluate(
-        "globalThis.loss = fftocean.stage.gl.getExtension('WEBGL_lose_context');"
-        "globalThis.old = fftocean.canvas; null"
-    )
     losses = page.evaluate("fftocean.stage.losses")
-    page.evaluate("loss.loseContext()")
-    page.until(f"fftocean.stage.losses === {losses + 1}")
-    assert "lost" in page.evaluate("fftocean.layout.banner.textContent")
+    page.evaluate(
+        f"""new Promise((done) => {{
+          const loss = fftocean.stage.gl.getExtension('WEBGL_lose_context');
+          globalThis.old = fftocean.canvas;
+          old.addEventListener('webglcontextlost', () => {{
+            globalThis.said = fftocean.layout.banner.textContent;
+            setTimeout(() => done({json.dumps(restored)} ? loss.restoreContext() : null));
+          }}, {{ once: true }});
+          loss.loseContext();
+        }})"""
+    )
+    assert page.evaluate("fftocean.stage.losses") == losses + 1
+    assert "lost" in page.evaluate("said")
     page.press("p")  # the page lives on
     page.until("fftocean.served.wind_speed === 11.5")
-    if restored:
-        page.evaluate("loss.restoreContext()")
     settle(page)
     assert page.evaluate("fftocean.canvas === globalThis.old") == restored
     assert page.evaluate("fftocean.layout.banner.hidden")
@@ -294,6 +299,7 @@ def test_keys_of_the_page_itself(page):
     page.press("Escape")
     assert not page.evaluate("fftocean.layout.help.node.open")
     assert page.evaluate("sent.length") == 0
+    page.evaluate("delete fftocean.connection.socket.send; null")
 
 
 def test_every_key_is_listed_and_has_a_control(page):
@@ -314,15 +320,29 @@ def test_every_key_is_listed_and_has_a_control(page):
 
 
 def test_screenshot_and_copies(page):
-    """X saves a PNG; C and B give the texts of the server, which a browser may refuse to copy."""
+    """X saves a PNG; C and B put the server's texts on the clipboard."""
     page.press("x")
-    page.until("document.querySelector('.toasts').textContent.includes('Saved')")
+    page.until("fftocean.layout.toasts.textContent.includes('Saved')")
+    assert any(url.startswith("download: fftocean-") for url in page.requests)
     for key, what, words in (("c", "job", "[sea"), ("b", "command", "fftocean bake")):
         page.press(key)
         page.until(f"fftocean.copied?.what === {what!r}")
-        assert words in page.evaluate("fftocean.copied.text")
-        page.press("Escape")
-    assert any(url.startswith("download: fftocean-") for url in page.requests)
+        page.until("fftocean.layout.toasts.textContent.includes('on the clipboard')")
+        text = page.evaluate("navigator.clipboard.readText()")
+        assert words in text
+        assert page.evaluate("fftocean.copied.text") == text
+        page.evaluate("fftocean.layout.toasts.replaceChildren()")
+
+
+def test_a_text_that_cannot_be_copied_is_shown(page):
+    """The text stands selected in a dialog if the browser refuses the clipboard."""
+    page.evaluate("navigator.clipboard.writeText = () => Promise.reject(new Error('no')); null")
+    page.press("b")
+    page.until("fftocean.layout.text.node.open")
+    assert page.evaluate("document.activeElement.value") == page.evaluate("fftocean.copied.text")
+    page.press("Escape")
+    assert not page.evaluate("fftocean.layout.text.node.open")
+    page.evaluate("delete navigator.clipboard.writeText; null")
 
 
 def test_keys_are_left_alone_in_fields(server, page):

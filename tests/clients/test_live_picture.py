@@ -24,7 +24,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 # the colour behind false colours, which no colour map holds
 PLAIN = (23, 23, 26)
 N = 64
-TICKS = (100000, 230000, 410000)
+TICKS = tuple(range(20000, 520000, 80000))
 
 
 def cox_munk(speed, direction):
@@ -149,8 +149,8 @@ def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
         {
             "camera": camera,
             "look": look,
-            "width": 512 // part,
-            "height": 288 // part,
+            "width": 384 // part,
+            "height": 216 // part,
             "tick": tick,
             "answer": "radiance",
         }
@@ -162,10 +162,10 @@ def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
         luminance(answer, picture).mean(axis=1)
         for answer, picture in zip(answers, pictures, strict=True)
     ]
-    full = np.mean(rows[: len(TICKS)], axis=0).reshape(72, 4).mean(axis=1)
+    full = np.mean(rows[: len(TICKS)], axis=0).reshape(54, 4).mean(axis=1)
     small = np.mean(rows[len(TICKS) :], axis=0)
     # rows whose upper edge lies a pixel below the horizon
-    row = 36 - 36 * math.tan(math.radians(8.0)) / math.tan(math.radians(25.0))
+    row = 27 - 27 * math.tan(math.radians(8.0)) / math.tan(math.radians(25.0))
     water = slice(math.ceil(row) + 2, None)
     assert np.abs(small[water] / full[water] - 1).max() < 0.05
 
@@ -320,7 +320,7 @@ def test_the_facets_that_are_seen_have_the_moments_of_all(browser, mean):
     assert first[0] == pytest.approx(moments[0], rel=2e-3)
     for order in range(5):
         found = float(weights @ areas**order)
-        assert found == pytest.approx(moments[order] / moments[0], rel=6e-3), order
+        assert found == pytest.approx(moments[order] / moments[0], rel=1e-2), order
 
 
 @pytest.mark.parametrize(("metres", "pixels"), [(73.7, 512), (737.0, 256)])

@@ -141,7 +141,7 @@ def test_the_manifest_says_what_was_derived(bakes):
 
 
 def test_the_manifest_is_a_document_for_the_page(bakes):
-    """The manifest is plain JSON; its numbers are those of the job and of the waves."""
+    """Plain JSON, whose numbers are those of the job and of the waves."""
     document = json.loads(json.dumps(open_bake(bakes / "exr").manifest(), allow_nan=False))
     assert (document["format"], document["version"]) == ("fftocean-playback", 1)
     assert document["frames"] == COUNT

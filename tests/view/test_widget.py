@@ -106,7 +106,7 @@ def test_another_sea_takes_its_place(cascade):
 
 
 def test_the_page_can_ask_for_reference_fields(cascade, monkeypatch):
-    """Heights are those of the cascade at the tick, computed in float64."""
+    """Fields are those of the cascade at the tick, computed in float64."""
     widget = fo.view(cascade)
     page = Page(widget, monkeypatch)
     ticks = container(widget.sea)["ticks"]

@@ -16,6 +16,7 @@ const gl = canvas.getContext('webgl2', {
   antialias: true,
   preserveDrawingBuffer: true,
 });
+gl.getExtension('EXT_color_buffer_float');
 
 let stage = null;
 

@@ -418,6 +418,7 @@ export class App {
       const value = this.values[name];
       if (name === 'time_scale') this.clock.scale = value;
       if (name === 'blend_frames') this.stage.blendFrames = value;
+      if (name === 'foam' && this.clock.paused) this.stage.foamIsNew = true;
       if (name === 'camera_height') this.camera.height = value;
       if (name === 'field_of_view') this.camera.fieldOfView = value;
       if (name === 'view') this.layout.showView(VIEW_NAMES[value] ?? '');
@@ -749,12 +750,12 @@ export class App {
   /** Bring the sea to the clock's tick, and draw it. */
   async picture(seconds, passed) {
     const { clock, stage } = this;
-    const { choppiness } = this.values;
-    if (stage.foamIsNew) await stage.growFoam(clock, choppiness, this.eye());
+    const { choppiness, foam } = this.values;
+    if (stage.foamIsNew) await stage.growFoam(clock, choppiness, this.eye(), foam);
     stage.simulation?.advance(passed);
     await stage.step(clock.tick, choppiness);
     if (!stage.ready) return;
-    if (seconds !== 0) stage.renderer.advanceFoam(stage.source, this.eye(), Math.abs(seconds));
+    if (seconds !== 0) stage.advanceFoam(this.eye(), Math.abs(seconds), foam);
     this.draw();
   }
 

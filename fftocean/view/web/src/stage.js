@@ -194,8 +194,16 @@ export class Stage {
     await done;
   }
 
+  /** Advance the foam around the eye; `amount` is a factor on what crests leave. */
+  advanceFoam(eye, seconds, amount = 1) {
+    const { document, tiles } = this.source;
+    const { foam } = document;
+    const more = foam && { ...foam, strength: amount * foam.strength };
+    this.renderer.advanceFoam({ tiles, document: { ...document, foam: more } }, eye, seconds);
+  }
+
   /** Let foam grow over the seconds before a tick, once after each building. */
-  async growFoam(clock, choppiness, eye) {
+  async growFoam(clock, choppiness, eye, amount) {
     const { playback } = this;
     // the earlier frames of a bake must be here; where they do not fit, foam grows as it plays
     this.foamIsNew = Boolean(playback?.fits && !playback.whole);
@@ -207,7 +215,7 @@ export class Stage {
       const tick = Math.floor(clock.tick - (before / loop) * ticks);
       await this.step(((tick % ticks) + ticks) % ticks, choppiness);
       if (!this.ready) return;
-      this.renderer.advanceFoam(this.source, eye, step);
+      this.advanceFoam(eye, step, amount);
     }
   }
 

@@ -107,7 +107,7 @@ vec3 foam_at(vec2 rest) {
   float soft = 0.45;
   float patches = above((threshold_of(cover) * sqrt(1.0 + soft) - noise) / sqrt(lost + soft));
   // Where almost none of the noise is left, nothing is: the rest of the pair's error goes too.
-  patches = mix(patches, cover, smoothstep(0.75, 0.95, lost));
+  patches = mix(patches, cover, smoothstep(0.5, 0.9, lost));
   return vec3(cover, cover < 2e-4 ? cover : patches, 1.0 + 0.12 * noise);
 }
 `;
