@@ -15,10 +15,11 @@ tiles of 128^2 over 420, 61 and 8.3 m, it is 0.65 with all waves, 0.68 without t
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError, described
@@ -40,6 +41,13 @@ _RADII, _ANGLES = 64, 64  # of the integral over two Gaussian variables
 _FARTHEST = 9.0  # standard deviations
 
 
+class GivenWaves(NamedTuple):
+    """Waves of tiles that no ocean is made of."""
+
+    tiles: tuple[Amplitudes, ...]
+    choppiness: float  # [-]
+
+
 def whitecap_coverage(wind_speed: float) -> float:
     """
     Return the mean share of the sea that whitecaps cover, 2.95e-6 U^3.52, at most 1.
@@ -55,7 +63,7 @@ def whitecap_coverage(wind_speed: float) -> float:
 
 
 def threshold_for(
-    source: Cascade | Ocean,
+    source: Cascade | Ocean | GivenWaves,
     wind_speed: float,
     *,
     tau: float = 3.5,
@@ -117,9 +125,9 @@ class _FoamStatistics:
     """The foam of Gaussian water that has the displacement gradients of some waves."""
 
     def __init__(
-        self, source: Cascade | Ocean, tau: float, strength: float, shortest: float
+        self, source: Cascade | Ocean | GivenWaves, tau: float, strength: float, shortest: float
     ) -> None:
-        if not isinstance(source, (Cascade, Ocean)):
+        if not isinstance(source, (Cascade, Ocean, GivenWaves)):
             raise ParameterError(f"source must be a Cascade or an Ocean, got {described(source)}")
         self._tau = FOAM_TAU.check("tau", tau)
         self._strength = FOAM_STRENGTH.check("strength", strength)
@@ -224,14 +232,19 @@ def _normal(x: Any) -> Any:
     return np.exp(-0.5 * np.square(x)) / math.sqrt(2.0 * math.pi)
 
 
-def _stretches(source: Cascade | Ocean, shortest: float) -> tuple[Real, Real]:
+def _stretches(source: Cascade | Ocean | GivenWaves, shortest: float) -> tuple[Real, Real]:
     """
     Return the root mean square stretch (xx, yy, xy), (3, m), and omega, (m,), of the waves, with
     choppiness.
     """
+    if isinstance(source, GivenWaves):
+        tiles = source.tiles
+    else:
+        oceans = source.oceans if isinstance(source, Cascade) else (source,)
+        tiles = tuple(ocean.amplitudes for ocean in oceans)
     stretches, omegas = [], []
-    for ocean in source.oceans if isinstance(source, Cascade) else (source,):
-        a, grid = ocean.amplitudes, ocean.grid
+    for a in tiles:
+        grid = a.grid
         variance = 2.0 * a.squares
         variance[:, 0] *= 0.5  # the column mx = 0 holds both k and -k
         k = grid.k

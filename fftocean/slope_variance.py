@@ -7,10 +7,12 @@ them.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
+from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError, described
@@ -55,7 +57,17 @@ def slope_variance(
 
     Pinned by tests/test_slope_variance.py, against frames and integrals of the spectrum.
     """
-    captured = captured_by(source)
+    return beyond_tiles(captured_by(source), wind_speed, wind_direction)
+
+
+def beyond_tiles(
+    captured: Symmetric, wind_speed: float | None, wind_direction: float = 0.0
+) -> SlopeVariance:
+    """
+    Return the slope variance of the sea under a wind, and beyond tiles that have `captured` of it.
+
+    Arguments as of `slope_variance`.
+    """
     floor = FLOOR, FLOOR, 0.0
     if wind_speed is None:
         return SlopeVariance(captured, _sum(captured, floor), floor, raised=False)
@@ -75,9 +87,15 @@ def captured_by(source: Cascade | Ocean) -> Symmetric:
     """
     if not isinstance(source, (Cascade, Ocean)):
         raise ParameterError(f"source must be a Cascade or an Ocean, got {described(source)}")
+    oceans = source.oceans if isinstance(source, Cascade) else (source,)
+    return captured_by_tiles([ocean.amplitudes for ocean in oceans])
+
+
+def captured_by_tiles(tiles: Iterable[Amplitudes]) -> Symmetric:
+    """Return the slope variance of the waves of some tiles; see `captured_by`."""
     xx = yy = xy = 0.0
-    for ocean in source.oceans if isinstance(source, Cascade) else (source,):
-        a, grid = ocean.amplitudes, ocean.grid
+    for a in tiles:
+        grid = a.grid
         variance = a.variance_forward.copy()
         variance[:, 1:] += a.variance_backward[:, 1:]  # the column mx = 0 holds both k and -k
         xx += float(np.sum(variance, axis=0) @ grid.kx**2)

@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
             textures=options.textures,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=Foam(**job.foam),
+            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
             wind=wind,
             overwrite=options.overwrite,
         )

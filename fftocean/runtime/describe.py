@@ -8,10 +8,13 @@ import numpy as np
 
 from fftocean.arrays import Integer, Real
 from fftocean.fields import potential_factor
+from fftocean.foam import Foam
+from fftocean.foam_coverage import GivenWaves, threshold_for
 from fftocean.physics import moments
 from fftocean.physics.sea import Sea
 from fftocean.runtime.records import Records
 from fftocean.runtime.source import Source
+from fftocean.slope_variance import beyond_tiles, captured_by_tiles
 from fftocean.statistics import folding_over, peak_period, specified
 from fftocean.wave_list import oceans_of
 
@@ -19,6 +22,12 @@ MOMENTS = 8
 """Moments of the loop at which bounds are measured."""
 DEVIATIONS = 5.0
 """Standard deviations of the bounds that are estimated: 1 in 2 million samples lies beyond."""
+SEEN = 1.0
+"""Length of the shortest waves that make foam, where its threshold follows the wind [m]."""
+
+Wind = tuple[float, float]
+"""Speed 10 m above the sea [m/s], and direction toward which it blows [degrees]."""
+
 _BINS = 64
 _LOWEST, _HIGHEST, _FREQUENCIES = 0.2, 30.0, 512  # of a spectrum, in its peak frequency
 
@@ -82,12 +91,27 @@ def specified_state(sea: Sea | None, *, exact: bool) -> dict[str, float] | None:
     return {"hs": 4.0 * math.sqrt(float(np.sum(energy))), "tp": sea.tp, "direction": direction}
 
 
-def captured_slopes(waves: WaveTable) -> list[float]:
-    """Return the variances xx, yy and the covariance xy of the slopes of the waves [-]."""
-    return [
-        float(np.sum(waves.variance * a * b))
-        for a, b in ((waves.kx, waves.kx), (waves.ky, waves.ky), (waves.kx, waves.ky))
-    ]
+def roughness(source: Source, wind: Wind | None) -> dict[str, list[float]]:
+    """Return the slope variance of the tiles, of the whole sea, and beyond the tiles [-]."""
+    speed, direction = (None, 0.0) if wind is None else wind
+    found = beyond_tiles(captured_by_tiles(source.tiles), speed, direction)
+    return {name: list(getattr(found, name)) for name in ("captured", "total", "beyond")}
+
+
+def foam_for(source: Source, wind: Wind | None) -> dict[str, float]:
+    """
+    Return parameters of foam: such that it covers what whitecaps do in a wind, if that is known.
+
+    Waves shorter than `SEEN` do not count, as in maps of foam with cells of half of it.
+    """
+    foam = Foam()
+    threshold = foam.threshold
+    if wind is not None:
+        waves = GivenWaves(source.tiles, source.choppiness)
+        threshold = threshold_for(
+            waves, wind[0], tau=foam.tau, strength=foam.strength, shortest=SEEN
+        )
+    return {"decay": foam.tau, "threshold": threshold, "strength": foam.strength}
 
 
 def spectrum_table(waves: WaveTable, loop: float, sea: Sea | None) -> dict[str, Any] | None:

@@ -57,8 +57,6 @@ def compose(
     first = source.tiles[0]
     loop = source.loop
     waves = describe.wave_table(source, records)
-    captured = describe.captured_slopes(waves)
-    foam = foam or Foam()
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -76,8 +74,10 @@ def compose(
             "specified": describe.specified_state(source.sea, exact=quality == "exact"),
             "realised": describe.realised_state(waves, loop),
         },
-        "slope_variance": {"captured": captured, "total": captured, "beyond": [0.0, 0.0, 0.0]},
-        "foam": {"decay": foam.tau, "threshold": foam.threshold, "strength": foam.strength},
+        "slope_variance": describe.roughness(source, wind),
+        "foam": describe.foam_for(source, wind)
+        if foam is None
+        else {"decay": foam.tau, "threshold": foam.threshold, "strength": foam.strength},
         "wind": None if wind is None else {"speed": wind[0], "direction": wind[1]},
         "bounds": describe.measured_bounds(source)
         if measured

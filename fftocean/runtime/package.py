@@ -54,7 +54,8 @@ def pack(
         quality: "exact", or "moving" for a sea that is being changed: without whatever takes
             time, that is `check.json`, checksums, and integrals over the specified sea.
         ticks: moments of the loop, a power of two; None for the most that keep phases exact.
-        foam: parameters of foam; None for the defaults of `Foam`.
+        foam: parameters of foam; None for those that cover what whitecaps do in the wind, or the
+            defaults of `Foam` where the wind is not known.
         wind: speed [m/s] and direction [degrees] of the wind, where it is known.
 
     Raises:

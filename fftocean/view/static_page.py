@@ -152,7 +152,13 @@ def write_static(
     make_folder(path)
     package = path / "sea"
     assert sea.cascade is not None  # it is exact
-    export_sea(sea.cascade, package, job=state.toml())
+    wind = sea.document["wind"]
+    export_sea(
+        sea.cascade,
+        package,
+        job=state.toml(),
+        wind=None if wind is None else (wind["speed"], wind["direction"]),
+    )
     write_whole(path / "index.html", page)
     files = [path / "index.html", *sorted(package.iterdir())]
     return {str(file): file.stat().st_size for file in files}

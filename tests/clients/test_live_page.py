@@ -182,10 +182,11 @@ def test_verify_compares_every_field_of_every_tile(page):
     assert verdict["passed"]
     assert "Verified" in page.evaluate("document.querySelector('.verdict').textContent")
     # and it would see a wrong sea
+    page.evaluate("globalThis.size = fftocean.stage.simulation.tiles[1].lx")
     page.evaluate("fftocean.stage.simulation.tiles[1].lx *= 1.0001")
     page.evaluate("fftocean.verify()")
     assert not page.evaluate("fftocean.verdict.passed")
-    page.evaluate("fftocean.stage.simulation.tiles[1].lx /= 1.0001")
+    page.evaluate("fftocean.stage.simulation.tiles[1].lx = size")
 
 
 @pytest.mark.parametrize("restored", [True, False], ids=["restored", "replaced"])
@@ -298,6 +299,7 @@ def test_keys_of_the_page_itself(page):
     page.press("Escape")
     assert not page.evaluate("fftocean.layout.help.node.open")
     assert page.evaluate("sent.length") == 0
+    page.evaluate("delete fftocean.connection.socket.send; null")
 
 
 def test_every_key_is_listed_and_has_a_control(page):
@@ -333,7 +335,7 @@ def test_screenshot_and_copies(page):
 
 
 def test_a_text_that_cannot_be_copied_is_shown(page):
-    """Where the browser refuses the clipboard, the text stands selected in a dialog."""
+    """The text stands selected in a dialog if the browser refuses the clipboard."""
     page.evaluate("navigator.clipboard.writeText = () => Promise.reject(new Error('no')); null")
     page.press("b")
     page.until("fftocean.layout.text.node.open")

@@ -201,19 +201,43 @@ def test_the_table_of_the_spectrum_holds_the_energy_of_the_waves(cascade):
     np.testing.assert_allclose(table["density"], 2.0 * np.pi * build.SEA(middle), rtol=5e-5)
 
 
-def test_slopes_of_the_waves_are_those_of_the_frames(cascade):
-    """The mean over the tile and the loop of the products of slopes, tile by tile."""
-    captured = runtime.pack(cascade).document["slope_variance"]["captured"]
-    expected = np.zeros(3)
-    for ocean in cascade.oceans:
-        modes = ocean.modes()
-        half = 0.5 * modes.amplitude**2
-        expected += [
-            np.sum(half * modes.kx**2),
-            np.sum(half * modes.ky**2),
-            np.sum(half * modes.kx * modes.ky),
-        ]
-    assert captured == pytest.approx(expected, rel=1e-6)
+def test_slopes_are_captured_total_and_beyond(cascade):
+    """
+    Captured: the sum of a^2/2 k k^T of given waves. Total: Cox and Munk's 0.00316 U along the
+    wind and 0.003 + 0.00192 U across it.
+    """
+    ocean = fo.Ocean.from_modes(
+        [(1, 0, 0.3, 0.0), (-2, 1, 0.1, 1.0)], n=8, size=(50.0, 40.0), loop=20.0
+    )
+    kx, ky, half = np.array([[1, 0, 0.045], [-2, 1, 0.005]]).T * [
+        [2 * np.pi / 50.0],
+        [2 * np.pi / 40.0],
+        [1.0],
+    ]
+    slopes = runtime.pack(ocean).document["slope_variance"]
+    expected = [np.sum(half * kx * kx), np.sum(half * ky * ky), np.sum(half * kx * ky)]
+    assert slopes["captured"] == pytest.approx(expected)
+    assert np.subtract(slopes["total"], slopes["captured"]) == pytest.approx(slopes["beyond"])
+    slopes = runtime.pack(cascade, reference=False, wind=(12.0, 90.0)).document["slope_variance"]
+    assert slopes["total"] == pytest.approx([0.003 + 0.00192 * 12, 0.00316 * 12, 0.0])
+    assert np.add(slopes["captured"], slopes["beyond"]) == pytest.approx(slopes["total"])
+
+
+def test_foam_follows_the_wind_and_what_is_given(cascade):
+    """Less wind covers less of the same waves; a moving sea has that of the exact one."""
+    default = runtime.pack(cascade, reference=False).document["foam"]
+    assert default == {"decay": 3.5, "threshold": 0.72, "strength": 60.0}
+    given = fo.Foam(tau=2.0, threshold=0.6, strength=30.0)
+    document = runtime.pack(cascade, reference=False, wind=(12.0, 30.0), foam=given).document
+    assert document["foam"] == {"decay": 2.0, "threshold": 0.6, "strength": 30.0}
+    assert document["wind"] == {"speed": 12.0, "direction": 30.0}
+    expected = fo.Foam.from_wind(cascade, 12.0, shortest=1.0).threshold
+    source = runtime.Source.of(cascade)
+    for quality in ("exact", "moving"):
+        package = runtime.pack(source, reference=False, quality=quality, wind=(12.0, 30.0))
+        assert package.document["foam"]["threshold"] == pytest.approx(expected, rel=1e-12)
+    calm = runtime.pack(source, quality="moving", wind=(5.0, 30.0)).document["foam"]
+    assert calm["threshold"] < expected
 
 
 def test_statistics_are_those_measured_on_the_fields(cascade):

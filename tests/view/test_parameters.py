@@ -5,7 +5,6 @@ import math
 import re
 
 import pytest
-from builders import ROOT
 
 from fftocean.errors import ParameterError
 from fftocean.view.numbered_seas import preset_rows
@@ -40,14 +39,6 @@ def test_keys_of_actions():
         "x",
         "?",
     }
-
-
-def test_the_documentation_has_every_key():
-    page = (ROOT / "docs" / "live_page.md").read_text(encoding="utf-8")
-    cells = re.findall(r"^\| ([^|]+?) \| [^|]+ \|$", page, re.MULTILINE)
-    written = {"space" if key == "Space" else key.lower() for cell in cells for key in cell.split()}
-    keys = {key for pair in KEYS.values() for key in pair if key} | {a.key for a in ACTIONS}
-    assert {"space" if key == " " else key for key in keys} <= written
 
 
 def test_every_key_and_every_name_has_one_meaning():

@@ -240,7 +240,7 @@ def test_tiles_keep_their_sizes_while_the_sea_changes_little():
 @pytest.mark.parametrize("n", [16, 64, 128, 256, 1024])
 def test_tiles_of_every_number_make_a_cascade_without_whole_ratios(n, recwarn):
     sizes = tile_sizes(n, 960.0, 4)
-    state = State.default(n=16, tiles=[(16, size) for _, size in sizes])
+    state = State.default(tiles=sizes)  # refuses tiles that make no cascade
     assert all(a > b for (_, a), (_, b) in pairwise(sizes))
     if n <= 64:
         fo.Cascade(state.sea(), sizes)

@@ -197,8 +197,9 @@ export class Stage {
   /** Advance the foam around the eye; `amount` is a factor on what crests leave. */
   advanceFoam(eye, seconds, amount = 1) {
     const { document, tiles } = this.source;
-    const foam = { ...document.foam, strength: amount * (document.foam?.strength ?? 0) };
-    this.renderer.advanceFoam({ tiles, document: { ...document, foam } }, eye, seconds);
+    const { foam } = document;
+    const more = foam && { ...foam, strength: amount * foam.strength };
+    this.renderer.advanceFoam({ tiles, document: { ...document, foam: more } }, eye, seconds);
   }
 
   /** Let foam grow over the seconds before a tick, once after each building. */
