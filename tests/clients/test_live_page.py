@@ -83,7 +83,7 @@ AT_REST = """(() => {
   document.documentElement.style.fontSize = '';
   for (const name of ['figures', 'controls']) layout.toggle(name, false);
   for (const dialog of [layout.help, layout.text]) dialog.node.close();
-  for (const group of document.querySelectorAll('details')) group.open = false;
+  for (const group of document.querySelectorAll('details')) group.open = true;
   layout.toasts.replaceChildren();
   layout.showBanner('');
   const local = table.parameters.filter((row) => row.local);
