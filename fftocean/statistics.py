@@ -247,7 +247,9 @@ def specified(sea: Sea) -> SeaState:
     """Return the state of a sea from its own integrals over frequency and direction."""
     variance, theta = _polar(sea)
     direction, spread = moments.mean_direction_and_spread(variance, theta)
-    m0 = sea.variance
+    # by panels: adaptive quadrature takes a tenth of a second for a spectrum that inverts the
+    # dispersion relation at each frequency
+    m0 = float(np.sum(variance))
     return SeaState(
         m0=m0, hs=4.0 * math.sqrt(m0), tp=sea.tp, mean_direction=direction, spread=spread
     )

@@ -228,8 +228,9 @@ def test_plain_data_has_no_infinity():
 
 def test_shares_and_scatter_follow_from_the_energies():
     s = fo.measure(ocean(n=8, size=30.0))
-    assert s.share_below == pytest.approx(s.energy_below / SEA.variance, rel=1e-12)
-    assert s.share_above == pytest.approx(s.energy_above / SEA.variance, rel=1e-12)
+    # the specified m0 is a sum over panels, the sea's own is adaptive quadrature, to 1e-8
+    assert s.share_below == pytest.approx(s.energy_below / SEA.variance, rel=1e-7)
+    assert s.share_above == pytest.approx(s.energy_above / SEA.variance, rel=1e-7)
     assert 0.0 < s.share_below < 1.0
     # Hs goes as the square root of m0: half the relative deviation
     assert s.hs_scatter == pytest.approx(s.hs * s.sampling_error / 2.0, rel=1e-12)

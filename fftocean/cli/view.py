@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
     except KeyboardInterrupt:  # a system without handlers of signals
         number = signal.SIGINT
     code = 0 if number == signal.SIGINT else 128 + number
-    if not viewer.close(0.3):
+    if not viewer.close(0.1):
         # a sea is still being made that nobody will see, and the interpreter would wait for it
         sys.stdout.flush()
         sys.stderr.flush()

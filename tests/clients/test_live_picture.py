@@ -335,3 +335,26 @@ def test_broken_up_foam_covers_as_much(browser, metres, pixels):
     assert answer["error"] == 0
     for cover, mean in zip(covers, answer["means"], strict=True):
         assert mean == pytest.approx(cover, rel=0.08, abs=0.002)
+
+
+@pytest.mark.parametrize("speed", [7.0, 10.0, 15.0, 20.0])
+def test_foam_covers_what_whitecaps_cover(browser, speed):
+    """
+    The two windows of foam, over 40 s with the threshold of the sea's document, cover together
+    2.95e-6 U^3.52 of the water (Monahan & O'Muircheartaigh 1980), within 25 %.
+    """
+    cascade = sea_of(speed, (420.0, 61.0, 8.3), fetch=300e3)
+    foam = fo.Foam.from_wind(cascade, speed)
+    packed = pack(cascade, wind=(speed, 30.0), foam=foam, reference=False)
+    name = f"foam-{speed:g}.sea"
+    (browser.site.folders["bakes"] / name).write_bytes(to_bytes(packed))
+    picture = {
+        "name": f"/bakes/{name}",
+        "quality": "low",
+        "answer": "coverage",
+        "foam": {"steps": 150, "seconds": 0.35, "averaged": 120},
+    }
+    (answer,), _ = browser.run("picture.html", {"pictures": [picture]})
+    assert answer["error"] == 0
+    covered = np.mean(answer["coverage"])
+    assert covered == pytest.approx(2.95e-6 * speed**3.52, rel=0.25)

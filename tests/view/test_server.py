@@ -512,3 +512,16 @@ def test_a_damaged_frame_is_told_and_the_others_are_played(page, baked, tmp_path
         assert file.name in client.next("refused")["refused"]["message"]
         client.send({"frame": {"tile": 0, "frame": 1}})
         assert client.next("FFTB")[0]["frame"] == 1
+
+
+def test_messages_of_one_client_do_not_keep_the_others_waiting(running):
+    """Of 300 changes that come at once, another client sees many, not just the last."""
+    with running.connect() as busy, running.connect() as other:
+        busy.exact()
+        other.exact()
+        for i in range(300):
+            busy.send({"set": {"choppiness": i / 300}})
+        seen = 0
+        while other.next("state")["state"]["choppiness"] != 299 / 300:
+            seen += 1
+        assert seen > 20
