@@ -18,6 +18,7 @@ from fftocean.files import write_whole
 from fftocean.job.job import Job
 from fftocean.view import protocol
 from fftocean.view.client import Client, Request
+from fftocean.view.inbox import Incoming
 from fftocean.view.protocol import (
     BakedFrame,
     Copy,
@@ -108,10 +109,12 @@ class Viewer:
         if self._sea is not None:
             client.offer("sea", self._sea.data)
 
-    async def receive(self, client: Client, data: str | bytes) -> bool:
+    async def receive(self, client: Client, message: Incoming) -> bool:
         """Carry out a message of a client, or say why not; return False for a refusal."""
         try:
-            await self._carry_out(client, protocol.parsed(data))
+            if isinstance(message, Refusal):
+                raise message
+            await self._carry_out(client, message)
         except FFTOceanError as error:
             client.tell(protocol.refused(str(error), getattr(error, "name", None)))
             return False

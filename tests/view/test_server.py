@@ -55,6 +55,30 @@ def test_a_value_changes_the_sea_of_every_client(running):
             assert after["statistics"]["specified"]["hs"] < before["statistics"]["specified"]["hs"]
 
 
+def test_another_client_is_answered_while_one_floods_the_server(page, monkeypatch):
+    """The flood ends with a value of its own; few of its 5,000 values are ever looked at."""
+    from fftocean.view.state import State
+
+    looked_at, changed = [], State.changed
+
+    def counted(state, changes):
+        looked_at.append(changes)
+        return changed(state, changes)
+
+    with Running(sea_viewer(), page) as running, running.connect() as flood:
+        flood.exact()
+        monkeypatch.setattr(State, "changed", counted)
+        for i in range(5000):
+            flood.send({"set": {"wind_speed": 5.0 + i % 7}})
+        flood.send({"set": {"wind_speed": 4.5}})
+        with running.connect() as other:
+            assert other.next("state")["state"]["seed"] == small_state().values["seed"]
+            other.send({"copy": "job"})
+            assert other.next("copied")["copied"]["what"] == "job"
+            other.exact(wind_speed=4.5)
+    assert len(looked_at) < 2500
+
+
 def test_a_lost_client_finds_its_state_again(running):
     with running.connect() as client:
         client.exact()
@@ -521,6 +545,7 @@ def test_messages_of_one_client_do_not_keep_the_others_waiting(running):
         other.exact()
         for i in range(300):
             busy.send({"set": {"choppiness": i / 300}})
+            busy.send({"copy": "job"})  # between two values, so that both are carried out
         seen = 0
         while other.next("state")["state"]["choppiness"] != 299 / 300:
             seen += 1
