@@ -868,7 +868,7 @@ def test_a_file_without_depth_leaves_deep_water_and_says_so():
         (
             {"file": "none.nc"},
             ReaderError,
-            r"sea\.systems\[1\]\.measured, file 'none\.nc': must be a file that exists",
+            r"sea\.systems\[1\]\.measured, file 'none\.nc': .* must be a file that exists",
         ),
         (
             {"file": WW3, "site": 2},

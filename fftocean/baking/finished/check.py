@@ -213,13 +213,11 @@ def _report(progress: Callable[[int, int], None], before: int, total: int, done:
 
 def _inside(folder: Path) -> str:
     """Return the names of bakes and run-time packages in a folder, in words; "" for none."""
-    from fftocean.runtime.check import is_package
-
+    documents = (layout.MANIFEST_FILE, layout.CASCADE_FILE, "sea.json")
     found = [
         path.name
         for path in sorted(folder.iterdir())
-        if path.is_dir()
-        and (is_package(path) or layout.is_cascade(path) or (path / layout.MANIFEST_FILE).is_file())
+        if any((path / name).is_file() for name in documents)
     ]
     return f"; check the folder in it: {', '.join(found[:4])}" if found else ""
 
