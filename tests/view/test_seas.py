@@ -9,6 +9,8 @@ from serving import small_state
 
 import fftocean as fo
 from fftocean.errors import ParameterError
+from fftocean.fields import DISPLACEMENT_GRADIENT
+from fftocean.foam_coverage import mean_coverage
 from fftocean.runtime.container import from_bytes
 from fftocean.view.seas import MovingSeas, SeaMaker, make_exact, reference_fields
 from fftocean.view.state import State
@@ -58,6 +60,46 @@ def covered_cells(made, foam, *, cells, seconds, step):
         amount = decay * amount + (1.0 - decay) * foam["decay"] * foam["strength"] * made_now
         covered.append(np.mean(-np.expm1(-amount)) if i >= 0 else np.nan)
     return float(np.nanmean(covered))
+
+
+@pytest.mark.parametrize("speed", [2.5, 5.0, 7.0, 10.0, 15.0, 20.0])
+def test_foam_of_all_waves_covers_what_whitecaps_cover(speed):
+    """
+    2.95e-6 U^3.52 (Monahan & O'Muircheartaigh 1980) by the library's mean coverage of all waves:
+    the page's cells hold the shortest too. The default wind speeds, choppiness and sizes.
+    """
+    for changes in ({}, {"swell_speed": 14.0}):
+        made, foam = foam_of_wind(speed, **changes)
+        covered = mean_coverage(made.cascade, foam["threshold"])
+        assert covered == pytest.approx(2.95e-6 * speed**3.52, rel=0.25)
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.5, 1.0])
+def test_hardly_any_foam_in_a_light_wind(speed):
+    """Not even where all waves are shorter than a metre; 1 m/s has 3e-6 by the law."""
+    for changes in ({}, {"swell_speed": 14.0}, {"choppiness": 0.3}):
+        made, foam = foam_of_wind(speed, **changes)
+        assert mean_coverage(made.cascade, foam["threshold"]) < 3e-5
+
+
+# Steps are a sixth of the period of the shortest waves or so.
+@pytest.mark.parametrize(("speed", "step"), [(0.5, 0.02), (2.5, 0.02), (7.0, 0.05), (15.0, 0.1)])
+def test_foam_in_cells_of_the_page_covers_what_whitecaps_cover(speed, step):
+    """Cells of unfiltered texels, stepped by themselves; they know nothing of Gaussian water."""
+    made, foam = foam_of_wind(speed)
+    covered = covered_cells(made, foam, cells=20_000, seconds=200 * step, step=step)
+    print(speed, covered, 2.95e-6 * speed**3.52, covered/( 2.95e-6 * speed**3.52))
+
+
+def test_moving_seas_have_the_foam_of_all_waves_too():
+    moving = MovingSeas()
+    made, _ = foam_of_wind(9.0)
+    moving.start(made)
+    changed = made.state.changed({"wind_speed": 8.5})
+    assert moving.can_make(changed)
+    threshold = moving.make(changed, 2).document["foam"]["threshold"]
+    exact = make_exact(changed, 3, points=4).cascade
+    assert mean_coverage(exact, threshold) == pytest.approx(2.95e-6 * 8.5**3.52, rel=0.25)
 
 
 def test_a_job_that_bakes_foam_keeps_its_own():
