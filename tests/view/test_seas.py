@@ -39,27 +39,24 @@ def foam_of_wind(speed, **changes):
     return made, made.document["foam"]
 
 
-def covered_cells(made, foam, *, cells, seconds, step):
+def breaking_cells(made, foam, moments, cells=20_000):
     """
-    Return the mean coverage of cells stepped as `foamStepShader` steps them: each adds up the texel
-    of every tile at its place, unfiltered. Cells of incommensurate tiles are any texels of each.
+    Yield max(threshold - smallest eigenvalue, 0) in cells of the page at some moments.
+
+    As in `foamStepShader`, a cell adds up one texel of every tile, unfiltered. The sizes of tiles
+    have no common measure, so that all pairs of texels meet somewhere: these are random ones.
     """
+    oceans, choppiness = made.cascade.oceans, made.document["choppiness"]
     chance = np.random.default_rng(4)
-    cascade, decay = made.cascade, np.exp(-step / foam["decay"])
-    places = [chance.integers(0, 64, (2, cells)) for _ in cascade.oceans]
-    amount, covered = np.zeros(cells), []
-    count = round(seconds / step)
-    for i in range(-count // 3, count):
-        frames = [o.frame(20.0 + i * step, DISPLACEMENT_GRADIENT) for o in cascade.oceans]
+    places = [tuple(chance.integers(0, 64, (2, cells))) for _ in oceans]
+    for moment in moments:
+        frames = [ocean.frame(moment, DISPLACEMENT_GRADIENT) for ocean in oceans]
         xx, xy, yy = (
-            sum(getattr(f, name)[tuple(at)] for f, at in zip(frames, places, strict=True))
-            for name in ("stretch_xx", "stretch_xy", "stretch_yy")
+            choppiness * sum(getattr(f, name)[at] for f, at in zip(frames, places, strict=True))
+            for name in DISPLACEMENT_GRADIENT
         )
-        smaller = 1.0 + made.cascade.choppiness * (0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy))
-        made_now = np.maximum(foam["threshold"] - smaller, 0.0)
-        amount = decay * amount + (1.0 - decay) * foam["decay"] * foam["strength"] * made_now
-        covered.append(np.mean(-np.expm1(-amount)) if i >= 0 else np.nan)
-    return float(np.nanmean(covered))
+        smaller = 1.0 + 0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)
+        yield np.maximum(foam["threshold"] - smaller, 0.0)
 
 
 @pytest.mark.parametrize("speed", [2.5, 5.0, 7.0, 10.0, 15.0, 20.0])
@@ -82,13 +79,30 @@ def test_hardly_any_foam_in_a_light_wind(speed):
         assert mean_coverage(made.cascade, foam["threshold"]) < 3e-5
 
 
-# Steps are a sixth of the period of the shortest waves or so.
-@pytest.mark.parametrize(("speed", "step"), [(0.5, 0.02), (2.5, 0.02), (7.0, 0.05), (15.0, 0.1)])
-def test_foam_in_cells_of_the_page_covers_what_whitecaps_cover(speed, step):
-    """Cells of unfiltered texels, stepped by themselves; they know nothing of Gaussian water."""
+@pytest.mark.parametrize("speed", [0.5, 1.0, 2.5, 5.0, 7.0])
+def test_little_foam_in_cells_of_the_page_is_that_of_whitecaps(speed):
+    """
+    The mean of the state is decay x strength x the mean of what breaks, and little of it covers as
+    much as it is, or less where it overlaps: by 9 % at 7 m/s. Means over 150 moments of the loop
+    scatter by a tenth. At 1 m/s and less breaking is too rare to be met more than by chance.
+    """
     made, foam = foam_of_wind(speed)
-    covered = covered_cells(made, foam, cells=20_000, seconds=200 * step, step=step)
-    print(speed, covered, 2.95e-6 * speed**3.52, covered/( 2.95e-6 * speed**3.52))
+    moments = np.linspace(0.0, made.document["loop"], 150, endpoint=False)
+    breaking = np.mean([np.mean(cells) for cells in breaking_cells(made, foam, moments)])
+    state, law = foam["decay"] * foam["strength"] * breaking, 2.95e-6 * speed**3.52
+    assert state == pytest.approx(law, rel=0.3, abs=1e-5)
+
+
+@pytest.mark.parametrize("speed", [10.0, 15.0, 20.0])
+def test_foam_in_cells_of_the_page_covers_what_whitecaps_cover(speed):
+    """Stepped as in `foamStepShader`, from clean water over four times the decay on."""
+    made, foam = foam_of_wind(speed)
+    decay, step = foam["decay"], 0.1
+    left, amount, covered = np.exp(-step / decay), 0.0, []
+    for breaking in breaking_cells(made, foam, np.arange(0.0, 4.0 * decay + 10.0, step)):
+        amount = left * amount + (1.0 - left) * decay * foam["strength"] * breaking
+        covered.append(np.mean(-np.expm1(-amount)))
+    assert np.mean(covered[-100:]) == pytest.approx(2.95e-6 * speed**3.52, rel=0.25)
 
 
 def test_moving_seas_have_the_foam_of_all_waves_too():
