@@ -120,13 +120,29 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
         if os.path.isdir(folder / source["file"]):  # noqa: PTH112  false for impossible names
             raise ReaderError("must be a file, got a directory")
         dataset = readers.open(folder / source["file"], site=site)
+        if "efth" not in dataset and (direction is None or spreading is None):
+            raise JobError(
+                "the file has no directions; beside `measured` a job must have direction [degrees, "
+                "toward, counter-clockwise from +x] and spreading, such as direction = 90.0 and "
+                "spreading = { kind = 'blend' }"
+            )
         return readers.Realised.from_spectrum(
             dataset, time=time, depth=math.inf, direction=direction, spreading=spreading
         )
     except ReaderError as error:
-        raise ReaderError(f"{where}: {error}") from None
+        raise ReaderError(f"{where}: {_without_name(error, source['file'])}") from None
     except ParameterError as error:
-        raise JobError(f"{where}: {error}") from None
+        raise JobError(f"{where}: {_without_name(error, source['file'])}") from None
+
+
+def _without_name(error: Exception, file: str) -> str:
+    """Return a message without the name of its file at the beginning."""
+    text = str(error)
+    for name in (file, os.path.basename(file)):  # noqa: PTH119  for impossible names too
+        for end in (": ", ", ", " "):
+            if name and text.startswith(name + end):
+                return text[len(name + end) :]
+    return text
 
 
 def _spreading(key: str, table: Any, water: Water) -> Spreading:

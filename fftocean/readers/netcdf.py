@@ -149,10 +149,12 @@ def _broken(name: str) -> Iterator[None]:
             f"{name} cannot be read as netCDF without a package that is not installed: "
             f"{error!s:.200}"
         ) from error
-    except Exception as error:
+    except (OSError, ValueError) as error:  # whose words are about the file
+        reason = str(error) or "no reason given"
+        raise ReaderError(f"{name} cannot be read as netCDF: {reason:.200}") from error
+    except Exception as error:  # whose words are about the program that reads it
         raise ReaderError(
-            f"{name} cannot be read as netCDF: {type(error).__name__}: "
-            f"{str(error) or 'no reason given'!s:.200}"
+            f"{name} cannot be read as netCDF: the file is cut short or damaged"
         ) from error
 
 

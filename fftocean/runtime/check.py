@@ -9,7 +9,7 @@ import numpy as np
 
 from fftocean import gerstner
 from fftocean.baking.finished.check import Finding
-from fftocean.baking.folder.lock import require_free
+from fftocean.baking.folder.lock import LOCK_FILE, require_free
 from fftocean.baking.folder.sealed import read_sealed
 from fftocean.errors import FFTOceanError, IntegrityError, OutputError
 from fftocean.fields import EIGHT
@@ -106,15 +106,18 @@ def _files(folder: Path, contents: Contents) -> tuple[dict[str, bytes], list[Fin
 
 
 def _extra(folder: Path, contents: Contents) -> Iterator[Finding]:
-    """Yield files that are named like those of a package, and are not listed."""
-    listed = {file.name for file in contents.files}
+    """Yield files and folders that are not of the package."""
+    listed = {file.name for file in contents.files} | {layout.DOCUMENT}
     for path in sorted(folder.iterdir()):
-        if layout.is_package_file(path.name) and path.name not in listed:
-            yield Finding("extra", path.name, f"it is not listed in {layout.DOCUMENT}")
+        if path.name in listed or path.name == LOCK_FILE:
+            continue
+        if path.name == MARK:
+            why = "left over: run the same command again"
         elif path.match(".*.[0-9]*.tmp"):
-            yield Finding("extra", path.name, "left-over temporary file")
-        elif path.name == MARK:
-            yield Finding("extra", path.name, "left over: run the same command again")
+            why = "left-over temporary file"
+        else:
+            why = f"it is not listed in {layout.DOCUMENT}"
+        yield Finding("extra", path.name, why)
 
 
 def _textures(ocean: Ocean, index: int, files: Mapping[str, bytes]) -> Iterator[Finding]:

@@ -133,8 +133,3 @@ def require_cycles(most_cycles: int) -> None:
 def is_digest(value: Any) -> bool:
     """Return whether a value is a SHA-256 as the document has it."""
     return isinstance(value, str) and re.fullmatch(r"[0-9a-f]{64}", value) is not None
-
-
-def is_package_file(name: str) -> bool:
-    """Return whether a file is named like one of a package's own."""
-    return name == REFERENCE or re.fullmatch(r"tile\d+(\.waves|_(h0|wave)\.bin)", name) is not None

@@ -37,6 +37,7 @@ from fftocean.frame import Frame
 from fftocean.grid import Grid
 from fftocean.limits import Count
 from fftocean.ocean import Ocean
+from fftocean.runtime.folder import is_package
 from fftocean.slope_variance import FLOOR, slope_variance
 
 FORMAT, VERSION = "fftocean-playback", 1
@@ -298,10 +299,16 @@ def open_bake(folder: str | Path, *, memory: int = MEMORY) -> Playback:
         OutputError: a file exists and cannot be read.
         IntegrityError: the bake is not finished, or its manifest was changed.
         JobError: the bake is one of height fields by world position, or has neither height nor
-            displacement.
+            displacement; or the folder is that of a run-time package.
     """
     folder = path_of("folder", folder)
     memory = _BYTES.check("memory", memory)
+    if is_package(folder):
+        raise JobError(
+            f"{folder} is a run-time package, which has waves and no frames to play; "
+            "`fftocean check` checks it, `fftocean.load_sea` loads it, and `fftocean view` shows "
+            "the job from which it was exported"
+        )
     if not layout.is_cascade(folder):
         tile = _tile(folder)
         return Playback(folder, [tile], tile.contents.manifest, memory)

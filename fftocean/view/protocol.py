@@ -131,6 +131,14 @@ def parsed(data: str | bytes) -> Message:
         raise Refusal(str(error)) from None
 
 
+def understood(data: str | bytes) -> Message | Refusal:
+    """Return the message that the page sent, or the reason why it is none."""
+    try:
+        return parsed(data)
+    except Refusal as refusal:
+        return refusal
+
+
 def _json(text: str) -> Any:
     """Return parsed JSON without NaN, infinities, repeated keys or deep nesting."""
     try:

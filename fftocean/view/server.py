@@ -9,6 +9,7 @@ import asyncio
 import contextlib
 import logging
 import signal
+import time
 from collections import OrderedDict
 from collections.abc import AsyncIterator, Callable, Mapping
 from http import HTTPStatus
@@ -18,6 +19,7 @@ from fftocean.errors import OutputError, ParameterError, how_to_install
 from fftocean.limits import Count
 from fftocean.view import parameters, protocol
 from fftocean.view.client import Client
+from fftocean.view.inbox import Inbox
 from fftocean.view.numbered_seas import preset_rows
 from fftocean.view.page_files import PageFile
 from fftocean.view.security import (
@@ -40,6 +42,7 @@ MOST_UNFINISHED: Final = 64  # connections that have not sent their request yet
 OPENING: Final = 10.0  # seconds that a request may take to come
 CLOSING: Final = 0.5  # seconds that a client may take to say goodbye
 STOPPING: Final = 1.0  # seconds until all connections are given up
+TURN: Final = 0.005  # seconds for which the messages of one client are read at a stretch
 WRITE_LIMIT: Final = 2**18  # bytes in a socket's buffer before the next message waits
 PORT: Final = Count("", 0, 65535)
 
@@ -195,24 +198,41 @@ class PageServer:
             return
         client = Client(connection, self._viewer.answer)
         self._viewer.welcome(client)
+        inbox = Inbox()
         sending = asyncio.create_task(client.pump())
-        bad = 0
+        carrying_out = asyncio.create_task(self._carry_out(connection, client, inbox))
         try:
-            async for message in connection:
-                good = await self._viewer.receive(client, message)
-                await asyncio.sleep(0)  # others take their turn however fast messages come
-                if not good:
-                    bad += 1
-                    if bad >= MOST_BAD:
-                        await connection.close(1008, f"{bad} messages were refused")
-                        return
+            turn = time.monotonic()
+            async for data in connection:
+                await inbox.put(protocol.understood(data))
+                if time.monotonic() - turn > TURN:
+                    await asyncio.sleep(0)  # others take their turn however fast messages come
+                    turn = time.monotonic()
+            inbox.close()
+            await carrying_out
         except ConnectionClosed:
             pass
         finally:
             self._viewer.clients.discard(client)
-            sending.cancel()
-            with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
-                await sending
+            for task in (sending, carrying_out):
+                task.cancel()
+            for task in (sending, carrying_out):
+                with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
+                    await task
+
+    async def _carry_out(
+        self, connection: "ServerConnection", client: Client, inbox: Inbox
+    ) -> None:
+        """Carry out the messages of one client; end its connection after too many bad ones."""
+        bad = 0
+        while (message := await inbox.get()) is not None:
+            good = await self._viewer.receive(client, message)
+            await asyncio.sleep(0)  # others take their turn, and newer values replace those here
+            if not good:
+                bad += 1
+                if bad >= MOST_BAD:
+                    await connection.close(1008, f"{bad} messages were refused")
+                    return
 
 
 def require_websockets() -> None:

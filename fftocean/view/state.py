@@ -18,7 +18,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from fftocean.cascade import Cascade, Tile, tile_jobs
-from fftocean.errors import JobError, ParameterError, SeaWarning
+from fftocean.errors import JobError, ParameterError, ReaderError, SeaWarning
 from fftocean.job.job import Job
 from fftocean.job.parameters import PARAMETERS as JOB_PARAMETERS
 from fftocean.job.parameters import WIND
@@ -165,15 +165,18 @@ class State:
             ReaderError: a file that cannot be read; the message names the rule.
         """
         tree = {"sea": {"systems": [{"measured": {"file": file.name}}]}}
-        job = Job.from_tree(tree, source=str(file.with_name("sea.toml")))
         kept = {_KEYS[name]: before.values[name] for name in ("seed", "loop", "choppiness")}
-        made = cls.of_job(
-            job.replaced(kept),
-            n=before.samples,
-            tiles=before.tiles if before.chosen and before.is_square else None,
-            source=source,
-            dropped=dropped,
-        )
+        try:
+            job = Job.from_tree(tree, source=str(file.with_name("sea.toml")))
+            made = cls.of_job(
+                job.replaced(kept),
+                n=before.samples,
+                tiles=before.tiles if before.chosen and before.is_square else None,
+                source=source,
+                dropped=dropped,
+            )
+        except (ReaderError, JobError) as error:
+            raise type(error)(_about_file(str(error), file.name, source)) from None
         values = {**made.values, "tiles": before.values["tiles"], "model": before.values["model"]}
         made = replace(made, values=MappingProxyType(values), chosen=before.chosen)
         return made if before.chosen else made._with_sizes(before.samples)
@@ -336,6 +339,16 @@ class State:
             raise ParameterError(
                 f"tiles must be at most {len(self.sizes)}, which were given, got {count}"
             )
+
+
+def _about_file(message: str, name: str, source: str) -> str:
+    """Return a message about the only measured file of a job, without the keys of that job."""
+    _, found, rest = message.partition(f"sea.systems[0].measured, file {name!r:.80}: ")
+    if not found:
+        return message
+    if rest.startswith("the file has no directions"):
+        rest += "; start `fftocean view` with such a job"
+    return f"{source} {rest}" if rest.startswith(("must ", "cannot ")) else f"{source}: {rest}"
 
 
 def tile_sizes(n: int, largest: float, count: int) -> tuple[Tile, ...]:

@@ -18,6 +18,7 @@ from fftocean.files import write_whole
 from fftocean.job.job import Job
 from fftocean.view import protocol
 from fftocean.view.client import Client, Request
+from fftocean.view.inbox import Incoming
 from fftocean.view.protocol import (
     BakedFrame,
     Copy,
@@ -108,10 +109,12 @@ class Viewer:
         if self._sea is not None:
             client.offer("sea", self._sea.data)
 
-    async def receive(self, client: Client, data: str | bytes) -> bool:
+    async def receive(self, client: Client, message: Incoming) -> bool:
         """Carry out a message of a client, or say why not; return False for a refusal."""
         try:
-            await self._carry_out(client, protocol.parsed(data))
+            if isinstance(message, Refusal):
+                raise message
+            await self._carry_out(client, message)
         except FFTOceanError as error:
             client.tell(protocol.refused(str(error), getattr(error, "name", None)))
             return False
@@ -230,7 +233,7 @@ class Viewer:
     def _require_state(self, what: str) -> State:
         """Return the state, or raise where a bake is played."""
         if self._state is None:
-            raise Refusal(f"{what} must be sent to a sea; a bake is played as it is")
+            raise Refusal(_OF_A_BAKE[what])
         return self._state
 
     def _require_bake(self) -> Bake:
@@ -270,6 +273,15 @@ def safe_name(name: str) -> str:
     safe = re.sub(r"[^A-Za-z0-9._-]", "_", last)[-MOST_NAME:].lstrip(".-")
     return f"spectrum_{safe}" if safe.split(".")[0].lower() in _DEVICES or not safe else safe
 
+
+_OF_A_BAKE: Final = {
+    "set": "a bake is played as it was baked; its values cannot be changed",
+    "verify": "a bake cannot be verified on the page; `fftocean check` checks its files",
+    "copy": "a bake has no job to copy; its manifest holds the job",
+    "file": "a file cannot be dropped on a bake; start `fftocean view` without one",
+    "job": "a job cannot be dropped on a bake; start `fftocean view` without one",
+}
+"""Refusals of messages that are for a sea, where a bake is played."""
 
 _DEVICES: Final = {
     "con",

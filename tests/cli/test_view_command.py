@@ -169,6 +169,12 @@ def test_a_static_folder_has_page_and_package(run):
     assert run("view", "--tiles", "16:200", "--static", "site/")[0] == 0
     assert Path("site/index.html").is_file()
     assert run("check", "site/sea")[0] == 0
+    code, out, _ = run("check", "site")
+    assert code == 5
+    assert "this is no bake; check the folder in it: sea" in " ".join(out.split())
+    code, _, err = run("view", "site/sea", "--no-browser")
+    assert code == 2
+    assert "is a run-time package, which has waves and no frames to play" in err
     Path("other").mkdir()
     assert run("view", "--tiles", "16:200", "--static", "other")[0] == 0
     assert Path("other/index.html").is_file()

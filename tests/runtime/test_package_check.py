@@ -54,16 +54,21 @@ def test_missing_cut_longer_and_swapped_files_are_named(folder):
     assert kinds(folder) == [("swapped", "tile1.waves")]
 
 
-def test_files_that_are_named_like_those_of_a_package_are_foreign(folder):
-    for name in ("tile9.waves", "tile3_h0.bin", ".x.12-ab.tmp", ".export.json"):
+def test_every_file_that_is_not_listed_is_foreign(folder):
+    names = ("tile9.waves", "tile3_h0.bin", ".x.12-ab.tmp", ".export.json", "x.bin", "index.html")
+    for name in names:
         (folder / name).write_bytes(b"")
-    (folder / "index.html").write_text("a page beside the package")
+    (folder / "more").mkdir()
     assert sorted(kinds(folder)) == [
         ("extra", ".export.json"),
         ("extra", ".x.12-ab.tmp"),
+        ("extra", "index.html"),
+        ("extra", "more"),
         ("extra", "tile3_h0.bin"),
         ("extra", "tile9.waves"),
+        ("extra", "x.bin"),
     ]
+    fo.load_sea(folder)  # the listed files are unchanged, and no others are read
 
 
 def test_waves_that_no_sea_has_are_found_behind_right_checksums(tmp_path):

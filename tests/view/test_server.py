@@ -55,6 +55,30 @@ def test_a_value_changes_the_sea_of_every_client(running):
             assert after["statistics"]["specified"]["hs"] < before["statistics"]["specified"]["hs"]
 
 
+def test_another_client_is_answered_while_one_floods_the_server(page, monkeypatch):
+    """The flood ends with a value of its own; few of its 5,000 values are ever looked at."""
+    from fftocean.view.state import State
+
+    looked_at, changed = [], State.changed
+
+    def counted(state, changes):
+        looked_at.append(changes)
+        return changed(state, changes)
+
+    with Running(sea_viewer(), page) as running, running.connect() as flood:
+        flood.exact()
+        monkeypatch.setattr(State, "changed", counted)
+        for i in range(5000):
+            flood.send({"set": {"wind_speed": 5.0 + i % 7}})
+        flood.send({"set": {"wind_speed": 4.5}})
+        with running.connect() as other:
+            assert other.next("state")["state"]["seed"] == small_state().values["seed"]
+            other.send({"copy": "job"})
+            assert other.next("copied")["copied"]["what"] == "job"
+            other.exact(wind_speed=4.5)
+    assert len(looked_at) < 2500
+
+
 def test_a_lost_client_finds_its_state_again(running):
     with running.connect() as client:
         client.exact()
@@ -89,6 +113,29 @@ def test_a_refusal_changes_nothing_and_says_why(shared, message):
         assert "root:" not in said
     with shared.connect() as client:
         assert client.next("state")["state"] == before
+
+
+def refusal_of_file(client, name, data):
+    """Return the message by which a dropped file is refused."""
+    client.send({"file": {"name": name, "base64": base64.b64encode(data).decode()}})
+    return client.next("refused")["refused"]["message"]
+
+
+def test_a_dropped_file_is_refused_in_plain_words(shared):
+    spectra = Path(__file__).parents[1] / "data" / "spectra"
+    with shared.connect() as client:
+        said = refusal_of_file(client, "x y.spec", b"hello")
+        assert said.startswith("x y.spec must be wave spectra in a known format")
+        for data in (b"CDF\x01", b"CDF\x01" + bytes(4), b"CDF\x02" + bytes(11)):
+            said = refusal_of_file(client, "short.nc", data)
+            assert said.startswith("short.nc ")
+            assert said.count("short.nc") == 1
+            assert "Error" not in said
+            assert "mmap" not in said
+        data = (spectra / "44004w2000.txt").read_bytes()
+        said = refusal_of_file(client, "buoy.txt", data)
+        assert said.startswith("buoy.txt: the file has no directions; ")
+        assert "spreading = { kind = 'blend' }; start `fftocean view` with such a job" in said
 
 
 def test_a_sea_that_cannot_be_made_is_refused_and_the_one_before_stays(page):
@@ -479,6 +526,23 @@ def baked(tmp_path_factory):
     return folder
 
 
+@pytest.mark.parametrize(
+    ("message", "said"),
+    [
+        ({"copy": "job"}, "a bake has no job to copy; its manifest holds the job"),
+        ({"set": {"seed": 1}}, "a bake is played as it was baked; its values cannot be changed"),
+        ({"verify": {"tick": 0}}, "a bake cannot be verified on the page; `fftocean check` "),
+        ({"job": ""}, "a job cannot be dropped on a bake; start `fftocean view` without one"),
+        ({"file": {"name": "x", "base64": ""}}, "a file cannot be dropped on a bake; "),
+    ],
+)
+def test_what_is_for_a_sea_is_refused_in_plain_words_by_a_bake(page, baked, message, said):
+    viewer = Viewer(bake=open_bake(baked), source="sea")
+    with Running(viewer, page) as running, running.connect() as client:
+        client.send(message)
+        assert client.next("refused")["refused"]["message"].startswith(said)
+
+
 def test_a_bake_is_played(page, baked):
     viewer = Viewer(bake=open_bake(baked), source="sea")
     with Running(viewer, page) as running, running.connect() as client:
@@ -490,15 +554,8 @@ def test_a_bake_is_played(page, baked):
         found = [client.next("FFTB") for _ in range(4)]
         assert [header["frame"] for header, _ in found] == [0, 1, 2, 3]
         assert {len(body) for _, body in found} == {3 * 16 * 16 * 4 * 2}
-        for message in (
-            {"frame": {"tile": 1, "frame": 0}},
-            {"set": {"seed": 1}},
-            {"copy": "job"},
-            {"verify": {"tick": 0}},
-            {"job": ""},
-        ):
-            client.send(message)
-            assert " must " in client.next("refused")["refused"]["message"]
+        client.send({"frame": {"tile": 1, "frame": 0}})
+        assert " must " in client.next("refused")["refused"]["message"]
 
 
 def test_a_damaged_frame_is_told_and_the_others_are_played(page, baked, tmp_path):
@@ -521,6 +578,7 @@ def test_messages_of_one_client_do_not_keep_the_others_waiting(running):
         other.exact()
         for i in range(300):
             busy.send({"set": {"choppiness": i / 300}})
+            busy.send({"copy": "job"})  # between two values, so that both are carried out
         seen = 0
         while other.next("state")["state"]["choppiness"] != 299 / 300:
             seen += 1

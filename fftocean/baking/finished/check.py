@@ -211,6 +211,19 @@ def _report(progress: Callable[[int, int], None], before: int, total: int, done:
     progress(before + done, total)
 
 
+def _inside(folder: Path) -> str:
+    """Return the names of bakes and run-time packages in a folder, in words; "" for none."""
+    from fftocean.runtime.check import is_package
+
+    found = [
+        path.name
+        for path in sorted(folder.iterdir())
+        if path.is_dir()
+        and (is_package(path) or layout.is_cascade(path) or (path / layout.MANIFEST_FILE).is_file())
+    ]
+    return f"; check the folder in it: {', '.join(found[:4])}" if found else ""
+
+
 def _without_manifest(folder: Path, why: str) -> Iterator[Finding]:
     """Yield the problems of a folder whose manifest is missing or damaged."""
     if (folder / layout.MANIFEST_FILE).is_file():
@@ -225,7 +238,7 @@ def _without_manifest(folder: Path, why: str) -> Iterator[Finding]:
         yield Finding(
             "unfinished",
             layout.MANIFEST_FILE,
-            f"neither it nor {layout.JOB_FILE} exists: this is no bake",
+            f"neither it nor {layout.JOB_FILE} exists: this is no bake{_inside(folder)}",
         )
     if (folder / layout.JOB_FILE).is_file():
         try:
