@@ -828,10 +828,12 @@ export class App {
     console.error(error);
   }
 
-  /** True when the picture shows the exact sea of the newest values; for tests. */
+  /** True when the picture shows the exact sea of the newest values, or a bake; for tests. */
   get settled() {
     const { connection, stage } = this;
-    const newest = !connection || this.servedSea === this.sea?.document.id;
+    // a bake has no seas that could be newer; its picture is there once a frame has come
+    const newest = !connection || Boolean(this.bake) || this.servedSea === this.sea?.document.id;
+    if (this.bake && (stage.playback?.shownFrame ?? null) === null) return false;
     const waiting = Boolean(connection?.pending?.size) || this.busy || !newest;
     const shown = stage.ready && (stage.simulation?.weight ?? 1) === 1 && !this.dirty && !this.turn;
     return shown && !waiting && this.sea?.document.quality !== 'moving';
