@@ -331,7 +331,8 @@ export class App {
     const first = !this.sea;
     this.sea = sea;
     this.bake = null;
-    this.clock.follow(sea.document);
+    // a sea that is shown keeps its loop until the new one takes its place: see `picture`
+    if (!this.stage.simulation) this.clock.follow(sea.document);
     this.showFigures();
     await this.stage.setSea(sea, first || this.clock.paused ? 0 : CHANGE);
     // While time stands still foam cannot follow the sea, so that it grows anew for the exact one.
@@ -751,8 +752,10 @@ export class App {
   async picture(seconds, passed) {
     const { clock, stage } = this;
     const { choppiness, foam } = this.values;
+    if (stage.simulation) clock.follow(stage.simulation.document);
     if (stage.foamIsNew) await stage.growFoam(clock, choppiness, this.eye(), foam);
     stage.simulation?.advance(passed);
+    if (stage.simulation) clock.follow(stage.simulation.document);
     await stage.step(clock.tick, choppiness);
     if (!stage.ready) return;
     if (seconds !== 0) stage.advanceFoam(this.eye(), Math.abs(seconds), foam);
