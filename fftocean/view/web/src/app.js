@@ -11,7 +11,7 @@ import { FrameRate, grouped, HeadsUp, wavesOf } from './heads_up.js';
 import { moveByKeys, takePointers } from './input.js';
 import { actionOf, allActions, HeldKeys, isField, keyPlan } from './keys.js';
 import { Layout } from './layout.js';
-import { drawSpectrum } from './spectrum_plot.js';
+import { drawSpectrum, plotFits } from './spectrum_plot.js';
 import { cannotDraw, missingGraphics, Stage } from './stage.js';
 import { defaults, stepped, valueText } from './table.js';
 import { compareReference, exactSea, SelfCheck } from './verification.js';
@@ -241,8 +241,8 @@ export class App {
       if (isField(event.target)) this.held.clear();
     });
     takePointers(this.canvas, this.camera, { onMove: () => this.moved(), signal });
-    this.resizes = new ResizeObserver(() => this.changed());
-    this.resizes.observe(this.root);
+    this.resizes = new ResizeObserver(() => this.resized());
+    for (const node of [this.root, this.figures.plot]) this.resizes.observe(node);
     if (!this.embedded) {
       takeDrops(this.root, {
         ...this.fileReceivers(),
@@ -250,6 +250,16 @@ export class App {
         signal,
       });
     }
+  }
+
+  /** Fit what is shown to a new size; panels would cover the sea once there is no width for two. */
+  resized() {
+    const { layout } = this;
+    const { wide } = layout;
+    if (this.wasWide && !wide) for (const name of ['figures', 'controls']) layout.close(name);
+    this.wasWide = wide;
+    if (!plotFits(this.figures.plot)) this.drawPlot();
+    this.changed();
   }
 
   /** Return what a file that is read or refused is handed to. */
@@ -583,6 +593,7 @@ export class App {
     }
     if (!this.connection) {
       await this.checkItself();
+      this.figures.revealVerification();
       return;
     }
     const why = exactSea(this.stage.simulation, this.busy);
@@ -668,7 +679,10 @@ export class App {
     this.verdict = { passed, worst, rows };
     this.figures.showVerification({ title, rows });
     this.layout.toast(title, passed ? 'note' : 'refusal');
-    if (this.layout.wide && !this.embedded) this.layout.toggle('figures', true);
+    if (this.layout.wide && !this.embedded) {
+      this.layout.toggle('figures', true);
+      this.figures.revealVerification();
+    }
   }
 
   /** Take a refusal of the server: show the values that it still has, and say why. */

@@ -7,6 +7,9 @@ export const PASS = 5e-7;
 
 const DASH = '–';
 
+/** Space around an answer that is scrolled to [CSS pixels]. */
+const MARGIN = 12;
+
 /** Facts of the list, in their order. */
 const FACTS = [
   'Waves',
@@ -100,6 +103,7 @@ export class HeadsUp {
   /** Build the line and the panel. */
   constructor({ chip, body }) {
     this.cells = {};
+    this.body = body;
     const cell = (name, properties = {}) => {
       this.cells[name] = element('span', properties);
       return this.cells[name];
@@ -259,6 +263,14 @@ export class HeadsUp {
         : []),
       ...(note ? [element('p', { class: 'note', text: note })] : []),
     );
+  }
+
+  /** Scroll the panel to the answer of a comparison, or to its beginning where it is longer. */
+  revealVerification() {
+    const panel = this.body.getBoundingClientRect();
+    const answer = this.verification.getBoundingClientRect();
+    const below = answer.bottom - panel.bottom + MARGIN;
+    if (below > 0) this.body.scrollTop += Math.min(below, answer.top - panel.top - MARGIN);
   }
 
   /** Set the text of a cell where it differs. */

@@ -167,6 +167,12 @@ export class Layout {
     this.onToggle?.(name, open);
   }
 
+  /** Close a panel; the focus goes back to the sea where the panel had it. */
+  close(name) {
+    if (this[name].contains(document.activeElement)) this.canvas.focus();
+    this.toggle(name, false);
+  }
+
   /** Add a button to the actions. */
   addAction(label, key, click) {
     const button = textButton(label, key, click);

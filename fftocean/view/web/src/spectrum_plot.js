@@ -90,15 +90,24 @@ export function plotRange(spectrum) {
   return [Math.min(...shown) * 0.8, Math.max(...shown) * 1.1];
 }
 
-/** Draw S(f) and the polar spectrum; `colours` are CSS colours of line, second, grid, text. */
-export function drawSpectrum(canvas, sea, colours) {
+/** Return the size of a canvas on the page [CSS pixels], and the pixels that it should have. */
+function sizesOf(canvas) {
   const ratio = Math.min(2, globalThis.devicePixelRatio || 1);
   const width = canvas.clientWidth || 280;
   const height = canvas.clientHeight || 130;
-  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-  }
+  return { ratio, width, height, pixels: [Math.round(width * ratio), Math.round(height * ratio)] };
+}
+
+/** Return true if a canvas has the pixels of its size: else the browser stretches the plot. */
+export function plotFits(canvas) {
+  const [width, height] = sizesOf(canvas).pixels;
+  return canvas.width === width && canvas.height === height;
+}
+
+/** Draw S(f) and the polar spectrum; `colours` are CSS colours of line, second, grid, text. */
+export function drawSpectrum(canvas, sea, colours) {
+  const { ratio, width, height, pixels } = sizesOf(canvas);
+  if (!plotFits(canvas)) [canvas.width, canvas.height] = pixels;
   const pen = canvas.getContext('2d');
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
