@@ -7,7 +7,7 @@ import { decodeReference, decodeSea } from './container.js';
 import { choiceLabel, Controls, presetList } from './controls.js';
 import { element } from './dom.js';
 import { fileMessage, readFile, takeDrops } from './drop.js';
-import { FrameRate, grouped, HeadsUp, wavesOf } from './heads_up.js';
+import { FrameRate, HeadsUp, wavesOf, wavesText } from './heads_up.js';
 import { moveByKeys, takePointers } from './input.js';
 import { actionOf, allActions, HeldKeys, isField, keyPlan } from './keys.js';
 import { Layout } from './layout.js';
@@ -824,15 +824,17 @@ export class App {
   /** Name the two halves of the picture while few waves are shown, with the time that each takes. */
   showSplit() {
     const model = this.fewModel();
+    const lit = this.values.view === 'sea' ? '' : ', lit'; // false colours are of the FFT alone
     const time = (name, what) => {
       const found = this.stage.timer?.milliseconds(name) ?? null;
       return found === null ? '' : `, ${what} ${Number(found.toPrecision(2))} ms`;
     };
     this.layout.showSplit(
       model && [
-        `FFT: ${grouped(wavesOf(this.sea.document))} waves` +
+        `FFT: ${wavesText(wavesOf(this.sea.document))}` +
           `${time('waves', 'transforms')}${time('sea', 'picture')}`,
-        `${choiceLabel(model.model)}: ${model.kx.length} waves${time('few', 'half a picture')}`,
+        `${choiceLabel(model.model)}${lit}: ${wavesText(model.kx.length)}` +
+          time('few', 'half a picture'),
       ],
     );
   }

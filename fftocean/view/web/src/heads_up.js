@@ -41,13 +41,25 @@ function statisticsOf(document_) {
   return { specified: specified ?? {}, realised: realised ?? {} };
 }
 
+/** Return true where statistics are those of water without waves: no period, no direction. */
+export function isFlat({ hs, tp }) {
+  return hs === 0 || tp === 0;
+}
+
+/** Return the peak period and the direction of statistics; flat water has neither. */
+function periodAndDirection(statistics) {
+  const { tp, direction } = isFlat(statistics) ? {} : statistics;
+  return { tp, direction };
+}
+
 /** Return the rows of the table of statistics: [label, specified, realised]. */
 export function statisticsRows(document_) {
   const { specified, realised } = statisticsOf(document_);
+  const both = [specified, realised].map(periodAndDirection);
   return [
     ['Hs [m]', fixed(specified.hs, 2), fixed(realised.hs, 2)],
-    ['Tp [s]', fixed(specified.tp, 1), fixed(realised.tp, 1)],
-    ['Direction', degrees(specified.direction), degrees(realised.direction)],
+    ['Tp [s]', ...both.map(({ tp }) => fixed(tp, 1))],
+    ['Direction', ...both.map(({ direction }) => degrees(direction))],
   ];
 }
 
@@ -71,6 +83,11 @@ export function wavesOf({ tiles }) {
 /** Return a number with thin spaces between thousands. */
 export function grouped(value) {
   return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009');
+}
+
+/** Return a number of waves as text. */
+export function wavesText(count) {
+  return `${grouped(count)} ${count === 1 ? 'wave' : 'waves'}`;
 }
 
 /** Return the relative error as text. */
@@ -175,7 +192,8 @@ export class HeadsUp {
     );
     const { specified, realised } = statisticsOf(document_);
     this.text('hs', `Hs ${fixed(realised.hs ?? specified.hs, 2)} m`);
-    this.text('tp', `Tp ${fixed(realised.tp ?? specified.tp, 1)} s`);
+    const { tp } = periodAndDirection(realised.hs === undefined ? specified : realised);
+    this.text('tp', `Tp ${fixed(tp, 1)} s`);
     this.showQuality(quality);
     this.source.textContent = source ?? '';
     this.source.hidden = !source;

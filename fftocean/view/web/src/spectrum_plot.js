@@ -1,5 +1,7 @@
 // The spectrum by frequency and by direction: specified beside realised, on a 2D canvas.
 
+import { isFlat } from './heads_up.js';
+
 /** Sectors and rings of the polar plot. */
 const SECTORS = 36;
 const RINGS = 14;
@@ -216,7 +218,10 @@ function drawPolar(pen, box, sea, edges, colours) {
     pen.arc(cx, cy, radius * share, 0, 2 * Math.PI);
     pen.stroke();
   }
-  drawDirection(pen, cx, cy, radius, sea.document.statistics?.specified?.direction, colours.line);
+  const { specified } = sea.document.statistics ?? {};
+  if (specified && !isFlat(specified)) {
+    drawDirection(pen, cx, cy, radius, specified.direction, colours.line);
+  }
   pen.fillStyle = colours.text;
   pen.font = colours.font;
   pen.textAlign = 'center';
