@@ -28,6 +28,11 @@ const VERIFY_PATIENCE = 60;
 /** Slowest rate at which the picture stays as fine as it is [frames a second]. */
 const SLOWEST = 24;
 
+/** The sentence for a server that may not come back: another one has another address. */
+const SERVER_GONE =
+  'The server has stopped or is out of reach, so that only light, camera and view can change. ' +
+  'Start fftocean view again and open the address that it prints.';
+
 /** Parameters of the server that a page without one can change itself. */
 const OWN_CHANGES = new Set(['choppiness']);
 
@@ -405,10 +410,20 @@ export class App {
     });
   }
 
-  /** Change values by hand: local ones here, the others on the server. */
+  /**
+   * Change values by hand: local ones here, the others on the server.
+   * Return false where the server is gone: then nothing changes, as some values would not arrive.
+   */
   change(values) {
     const sent = {};
     const local = [];
+    const names = Object.keys(values);
+    if (this.serverGone && names.some((name) => this.rows.get(name)?.local === false)) {
+      const before = Object.fromEntries(names.map((name) => [name, this.values[name]]));
+      this.controls.show(before, { force: true });
+      this.refuse(SERVER_GONE);
+      return false;
+    }
     for (const [name, value] of Object.entries(values)) {
       const row = this.rows.get(name);
       if (!row) continue;
@@ -421,6 +436,7 @@ export class App {
     this.controls.show(values, { force: true });
     if (Object.keys(sent).length) this.connection.set(sent);
     this.changed();
+    return true;
   }
 
   /** Apply local values that are not read at every picture. */
@@ -499,7 +515,7 @@ export class App {
     }
     const high = name === 'tiles' ? Math.min(row.high, this.mostTiles) : row.high;
     const value = stepped({ ...row, high }, this.values[name], direction);
-    this.change({ [name]: value });
+    if (!this.change({ [name]: value })) return;
     const text = row.kind === 'choice' ? choiceLabel(value) : valueText(row, value);
     this.layout.toast(`${row.label}: ${text}`);
   }
@@ -710,15 +726,26 @@ export class App {
       connecting: 'connecting',
       again: 'connecting again',
       open: 'connected',
-      waiting: `lost; again in ${wait} s`,
+      waiting: this.connection?.gone ? 'none: the server is gone' : `lost; again in ${wait} s`,
     };
     this.figures.showConnection(phase, texts[phase]);
     if (phase === 'waiting' && attempts === 1) {
-      this.layout.toast('The server does not answer. The sea goes on; the page connects again.');
+      this.layout.toast('The server does not answer. The sea goes on; the page tries again.');
     }
+    if (phase === 'waiting' && this.connection?.gone && !this.serverGone) this.loseServer();
+    if (phase === 'open') this.serverGone = false;
     if (phase === 'waiting') this.endVerifying('the connection was lost');
     if (phase === 'open' && this.wasLost) this.layout.toast('Connected again');
     this.wasLost = phase !== 'open' && (this.wasLost || phase === 'waiting');
+  }
+
+  /** Say that the server may not come back, and show the values of the sea that it sent last. */
+  loseServer() {
+    this.serverGone = true;
+    Object.assign(this.values, this.served);
+    this.controls.show(this.served, { force: true });
+    this.changed();
+    this.refuse(SERVER_GONE);
   }
 
   /** Use another canvas, after a context that did not come back. */
