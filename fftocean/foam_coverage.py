@@ -32,7 +32,7 @@ from fftocean.physics.panels import gauss_rule
 
 _WAVELENGTH = Quantity("m", 0.0, math.inf)
 _MOST_COVERED = 0.95  # that a threshold is looked for
-_POINTS = 256  # of time series
+_VALUES = 2**18  # of all time series together: short waves have longer ones, at fewer points
 _PERIOD = 64.0  # of the time series [s]
 _SAMPLES = 1024  # of a time series, at least
 _MOST_SAMPLES = 8192
@@ -279,9 +279,9 @@ def _series(covariance: Real, period: float) -> Real:
     from scipy import fft
 
     cycles = covariance.shape[0]
-    points = max(1, round(_POINTS * _PERIOD / period))
     least = max(_SAMPLES * period / _PERIOD, 2.0 * cycles)
     samples = min(2 ** math.ceil(math.log2(least)), _MOST_SAMPLES)
+    points = _VALUES // samples
     values, vectors = np.linalg.eigh(covariance)
     spread = (vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]).astype(np.float32)
     chance = np.random.default_rng(0)

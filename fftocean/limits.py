@@ -52,7 +52,7 @@ class Quantity:
             return "of any size"
         if math.isinf(self.high):
             return f"at least {self.low:g}{unit} (inf is allowed)"
-        return f"between {self.low:g} and {self.high:g}{unit}"
+        return f"between {_bound(self.low)} and {_bound(self.high)}{unit}"
 
     def check(self, name: str, value: Any) -> float:
         """
@@ -203,6 +203,12 @@ class Count(Quantity):
         if not self.low <= int(value) <= self.high:
             raise ParameterError(f"{name} must be a whole number {self.rule}, got {int(value)}")
         return int(value)
+
+
+def _bound(value: float) -> str:
+    """Return a limit as text; a whole number keeps all digits where six would be another limit."""
+    text = f"{value:g}"
+    return str(value) if isinstance(value, int) and float(text) != value else text
 
 
 def _is_list(values: Any) -> bool:

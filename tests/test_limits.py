@@ -512,3 +512,8 @@ def test_memory_is_asked_for_before_it_is_taken():
 def test_complex_types_have_the_parts_they_are_named_after():
     for real, whole in arrays.COMPLEX_OF.items():
         assert np.empty(1, whole).real.dtype == np.dtype(real)
+
+
+def test_a_rule_names_whole_limits_with_all_digits():
+    assert limits.Count("", 0, 2**32 - 1).rule == "between 0 and 4294967295"
+    assert limits.Count("", 0, 10**6).rule == "between 0 and 1e+06"

@@ -65,11 +65,11 @@ def means_on_loop(
     for row in eigenvalue:
         f = 0.0
         for i in range(count):
-            below = threshold - row[i]
+            below = threshold - float(row[i])  # also where nothing is compiled
             f = decay * f + (gain * below if below > 0.0 else 0.0)
         f /= -np.expm1(count * np.log(decay))
         for i in range(count):
-            below = threshold - row[i]
+            below = threshold - float(row[i])  # also where nothing is compiled
             f = decay * f + (gain * below if below > 0.0 else 0.0)
             total += f
             if i % every == 0:

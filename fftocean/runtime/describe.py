@@ -22,8 +22,6 @@ MOMENTS = 8
 """Moments of the loop at which bounds are measured."""
 DEVIATIONS = 5.0
 """Standard deviations of the bounds that are estimated: 1 in 2 million samples lies beyond."""
-SEEN = 1.0
-"""Length of the shortest waves that make foam, where its threshold follows the wind [m]."""
 
 Wind = tuple[float, float]
 """Speed 10 m above the sea [m/s], and direction toward which it blows [degrees]."""
@@ -102,15 +100,13 @@ def foam_for(source: Source, wind: Wind | None) -> dict[str, float]:
     """
     Return parameters of foam: such that it covers what whitecaps do in a wind, if that is known.
 
-    Waves shorter than `SEEN` do not count, as in maps of foam with cells of half of it.
+    All waves of the tiles count: maps of foam take the tiles' samples as they are, unfiltered.
     """
     foam = Foam()
     threshold = foam.threshold
     if wind is not None:
         waves = GivenWaves(source.tiles, source.choppiness)
-        threshold = threshold_for(
-            waves, wind[0], tau=foam.tau, strength=foam.strength, shortest=SEEN
-        )
+        threshold = threshold_for(waves, wind[0], tau=foam.tau, strength=foam.strength)
     return {"decay": foam.tau, "threshold": threshold, "strength": foam.strength}
 
 

@@ -50,7 +50,6 @@ _ALIGNMENT = 16
 _HEAD = struct.Struct("<4sIII")
 _RUN = 8  # frames that are read at a time from a container, which is read as a whole
 _SAMPLED = 4  # frames whose slopes are measured
-_SEEN = 1.0  # length of the shortest waves that the page's foam sees [m]
 _BYTES = Count("bytes", 0, 2**50)
 
 FIELDS = ("height", "displace_x", "displace_y", "slope_x", "slope_y")
@@ -257,7 +256,7 @@ class Playback:
             and "foam" not in self._tiles[0].contents.job.maps
         ):
             foam["threshold"] = threshold_for(
-                water, wind[0], tau=foam["tau"], strength=foam["strength"], shortest=_SEEN
+                water, wind[0], tau=foam["tau"], strength=foam["strength"]
             )
         return foam
 

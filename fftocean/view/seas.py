@@ -28,7 +28,6 @@ from fftocean.view.worker import Worker
 REST: Final = 0.15  # seconds without a change, after which the exact sea is made
 PAUSE: Final = 0.05  # shortest time between two seas while values change [s]
 KEPT: Final = 2  # exact seas
-SEEN: Final = 1.0  # shortest waves whose foam the page's window of foam can hold [m]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,11 +169,13 @@ def _roughness_of(state: State, cascade: Cascade) -> dict[str, list[float]]:
 def _foam_of(state: State, cascade: Cascade) -> Foam:
     """
     Return the foam of a sea: that of a job that bakes foam, else as much as its wind's whitecaps.
+
+    All waves count: the page's windows of foam take the tiles' samples as they are, unfiltered.
     """
     own, wind = state.base.foam, _wind_of(state)
     if "foam" in state.base.maps or wind is None:
         return Foam(**own)
-    return Foam.from_wind(cascade, wind[0], tau=own["tau"], strength=own["strength"], shortest=SEEN)
+    return Foam.from_wind(cascade, wind[0], tau=own["tau"], strength=own["strength"])
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:

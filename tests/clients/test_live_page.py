@@ -477,7 +477,9 @@ def test_a_bake_is_played(browser, tmp_path):
     more = ["--frames", "4", "--size", "100", "--maps", "height,displacement,derivative"]
     subprocess.run([*command, *more], check=True, capture_output=True)
     with Server(str(folder)) as server, browser.page(server.address, **SMALL) as page:
-        page.until("globalThis.fftocean?.stage.playback?.shownFrame === 0 && fftocean.frames > 0")
+        page.until(SETTLED)
+        assert page.evaluate("fftocean.stage.playback.shownFrame") == 0
+        assert page.evaluate("fftocean.frames") > 0
         first = page.evaluate(PICTURE)
         page.evaluate("fftocean.clock.tick = fftocean.clock.ticks / 2; fftocean.changed()")
         page.until("fftocean.stage.playback.shownFrame === 2")

@@ -231,7 +231,7 @@ def test_foam_follows_the_wind_and_what_is_given(cascade):
     document = runtime.pack(cascade, reference=False, wind=(12.0, 30.0), foam=given).document
     assert document["foam"] == {"decay": 2.0, "threshold": 0.6, "strength": 30.0}
     assert document["wind"] == {"speed": 12.0, "direction": 30.0}
-    expected = fo.Foam.from_wind(cascade, 12.0, shortest=1.0).threshold
+    expected = fo.Foam.from_wind(cascade, 12.0).threshold
     source = runtime.Source.of(cascade)
     for quality in ("exact", "moving"):
         package = runtime.pack(source, reference=False, quality=quality, wind=(12.0, 30.0))

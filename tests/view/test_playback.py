@@ -169,7 +169,7 @@ def test_the_manifest_is_a_document_for_the_page(bakes):
 
 def test_foam_is_that_of_the_wind_or_of_the_bake(bakes, tmp_path):
     foam = open_bake(bakes / "exr").manifest()["foam"]
-    right = threshold_for(recipe().ocean(), 7.0, shortest=1.0)
+    right = threshold_for(recipe().ocean(), 7.0)
     assert foam["threshold"] == pytest.approx(right, rel=1e-12)
     fo.bake(
         recipe(maps=("height", "foam"), bake__frames=1, bake__foam__threshold=0.6),

@@ -72,9 +72,15 @@ export function compassName(degrees) {
   return COMPASS[((place % 16) + 16) % 16];
 }
 
-/** Return a number with few decimals. */
+/** Return a number with two significant digits, or without decimals from 10. */
 function short(value) {
-  return String(Number(value.toFixed(value < 10 ? 1 : 0)));
+  return String(Number(value < 10 ? value.toPrecision(2) : value.toFixed(0)));
+}
+
+/** Return a number with its unit, which is in the singular after 1. */
+function amount(value, unit) {
+  const text = short(value);
+  return `${text} ${unit}${text === '1' ? '' : 's'}`;
 }
 
 /** Return true for a number that can be said. */
@@ -87,8 +93,8 @@ function waves(statistics) {
   const { hs, tp, direction } = statistics;
   if (!known(hs)) return 'A sea.';
   if (hs < 0.005) return 'A flat sea without waves.';
-  const parts = [`A ${seaState(hs).name} sea`, `significant wave height ${short(hs)} metres`];
-  if (known(tp)) parts.push(`peak period ${short(tp)} seconds`);
+  const parts = [`A ${seaState(hs).name} sea`, `significant wave height ${amount(hs, 'metre')}`];
+  if (known(tp)) parts.push(`peak period ${amount(tp, 'second')}`);
   if (known(direction)) parts.push(`running toward the ${compassName(direction)}`);
   return `${parts.join(', ')}.`;
 }
@@ -99,7 +105,7 @@ function wind(values) {
   if (!known(speed)) return '';
   const { number, name } = beaufort(speed);
   const toward = known(values.direction) ? ` toward the ${compassName(values.direction)}` : '';
-  return `Wind of ${short(speed)} metres per second${toward}, Beaufort ${number}, ${name}.`;
+  return `Wind of ${amount(speed, 'metre')} per second${toward}, Beaufort ${number}, ${name}.`;
 }
 
 /** Return the clause of the light. */
@@ -114,7 +120,7 @@ function light(look) {
 export function describeSea({ document: sea, look, paused, few, playback }) {
   const statistics = sea?.statistics?.realised ?? sea?.statistics?.specified ?? {};
   const water =
-    known(sea?.depth) && sea.depth < 1e6 ? `The water is ${short(sea.depth)} metres deep.` : '';
+    known(sea?.depth) && sea.depth < 1e6 ? `The water is ${amount(sea.depth, 'metre')} deep.` : '';
   return [
     playback ? 'A recorded sea is played.' : '',
     waves(statistics),

@@ -7,11 +7,11 @@ import { decodeReference, decodeSea } from './container.js';
 import { choiceLabel, Controls, presetList } from './controls.js';
 import { element } from './dom.js';
 import { fileMessage, readFile, takeDrops } from './drop.js';
-import { FrameRate, grouped, HeadsUp, wavesOf } from './heads_up.js';
+import { FrameRate, HeadsUp, wavesOf, wavesText } from './heads_up.js';
 import { moveByKeys, takePointers } from './input.js';
 import { actionOf, allActions, HeldKeys, isField, keyPlan } from './keys.js';
 import { Layout } from './layout.js';
-import { drawSpectrum } from './spectrum_plot.js';
+import { drawSpectrum, plotFits } from './spectrum_plot.js';
 import { cannotDraw, missingGraphics, Stage } from './stage.js';
 import { defaults, stepped, valueText } from './table.js';
 import { compareReference, exactSea, SelfCheck } from './verification.js';
@@ -27,6 +27,11 @@ const VERIFY_PATIENCE = 60;
 
 /** Slowest rate at which the picture stays as fine as it is [frames a second]. */
 const SLOWEST = 24;
+
+/** The sentence for a server that may not come back: another one has another address. */
+const SERVER_GONE =
+  'The server has stopped or is out of reach, so that only light, camera and view can change. ' +
+  'Start fftocean view again and open the address that it prints.';
 
 /** Parameters of the server that a page without one can change itself. */
 const OWN_CHANGES = new Set(['choppiness']);
@@ -241,8 +246,8 @@ export class App {
       if (isField(event.target)) this.held.clear();
     });
     takePointers(this.canvas, this.camera, { onMove: () => this.moved(), signal });
-    this.resizes = new ResizeObserver(() => this.changed());
-    this.resizes.observe(this.root);
+    this.resizes = new ResizeObserver(() => this.resized());
+    for (const node of [this.root, this.figures.plot]) this.resizes.observe(node);
     if (!this.embedded) {
       takeDrops(this.root, {
         ...this.fileReceivers(),
@@ -250,6 +255,16 @@ export class App {
         signal,
       });
     }
+  }
+
+  /** Fit what is shown to a new size; panels would cover the sea once there is no width for two. */
+  resized() {
+    const { layout } = this;
+    const { wide } = layout;
+    if (this.wasWide && !wide) for (const name of ['figures', 'controls']) layout.close(name);
+    this.wasWide = wide;
+    if (!plotFits(this.figures.plot)) this.drawPlot();
+    this.changed();
   }
 
   /** Return what a file that is read or refused is handed to. */
@@ -331,7 +346,8 @@ export class App {
     const first = !this.sea;
     this.sea = sea;
     this.bake = null;
-    this.clock.follow(sea.document);
+    // a sea that is shown keeps its loop until the new one takes its place: see `picture`
+    if (!this.stage.simulation) this.clock.follow(sea.document);
     this.showFigures();
     await this.stage.setSea(sea, first || this.clock.paused ? 0 : CHANGE);
     // While time stands still foam cannot follow the sea, so that it grows anew for the exact one.
@@ -394,10 +410,20 @@ export class App {
     });
   }
 
-  /** Change values by hand: local ones here, the others on the server. */
+  /**
+   * Change values by hand: local ones here, the others on the server.
+   * Return false where the server is gone: then nothing changes, as some values would not arrive.
+   */
   change(values) {
     const sent = {};
     const local = [];
+    const names = Object.keys(values);
+    if (this.serverGone && names.some((name) => this.rows.get(name)?.local === false)) {
+      const before = Object.fromEntries(names.map((name) => [name, this.values[name]]));
+      this.controls.show(before, { force: true });
+      this.refuse(SERVER_GONE);
+      return false;
+    }
     for (const [name, value] of Object.entries(values)) {
       const row = this.rows.get(name);
       if (!row) continue;
@@ -410,6 +436,7 @@ export class App {
     this.controls.show(values, { force: true });
     if (Object.keys(sent).length) this.connection.set(sent);
     this.changed();
+    return true;
   }
 
   /** Apply local values that are not read at every picture. */
@@ -488,7 +515,7 @@ export class App {
     }
     const high = name === 'tiles' ? Math.min(row.high, this.mostTiles) : row.high;
     const value = stepped({ ...row, high }, this.values[name], direction);
-    this.change({ [name]: value });
+    if (!this.change({ [name]: value })) return;
     const text = row.kind === 'choice' ? choiceLabel(value) : valueText(row, value);
     this.layout.toast(`${row.label}: ${text}`);
   }
@@ -582,6 +609,7 @@ export class App {
     }
     if (!this.connection) {
       await this.checkItself();
+      this.figures.revealVerification();
       return;
     }
     const why = exactSea(this.stage.simulation, this.busy);
@@ -667,7 +695,10 @@ export class App {
     this.verdict = { passed, worst, rows };
     this.figures.showVerification({ title, rows });
     this.layout.toast(title, passed ? 'note' : 'refusal');
-    if (this.layout.wide && !this.embedded) this.layout.toggle('figures', true);
+    if (this.layout.wide && !this.embedded) {
+      this.layout.toggle('figures', true);
+      this.figures.revealVerification();
+    }
   }
 
   /** Take a refusal of the server: show the values that it still has, and say why. */
@@ -695,15 +726,26 @@ export class App {
       connecting: 'connecting',
       again: 'connecting again',
       open: 'connected',
-      waiting: `lost; again in ${wait} s`,
+      waiting: this.connection?.gone ? 'none: the server is gone' : `lost; again in ${wait} s`,
     };
     this.figures.showConnection(phase, texts[phase]);
     if (phase === 'waiting' && attempts === 1) {
-      this.layout.toast('The server does not answer. The sea goes on; the page connects again.');
+      this.layout.toast('The server does not answer. The sea goes on; the page tries again.');
     }
+    if (phase === 'waiting' && this.connection?.gone && !this.serverGone) this.loseServer();
+    if (phase === 'open') this.serverGone = false;
     if (phase === 'waiting') this.endVerifying('the connection was lost');
     if (phase === 'open' && this.wasLost) this.layout.toast('Connected again');
     this.wasLost = phase !== 'open' && (this.wasLost || phase === 'waiting');
+  }
+
+  /** Say that the server may not come back, and show the values of the sea that it sent last. */
+  loseServer() {
+    this.serverGone = true;
+    Object.assign(this.values, this.served);
+    this.controls.show(this.served, { force: true });
+    this.changed();
+    this.refuse(SERVER_GONE);
   }
 
   /** Use another canvas, after a context that did not come back. */
@@ -751,8 +793,10 @@ export class App {
   async picture(seconds, passed) {
     const { clock, stage } = this;
     const { choppiness, foam } = this.values;
+    if (stage.simulation) clock.follow(stage.simulation.document);
     if (stage.foamIsNew) await stage.growFoam(clock, choppiness, this.eye(), foam);
     stage.simulation?.advance(passed);
+    if (stage.simulation) clock.follow(stage.simulation.document);
     await stage.step(clock.tick, choppiness);
     if (!stage.ready) return;
     if (seconds !== 0) stage.advanceFoam(this.eye(), Math.abs(seconds), foam);
@@ -807,15 +851,17 @@ export class App {
   /** Name the two halves of the picture while few waves are shown, with the time that each takes. */
   showSplit() {
     const model = this.fewModel();
+    const lit = this.values.view === 'sea' ? '' : ', lit'; // false colours are of the FFT alone
     const time = (name, what) => {
       const found = this.stage.timer?.milliseconds(name) ?? null;
       return found === null ? '' : `, ${what} ${Number(found.toPrecision(2))} ms`;
     };
     this.layout.showSplit(
       model && [
-        `FFT: ${grouped(wavesOf(this.sea.document))} waves` +
+        `FFT: ${wavesText(wavesOf(this.sea.document))}` +
           `${time('waves', 'transforms')}${time('sea', 'picture')}`,
-        `${choiceLabel(model.model)}: ${model.kx.length} waves${time('few', 'half a picture')}`,
+        `${choiceLabel(model.model)}${lit}: ${wavesText(model.kx.length)}` +
+          time('few', 'half a picture'),
       ],
     );
   }
@@ -828,10 +874,12 @@ export class App {
     console.error(error);
   }
 
-  /** True when the picture shows the exact sea of the newest values; for tests. */
+  /** True when the picture shows the exact sea of the newest values, or a bake; for tests. */
   get settled() {
     const { connection, stage } = this;
-    const newest = !connection || this.servedSea === this.sea?.document.id;
+    // a bake has no seas that could be newer; its picture is there once a frame has come
+    const newest = !connection || Boolean(this.bake) || this.servedSea === this.sea?.document.id;
+    if (this.bake && (stage.playback?.shownFrame ?? null) === null) return false;
     const waiting = Boolean(connection?.pending?.size) || this.busy || !newest;
     const shown = stage.ready && (stage.simulation?.weight ?? 1) === 1 && !this.dirty && !this.turn;
     return shown && !waiting && this.sea?.document.quality !== 'moving';

@@ -5,6 +5,9 @@ import { kindOf } from './container.js';
 /** Seconds before each attempt to connect again; the last is repeated. */
 export const WAITS = Object.freeze([0.25, 0.5, 1, 2, 4, 8]);
 
+/** Failed attempts after which a server counts as gone: it takes 4 s to get there. */
+export const GIVE_UP = 4;
+
 /** Shortest time between two messages that set values [s]. */
 export const PAUSE = 0.05;
 
@@ -69,13 +72,23 @@ export class Connection {
     this.start();
   }
 
-  /** Set values: those that wait are joined, and the newest value of a name is sent. */
+  /**
+   * Set values: those that wait are joined, and the newest value of a name is sent.
+   * Values that are set while a lost socket may come back soon arrive then; a server that is gone
+   * takes none.
+   */
   set(values) {
+    if (this.gone) return;
     for (const [name, value] of Object.entries(values)) {
       this.pending.delete(name);
       this.pending.set(name, value);
     }
     this.flushSoon();
+  }
+
+  /** True where the server has not answered for so long that it may not come back. */
+  get gone() {
+    return this.attempts > GIVE_UP;
   }
 
   /** Send a message other than `set`; return false where the socket is not open. */
@@ -136,6 +149,7 @@ export class Connection {
     if (this.closed) return;
     const wait = WAITS[Math.min(this.attempts, WAITS.length - 1)];
     this.attempts += 1;
+    if (this.gone) this.pending.clear();
     const reason = event?.reason ?? '';
     this.tell('status', { phase: 'waiting', attempts: this.attempts, wait, reason });
     this.cancelRetry = this.later(wait, () => {

@@ -29,7 +29,7 @@ export const DEFAULT_FEW_LOOK = {
   diffuse: 0.6,
   specular: 0.5,
   shininess: 180,
-  noiseAmplitude: 0.3, // largest turn of the normal [rad]
+  noiseAmplitude: 0.3, // largest turn of the normal [rad], where there are waves
   noiseFrequency: 1, // ripples a metre
   choppiness: 1,
 };
@@ -81,6 +81,15 @@ export function reachOf(model, choppiness) {
     reach += Math.abs(amplitude) * Math.max(1, choppiness * model.sharpness[i]);
   });
   return reach;
+}
+
+/** Significant wave height at which ripples are as steep as they get [m]: sea state 1 of the WMO. */
+const RIPPLED = 0.1;
+
+/** Return the share of the ripples that a model has: none on flat water, all above sea state 1. */
+export function ripplesOf(model) {
+  const variance = model.amplitude.reduce((sum, amplitude) => sum + amplitude ** 2 / 2, 0);
+  return Math.min(1, (4 * Math.sqrt(variance)) / RIPPLED);
 }
 
 /** The surface of a few-wave model, drawn with WebGL 2. */
@@ -220,7 +229,7 @@ export class FewWaves {
       wavenumber,
       wave,
       noise: this.noise,
-      noise_amplitude: look.noiseAmplitude,
+      noise_amplitude: ripplesOf(model) * look.noiseAmplitude,
       noise_frequency: frequency,
       noise_start: [fraction(camera.east * frequency), fraction(camera.north * frequency)],
       ambient: look.ambient,

@@ -7,6 +7,9 @@ export const PASS = 5e-7;
 
 const DASH = '–';
 
+/** Space around an answer that is scrolled to [CSS pixels]. */
+const MARGIN = 12;
+
 /** Facts of the list, in their order. */
 const FACTS = [
   'Waves',
@@ -38,13 +41,25 @@ function statisticsOf(document_) {
   return { specified: specified ?? {}, realised: realised ?? {} };
 }
 
+/** Return true where statistics are those of water without waves: no period, no direction. */
+export function isFlat({ hs, tp }) {
+  return hs === 0 || tp === 0;
+}
+
+/** Return the peak period and the direction of statistics; flat water has neither. */
+function periodAndDirection(statistics) {
+  const { tp, direction } = isFlat(statistics) ? {} : statistics;
+  return { tp, direction };
+}
+
 /** Return the rows of the table of statistics: [label, specified, realised]. */
 export function statisticsRows(document_) {
   const { specified, realised } = statisticsOf(document_);
+  const both = [specified, realised].map(periodAndDirection);
   return [
     ['Hs [m]', fixed(specified.hs, 2), fixed(realised.hs, 2)],
-    ['Tp [s]', fixed(specified.tp, 1), fixed(realised.tp, 1)],
-    ['Direction', degrees(specified.direction), degrees(realised.direction)],
+    ['Tp [s]', ...both.map(({ tp }) => fixed(tp, 1))],
+    ['Direction', ...both.map(({ direction }) => degrees(direction))],
   ];
 }
 
@@ -68,6 +83,11 @@ export function wavesOf({ tiles }) {
 /** Return a number with thin spaces between thousands. */
 export function grouped(value) {
   return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009');
+}
+
+/** Return a number of waves as text. */
+export function wavesText(count) {
+  return `${grouped(count)} ${count === 1 ? 'wave' : 'waves'}`;
 }
 
 /** Return the relative error as text. */
@@ -100,6 +120,7 @@ export class HeadsUp {
   /** Build the line and the panel. */
   constructor({ chip, body }) {
     this.cells = {};
+    this.body = body;
     const cell = (name, properties = {}) => {
       this.cells[name] = element('span', properties);
       return this.cells[name];
@@ -171,7 +192,8 @@ export class HeadsUp {
     );
     const { specified, realised } = statisticsOf(document_);
     this.text('hs', `Hs ${fixed(realised.hs ?? specified.hs, 2)} m`);
-    this.text('tp', `Tp ${fixed(realised.tp ?? specified.tp, 1)} s`);
+    const { tp } = periodAndDirection(realised.hs === undefined ? specified : realised);
+    this.text('tp', `Tp ${fixed(tp, 1)} s`);
     this.showQuality(quality);
     this.source.textContent = source ?? '';
     this.source.hidden = !source;
@@ -259,6 +281,14 @@ export class HeadsUp {
         : []),
       ...(note ? [element('p', { class: 'note', text: note })] : []),
     );
+  }
+
+  /** Scroll the panel to the answer of a comparison, or to its beginning where it is longer. */
+  revealVerification() {
+    const panel = this.body.getBoundingClientRect();
+    const answer = this.verification.getBoundingClientRect();
+    const below = answer.bottom - panel.bottom + MARGIN;
+    if (below > 0) this.body.scrollTop += Math.min(below, answer.top - panel.top - MARGIN);
   }
 
   /** Set the text of a cell where it differs. */

@@ -121,6 +121,7 @@ export class Layout {
     );
     this.viewLabel = element('p', { class: 'view-label', 'aria-hidden': 'true' });
     this.split = ['left', 'right'].map((side) => element('p', { class: `half ${side}` }));
+    this.halves = element('div', { class: 'halves', hidden: true }, ...this.split);
     this.spoken = element('p', { class: 'spoken', role: 'status', 'aria-live': 'polite' });
     this.toasts = element('div', { class: 'toasts' });
     this.banner = element('div', { class: 'banner', role: 'alert', hidden: true });
@@ -137,9 +138,8 @@ export class Layout {
         { class: 'frame' },
         element('div', { class: 'top' }, this.chip, this.figures),
         this.controls,
-        element('div', { class: 'bottom' }, this.viewLabel, this.bar),
+        element('div', { class: 'bottom' }, this.viewLabel, this.halves, this.bar),
       ),
-      ...this.split,
       this.toasts,
       this.banner,
       this.dropHint,
@@ -167,6 +167,12 @@ export class Layout {
     this.onToggle?.(name, open);
   }
 
+  /** Close a panel; the focus goes back to the sea where the panel had it. */
+  close(name) {
+    if (this[name].contains(document.activeElement)) this.canvas.focus();
+    this.toggle(name, false);
+  }
+
   /** Add a button to the actions. */
   addAction(label, key, click) {
     const button = textButton(label, key, click);
@@ -192,8 +198,8 @@ export class Layout {
   /** Name the halves of a picture in two parts; null for a whole one. */
   showSplit(names) {
     this.root.classList.toggle('split', Boolean(names));
+    this.halves.hidden = !names;
     this.split.forEach((node, i) => {
-      node.hidden = !names;
       if (names && node.textContent !== names[i]) node.textContent = names[i];
     });
   }

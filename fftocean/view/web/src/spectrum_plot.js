@@ -1,5 +1,7 @@
 // The spectrum by frequency and by direction: specified beside realised, on a 2D canvas.
 
+import { isFlat } from './heads_up.js';
+
 /** Sectors and rings of the polar plot. */
 const SECTORS = 36;
 const RINGS = 14;
@@ -90,15 +92,24 @@ export function plotRange(spectrum) {
   return [Math.min(...shown) * 0.8, Math.max(...shown) * 1.1];
 }
 
-/** Draw S(f) and the polar spectrum; `colours` are CSS colours of line, second, grid, text. */
-export function drawSpectrum(canvas, sea, colours) {
+/** Return the size of a canvas on the page [CSS pixels], and the pixels that it should have. */
+function sizesOf(canvas) {
   const ratio = Math.min(2, globalThis.devicePixelRatio || 1);
   const width = canvas.clientWidth || 280;
   const height = canvas.clientHeight || 130;
-  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-  }
+  return { ratio, width, height, pixels: [Math.round(width * ratio), Math.round(height * ratio)] };
+}
+
+/** Return true if a canvas has the pixels of its size: else the browser stretches the plot. */
+export function plotFits(canvas) {
+  const [width, height] = sizesOf(canvas).pixels;
+  return canvas.width === width && canvas.height === height;
+}
+
+/** Draw S(f) and the polar spectrum; `colours` are CSS colours of line, second, grid, text. */
+export function drawSpectrum(canvas, sea, colours) {
+  const { ratio, width, height, pixels } = sizesOf(canvas);
+  if (!plotFits(canvas)) [canvas.width, canvas.height] = pixels;
   const pen = canvas.getContext('2d');
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, width, height);
@@ -207,7 +218,10 @@ function drawPolar(pen, box, sea, edges, colours) {
     pen.arc(cx, cy, radius * share, 0, 2 * Math.PI);
     pen.stroke();
   }
-  drawDirection(pen, cx, cy, radius, sea.document.statistics?.specified?.direction, colours.line);
+  const { specified } = sea.document.statistics ?? {};
+  if (specified && !isFlat(specified)) {
+    drawDirection(pen, cx, cy, radius, specified.direction, colours.line);
+  }
   pen.fillStyle = colours.text;
   pen.font = colours.font;
   pen.textAlign = 'center';

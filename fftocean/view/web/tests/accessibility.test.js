@@ -70,7 +70,7 @@ test('what is not known is not said', () => {
   const given = { ...SEA, wind: null, statistics: { specified: null, realised: { hs: 1 } } };
   assert.equal(
     describeSea({ document: given, playback: true }),
-    'A recorded sea is played. A slight sea, significant wave height 1 metres.',
+    'A recorded sea is played. A slight sea, significant wave height 1 metre.',
   );
   assert.match(describeSea({ document: { ...SEA, depth: 12 } }), /water is 12 metres deep/);
 });
@@ -105,4 +105,12 @@ test('contrast of black and white is 21, of equal colours 1, of #767676 on white
   assert.equal(contrast([0, 0, 0], [255, 255, 255]), 21);
   assert.equal(contrast([9, 9, 9], [9, 9, 9]), 1);
   assert.equal(contrast([118, 118, 118], [255, 255, 255]).toFixed(2), '4.54');
+});
+
+test('small numbers keep two digits, and one unit is in the singular', () => {
+  const said = (statistics, more) => describeSea({ document: { statistics, ...more } });
+  assert.match(said({ realised: { hs: 0.02 } }), /wave height 0\.02 metres\./);
+  assert.match(said({ realised: { hs: 2, tp: 1 } }), /peak period 1 second\./);
+  assert.match(said({}, { wind: { speed: 1 } }), /Wind of 1 metre per second, Beaufort 1/);
+  assert.match(said({}, { depth: 1 }), /water is 1 metre deep/);
 });

@@ -1,7 +1,14 @@
 // The socket of the page: joined changes, retries, and what a lost socket may not lose.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Connection, LONGEST_MESSAGE, PAUSE, socketAddress, WAITS } from '../src/connection.js';
+import {
+  Connection,
+  GIVE_UP,
+  LONGEST_MESSAGE,
+  PAUSE,
+  socketAddress,
+  WAITS,
+} from '../src/connection.js';
 
 /** A clock that the test moves, sockets that it opens and closes, and everything that is heard. */
 class Bench {
@@ -89,7 +96,7 @@ test('a message other than a change comes after the changes before it', () => {
   assert.deepEqual(bench.socket.sent.slice(1), [{ set: { a: 2 } }, { verify: { tick: 3 } }]);
 });
 
-test('a lost socket comes back after longer and longer times, with what was set meanwhile', () => {
+test('a lost socket comes back after longer and longer times', () => {
   const bench = new Bench();
   const { connection } = bench;
   connection.start();
@@ -99,13 +106,12 @@ test('a lost socket comes back after longer and longer times, with what was set 
     const count = bench.sockets.length;
     bench.pass(wait - 0.001);
     assert.equal(bench.sockets.length, count, 'not before its time');
-    connection.set({ seed: count });
     bench.pass(0.002);
     assert.equal(bench.sockets.length, count + 1);
   }
   assert.equal(connection.send({ copy: 'job' }), false);
   bench.socket.onopen();
-  assert.deepEqual(bench.socket.sent, [{ set: { seed: WAITS.length + 1 } }]);
+  assert.equal(connection.ready, true);
   bench.socket.onclose({ reason: '' });
   bench.pass(WAITS[0]);
   assert.equal(bench.sockets.length, WAITS.length + 3, 'a connection that held begins anew');
@@ -164,4 +170,43 @@ test('a message that is too long is refused here', () => {
   assert.equal(kind, 'refused');
   assert.match(message, /at most 64 KiB/);
   assert.deepEqual(bench.socket.sent, []);
+});
+
+test('what is set while a socket is lost for a short time arrives, the newest value alone', () => {
+  const bench = new Bench();
+  const { connection } = bench;
+  connection.start();
+  bench.socket.onopen();
+  for (let attempt = 1; attempt <= GIVE_UP; attempt++) {
+    bench.socket.onclose({});
+    connection.set({ seed: attempt });
+    bench.pass(WAITS[attempt - 1]);
+  }
+  bench.socket.onopen();
+  assert.deepEqual(bench.socket.sent, [{ set: { seed: GIVE_UP } }]);
+});
+
+test('a server that is gone takes no values, and what waited for it is forgotten', () => {
+  const bench = new Bench();
+  const { connection } = bench;
+  connection.start();
+  bench.socket.onopen();
+  bench.socket.onclose({});
+  connection.set({ seed: 2 });
+  for (let attempt = 1; attempt <= GIVE_UP; attempt++) {
+    assert.equal(connection.gone, false);
+    assert.equal(connection.pending.size, 1);
+    bench.pass(WAITS[attempt - 1]);
+    bench.socket.onclose({});
+  }
+  assert.equal(connection.gone, true);
+  connection.set({ seed: 3 });
+  assert.equal(connection.pending.size, 0);
+  bench.pass(WAITS.at(-1)); // it goes on trying
+  bench.socket.onopen();
+  assert.equal(connection.gone, false);
+  assert.deepEqual(bench.socket.sent, []);
+  bench.pass(PAUSE);
+  connection.set({ seed: 4 });
+  assert.deepEqual(bench.socket.sent, [{ set: { seed: 4 } }]);
 });

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { reachOf, wavesAt } from '../src/few_waves.js';
+import { reachOf, ripplesOf, wavesAt } from '../src/few_waves.js';
 import { NOISE_SAMPLES, noiseChannels, noiseLevels } from '../src/noise.js';
 
 const MODEL = {
@@ -98,4 +98,13 @@ test('levels of the noise go down to its mean', () => {
     Array.from({ length: 9 }, (_, i) => 2 * 4 ** (8 - i)),
   );
   assert.ok([...levels[8]].every((half) => (half & 0x7fff) < 0x0100)); // below 2^-17
+});
+
+test('ripples vanish with the waves', () => {
+  assert.equal(ripplesOf({ amplitude: [] }), 0);
+  assert.equal(ripplesOf({ amplitude: [0, 0] }), 0);
+  // Hs is 4 standard deviations, the variance of a wave half the square of its amplitude
+  const half = 0.05 / 4;
+  assert.ok(Math.abs(ripplesOf({ amplitude: [half, half] }) - 0.5) < 1e-12);
+  assert.equal(ripplesOf(MODEL), 1);
 });

@@ -1,7 +1,14 @@
 // Figures and spectrum of the page, from seas whose values are known.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { FrameRate, grouped, statisticsRows, tilesText, wavesOf } from '../src/heads_up.js';
+import {
+  FrameRate,
+  grouped,
+  statisticsRows,
+  tilesText,
+  wavesOf,
+  wavesText,
+} from '../src/heads_up.js';
 import {
   densityOfEnergy,
   edgesOfLoop,
@@ -87,4 +94,23 @@ test('the rate is that of the last second', () => {
   assert.ok(Math.abs(last - 50) < 1e-9);
   rate.clear();
   assert.equal(rate.note(100), null);
+});
+
+test('flat water has neither a period nor a direction', () => {
+  const flat = { hs: 0, tp: 0, direction: 0 };
+  const rows = statisticsRows({ statistics: { specified: flat, realised: flat } });
+  assert.deepEqual(rows, [
+    ['Hs [m]', '0.00', '0.00'],
+    ['Tp [s]', '–', '–'],
+    ['Direction', '–', '–'],
+  ]);
+});
+
+test('one wave is in the singular', () => {
+  assert.deepEqual([0, 1, 2, 12345].map(wavesText), [
+    '0 waves',
+    '1 wave',
+    '2 waves',
+    '12\u2009345 waves',
+  ]);
 });
