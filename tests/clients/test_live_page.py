@@ -729,3 +729,110 @@ def test_the_presets_are_the_scales(server, page):
     assert server.state()["state"]["wind_speed"] == pytest.approx(19.0, abs=0.5)
     page.evaluate("fftocean.change({ wind_speed: 11, fetch: 150e3, swell_speed: 12 })")
     settle(page)
+
+
+# --- Sizes, words and a server that is gone ------------------------------------------------------
+
+CUTS = """((first, second) => {
+  const [a, b] = [first, second].map((node) => node.getBoundingClientRect());
+  return a.width > 0 && b.width > 0 && a.left < b.right && b.left < a.right
+    && a.top < b.bottom && b.top < a.bottom;
+})"""
+
+
+def test_a_narrower_page_closes_its_panels_and_stretches_no_plot(page):
+    page.do({"size": [1280, 720]})
+    page.evaluate("for (const p of ['figures', 'controls']) fftocean.layout.toggle(p, true)")
+    page.until("fftocean.wasWide && fftocean.figures.plot.width > 0")
+    page.do({"size": [390, 740]})
+    page.until("fftocean.layout.figures.hidden && fftocean.layout.controls.hidden")
+    page.evaluate("fftocean.layout.toggle('figures', true)")
+    for width in (390, 330):
+        page.do({"size": [width, 740]})
+        page.until(
+            f"fftocean.root.clientWidth === {width} && ((plot) => Math.abs(plot.width / plot.height"
+            " - plot.clientWidth / plot.clientHeight) < 0.02)(fftocean.figures.plot)"
+        )
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (800, 500), (480, 740)], ids="{0[0]}".format)
+def test_names_of_halves_and_tools_are_clear_of_panels_and_messages(page, size):
+    page.do({"size": list(size)})
+    page.evaluate("fftocean.change({ model: 'pms' })")
+    page.until(f"{SETTLED} && !fftocean.layout.halves.hidden")
+    names = ["FFT: 123 456 waves, transforms 1.2 ms, picture 3.4 ms", "PMS: 12 waves, half 1 ms"]
+    for panels in (["figures"], ["controls"], ["figures", "controls"]):
+        cut = page.evaluate(
+            f"""(() => {{
+              const {{ layout }} = fftocean;
+              for (const p of ['figures', 'controls']) layout.toggle(p, false);
+              for (const p of {panels}) layout.toggle(p, true);
+              layout.showSplit({names});
+              layout.toast('A message of some length over the picture of the sea');
+              const over = [layout.figures, layout.controls, layout.toasts.lastChild];
+              const under = [...layout.split, layout.bar];
+              return over.flatMap((a) => under.filter((b) => {CUTS}(a, b)).map((b) =>
+                `${{a.className}} over ${{b.className}}`));
+            }})()"""
+        )
+        assert cut == []
+    page.evaluate("fftocean.change({ model: 'fft' })")
+    settle(page)
+
+
+def test_the_verdict_is_scrolled_into_view(page):
+    page.do({"size": [1280, 500]})
+    page.until("fftocean.wasWide")
+    page.evaluate("fftocean.verify()")
+    page.until("fftocean.verdict && !fftocean.verifying")
+    assert page.evaluate(
+        """(() => {
+          const panel = fftocean.layout.figures.getBoundingClientRect();
+          const verdict = document.querySelector('.verdict').getBoundingClientRect();
+          return verdict.top >= panel.top && verdict.bottom <= panel.bottom;
+        })()"""
+    )
+
+
+def test_the_line_between_the_halves_takes_no_drag(page):
+    page.evaluate("fftocean.change({ model: 'pms' })")
+    page.until(f"{SETTLED} && !fftocean.layout.halves.hidden")
+    assert page.evaluate(
+        "document.elementFromPoint(fftocean.root.clientWidth / 2, 100) === fftocean.canvas"
+    )
+    page.evaluate("fftocean.change({ model: 'fft' })")
+    settle(page)
+
+
+# every socket fails from now on; the browser would write each real failure to its console
+NO_SERVER = """(() => {
+  const { connection } = fftocean;
+  connection.openBefore = connection.open;
+  connection.open = () => {
+    const socket = { close() {} };
+    setTimeout(() => socket.onclose({}));
+    return socket;
+  };
+  connection.socket.close();
+})()"""
+
+
+def test_a_server_that_is_gone_is_named_and_changes_nothing(page):
+    """What was set while it might have come back is undone; light, camera and view go on."""
+    shown = value(page, "wind_speed")
+    page.evaluate(NO_SERVER)
+    page.until("!fftocean.connection.ready")
+    page.evaluate(f"fftocean.change({{ wind_speed: {shown + 3} }})")
+    page.until("fftocean.serverGone")
+    assert value(page, "wind_speed") == shown
+    page.evaluate("fftocean.refusal = null")
+    page.press("p")
+    assert value(page, "wind_speed") == shown
+    assert "address that it prints" in page.evaluate("fftocean.refusal")
+    page.evaluate("fftocean.change({ sun_elevation: 9 })")
+    assert value(page, "sun_elevation") == 9
+    page.evaluate(
+        "fftocean.connection.open = fftocean.connection.openBefore;fftocean.connection.retryNow()"
+    )
+    page.until("fftocean.connection.ready && !fftocean.serverGone")
+    settle(page)
