@@ -818,7 +818,7 @@ NO_SERVER = """(() => {
 
 
 def test_a_server_that_is_gone_is_named_and_changes_nothing(page):
-    """What was set while it might have come back is undone; light, camera and view go on."""
+    """Changes made while it might have come back are undone; light, camera and view go on."""
     shown = value(page, "wind_speed")
     page.evaluate(NO_SERVER)
     page.until("!fftocean.connection.ready")

@@ -108,7 +108,8 @@ def test_another_sea_is_refused_and_overwritten_on_request(tmp_path):
     assert build.tree(tmp_path) == before
     fo.export_sea(ocean(), tmp_path, overwrite=True)
     assert set(build.tree(tmp_path)) == FILES | {"notes.txt"}
-    assert fo.check(tmp_path) == ()
+    (found,) = fo.check(tmp_path)
+    assert (found.kind, found.path) == ("extra", "notes.txt")  # kept, and named
 
 
 @pytest.mark.parametrize(("name", "place"), [("unlink", Path), ("fsync", os)])
