@@ -149,6 +149,7 @@ class Talk:
 
     def __init__(self, connecting):
         self._connecting = connecting
+        self._state, self._sea = {}, ({}, b"")  # the last state, and the last sea not yet returned
 
     def __enter__(self):
         self.socket = self._connecting.__enter__()
@@ -167,14 +168,25 @@ class Talk:
         four letters. Others are passed over.
         """
         while True:
-            message = self.socket.recv(timeout=wait)
-            if isinstance(message, bytes):
-                if kind == message[:4].decode() and good(found := opened(message)):
+            found = self._receive(wait)
+            if isinstance(found, dict):
+                if kind in found and good(found):
                     return found
-            else:
-                tree = json.loads(message)
-                if kind in tree and good(tree):
-                    return tree
+            elif kind == found[0] and good(found[1:]):
+                return found[1:]
+
+    def _receive(self, wait):
+        """Return the next message: a text's tree, or (letters, header, bytes) of a binary one."""
+        message = self.socket.recv(timeout=wait)
+        if isinstance(message, bytes):
+            header, body = opened(message)
+            if message[:4] == b"FFTO":
+                self._sea = header, body
+            return message[:4].decode(), header, body
+        tree = json.loads(message)
+        if "state" in tree:
+            self._state = tree
+        return tree
 
     def closed(self, wait=20.0):
         """Read until the server closes; return the exception that says so."""
@@ -185,21 +197,22 @@ class Talk:
                 return error
 
     def exact(self, wait=30.0, **values):
-        """Return the next exact sea whose state has certain values: (document, files)."""
-        header, body, state = {}, b"", {}
+        """
+        Return the next exact sea whose state has certain values: (document, files).
+
+        Its state may have come before, and been read by another method.
+        """
         while True:
-            message = self.socket.recv(timeout=wait)
-            if isinstance(message, bytes):
-                header, body = opened(message)
-            elif "state" in (tree := json.loads(message)):
-                state = tree
+            (header, body), state = self._sea, self._state
             if (
                 header.get("quality") == "exact"
                 and not state.get("busy", True)
                 and state["sea"] == header["id"]
                 and all(state["state"][name] == value for name, value in values.items())
             ):
+                self._sea = {}, b""
                 return header, body
+            self._receive(wait)
 
 
 def opened(message):
