@@ -31,7 +31,7 @@ from fftocean.cascade import Cascade, from_oceans
 from fftocean.constants import GRAVITY
 from fftocean.errors import FFTOceanError, IntegrityError, JobError, ParameterError, SeaWarning
 from fftocean.fields import potential_factor
-from fftocean.files import digest, path_of, read_whole
+from fftocean.files import path_of
 from fftocean.foam_coverage import threshold_for
 from fftocean.frame import Frame
 from fftocean.grid import Grid
@@ -312,15 +312,8 @@ def open_bake(folder: str | Path, *, memory: int = MEMORY) -> Playback:
     if not layout.is_cascade(folder):
         tile = _tile(folder)
         return Playback(folder, [tile], tile.contents.manifest, memory)
-    tiles, listed = [], listing.read_listing(folder)
-    for row in listed["tiles"]:
-        path = folder / row["path"] / layout.MANIFEST_FILE
-        if digest(read_whole(path) or b"") != row["sha256"]:
-            raise IntegrityError(
-                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; "
-                "`fftocean check` names all problems"
-            )
-        tiles.append(_tile(folder / row["path"]))
+    listed = listing.read_listing(folder)
+    tiles = [_tile(path) for path in listing.listed_tiles(folder, listed)]
     return Playback(folder, tiles, listed, memory)
 
 

@@ -13,7 +13,7 @@ from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
-from fftocean.files import digest, path_of, read_whole
+from fftocean.files import digest, path_of
 from fftocean.host import require_memory
 from fftocean.kernels import interpolate
 
@@ -142,15 +142,7 @@ def _tiles(
     listed = listing.read_listing(folder)
     names = maps if maps is None or isinstance(maps, str) else tuple(maps)
     chosen = None if frames is None else tuple(frames)
-    tiles = []
-    for row in listed["tiles"]:
-        path = folder / row["path"] / layout.MANIFEST_FILE
-        if digest(read_whole(path) or b"") != row["sha256"]:
-            raise IntegrityError(
-                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; "
-                "`fftocean check` names all problems"
-            )
-        tiles.append(_bake(folder / row["path"], names, chosen, verify))
+    tiles = [_bake(tile, names, chosen, verify) for tile in listing.listed_tiles(folder, listed)]
     return BakedCascade(tuple(tiles), listed)
 
 

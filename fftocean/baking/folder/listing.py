@@ -134,6 +134,23 @@ def read_listing(folder: Path) -> dict[str, Any]:
     return read_sealed(folder / layout.CASCADE_FILE)
 
 
+def listed_tiles(folder: Path, listed: Mapping[str, Any]) -> Iterator[Path]:
+    """
+    Return the folders of the tiles of a list, each when its manifest is found to be the listed one.
+
+    Raises:
+        IntegrityError: the manifest of a tile is another one, or does not exist.
+    """
+    for row in listed["tiles"]:
+        path = folder / row["path"] / layout.MANIFEST_FILE
+        if digest(read_whole(path) or b"") != row["sha256"]:
+            raise IntegrityError(
+                f"{path} is not the manifest that {layout.CASCADE_FILE} lists; "
+                "`fftocean check` names all problems"
+            )
+        yield folder / row["path"]
+
+
 def require_same_cascade(folder: Path, header: Mapping[str, Any]) -> None:
     """
     Raise if a folder holds anything but the cascade of this header.
