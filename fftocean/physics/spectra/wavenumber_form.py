@@ -1,5 +1,7 @@
 """Spectra that are written in wavenumber, as functions of frequency."""
 
+from abc import ABC, abstractmethod
+
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
@@ -7,7 +9,7 @@ from fftocean.physics.dispersion import group_velocity, wavenumber
 from fftocean.physics.spectra.wind import STILL_AIR
 
 
-class WavenumberForm:
+class WavenumberForm(ABC):
     """
     A spectrum that is written as a density F(k), `wavenumber_density`; S(omega) = F(k) dk/d omega.
     """
@@ -18,13 +20,13 @@ class WavenumberForm:
     surface_tension: float  # [N/m]
 
     @property
+    @abstractmethod
     def peak(self) -> float:
         """Peak frequency [rad/s]."""
-        raise NotImplementedError
 
+    @abstractmethod
     def wavenumber_density(self, k: RealLike, /) -> Real:
         """Return F at wavenumbers `k` [rad/m], [m^3/rad]."""
-        raise NotImplementedError
 
     def __call__(self, omega: RealLike, /) -> Real:
         """Return S at `omega`, [m^2 s/rad]."""
