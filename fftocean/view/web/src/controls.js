@@ -256,36 +256,40 @@ export function choiceLabel(value) {
   return CHOICE_LABELS[value] ?? sentenceCase(value);
 }
 
+/** Return a control whose field stands beside its label, with the line that says what is wrong. */
+function oneLine({ row, label, keys }, field, fault) {
+  return element(
+    'div',
+    { class: 'control', title: sentenceCase(row.help) },
+    element(
+      'div',
+      { class: 'control-head' },
+      element('label', { for: field.id, text: label }),
+      keyMarks(keys),
+      field,
+    ),
+    fault,
+  );
+}
+
 /** Return a list of choices. */
-function choiceControl({ row, label, keys }, changed) {
+function choiceControl(given, changed) {
   const id = uniqueId('field');
   const list = element(
     'select',
     { id },
-    ...row.choices.map((one) => element('option', { value: one, text: choiceLabel(one) })),
+    ...given.row.choices.map((one) => element('option', { value: one, text: choiceLabel(one) })),
   );
   const { node: line, fault } = faultLine(list);
   list.addEventListener('change', () => changed(list.value));
   const show = (value) => {
     list.value = value;
   };
-  const node = element(
-    'div',
-    { class: 'control', title: sentenceCase(row.help) },
-    element(
-      'div',
-      { class: 'control-head' },
-      element('label', { for: id, text: label }),
-      keyMarks(keys),
-      list,
-    ),
-    line,
-  );
-  return { node, show, fault };
+  return { node: oneLine(given, list, line), show, fault };
 }
 
 /** Return a switch. */
-function switchControl({ row, label, keys }, changed) {
+function switchControl(given, changed) {
   const id = uniqueId('field');
   const box = element('input', { id, type: 'checkbox', role: 'switch' });
   const { node: line, fault } = faultLine(box);
@@ -293,19 +297,7 @@ function switchControl({ row, label, keys }, changed) {
   const show = (value) => {
     box.checked = Boolean(value);
   };
-  const node = element(
-    'div',
-    { class: 'control', title: sentenceCase(row.help) },
-    element(
-      'div',
-      { class: 'control-head' },
-      element('label', { for: id, text: label }),
-      keyMarks(keys),
-      box,
-    ),
-    line,
-  );
-  return { node, show, fault };
+  return { node: oneLine(given, box, line), show, fault };
 }
 
 /** Return a list of presets by scale, or null where there are none. */

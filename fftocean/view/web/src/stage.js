@@ -276,19 +276,17 @@ export class Stage {
   /** Forget objects of a lost context: there is nothing to free. */
   forget() {
     if (this.simulation?.kind === 'worker') this.simulation.dispose();
-    Object.assign(this, {
-      simulation: null,
-      playback: null,
-      source: null,
-      renderer: null,
-      few: null,
-      timer: null,
-    });
+    this.empty();
   }
 
   /** Free everything that lives in the context. */
   free() {
     for (const one of [this.simulation, this.playback, this.renderer, this.few]) one?.dispose?.();
+    this.empty();
+  }
+
+  /** Hold nothing that lives in a context. */
+  empty() {
     Object.assign(this, {
       simulation: null,
       playback: null,
