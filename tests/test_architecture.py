@@ -81,7 +81,7 @@ INNER = {
         ["dry_run", "repair"],
     ],
     "runtime": [
-        ["layout"],
+        ["layout", "shaders"],
         ["contents", "planes", "source"],
         ["records"],
         ["describe", "reference"],
