@@ -4,7 +4,7 @@ import { Sea } from './sea.js';
 import { Water } from './water.js';
 
 const canvas = document.getElementById('canvas'), notes = document.getElementById('notes');
-const options = new URLSearchParams(location.search); // ?sun=elevation,azimuth&height=&yaw=&pitch=&tick=: for a still
+const options = new URLSearchParams(location.search); // ?sun=elevation,azimuth&height=&yaw=&pitch=&foam=; &tick= for a still
 
 function say(text, wrong = false) {
   notes.textContent = text;
@@ -24,13 +24,16 @@ function report({ document, tiles }, { worst, field, tile }) {
 function cameraOf({ document }) {
   const number = (name, otherwise) => (options.has(name) ? Number(options.get(name)) : otherwise);
   const lowest = document.bounds.height + 0.5; // no crest reaches the eye
-  const toward = document.statistics.realised.direction;
+  const [elevation, azimuth] = (options.get('sun') ?? '20').split(',').map((x) => (Number(x) * Math.PI) / 180);
+  const yaw = (number('yaw', document.statistics.realised.direction + 180 - 28) * Math.PI) / 180;
   const camera = {
-    yaw: (number('yaw', toward + 180 - 28) * Math.PI) / 180,
+    yaw,
     pitch: (number('pitch', -7) * Math.PI) / 180,
     height: Math.max(number('height', 1.6 * document.statistics.realised.hs + 2), lowest),
     fov: 0.85,
     eye: [0, 0],
+    sun: [elevation, azimuth ?? yaw - 0.2],
+    exposure: number('exposure', 0.55),
   };
   canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener('pointermove', (event) => {
@@ -52,52 +55,58 @@ function cameraOf({ document }) {
   return camera;
 }
 
-/** Return a function that computes and draws one moment of the loop. */
-function painter(sea, water, camera) {
-  const [elevation, azimuth] = (options.get('sun') ?? '20').split(',').map((x) => (Number(x) * Math.PI) / 180);
-  const sun = [elevation, azimuth ?? camera.yaw - 0.2];
-  return (tick, seconds) => {
-    const ratio = Math.min(devicePixelRatio, 2);
-    canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
-    canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-    const encoder = sea.device.createCommandEncoder(), pass = encoder.beginComputePass();
-    sea.set({ tick, eye: camera.eye, seconds });
-    sea.frame(pass);
-    sea.stepFoam(pass);
-    sea.average(pass);
-    sea.copyToTextures(pass);
-    pass.end();
-    water.draw(encoder, camera, sun, Number(options.get('exposure') ?? 0.55));
+/** Add kernels of a sea to an encoder, in the order of their names. */
+function addKernels(sea, encoder, ...names) {
+  const pass = encoder.beginComputePass();
+  for (const name of names) sea[name](pass);
+  pass.end();
+}
+
+/** Show the moments of the loop one after the other, as time goes. */
+function play(sea, water, camera) {
+  const { loop, ticks } = sea.document;
+  let before = performance.now();
+  requestAnimationFrame(function next(now) {
+    const ratio = Math.min(devicePixelRatio, 2), wanted = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
+    if (canvas.width !== wanted[0] || canvas.height !== wanted[1]) [canvas.width, canvas.height] = wanted;
+    const tick = Math.floor((((now / 1000) % loop) / loop) * ticks);
+    sea.set({ tick, eye: camera.eye, seconds: Math.min(Math.max((now - before) / 1000, 0), 0.1) });
+    before = now;
+    const encoder = sea.device.createCommandEncoder();
+    addKernels(sea, encoder, 'frame', 'stepFoam', 'average', 'copyToTextures');
+    water.draw(encoder, camera);
     sea.device.queue.submit([encoder.finish()]);
-  };
+    requestAnimationFrame(next);
+  });
+}
+
+/** Show one moment, with the foam of some seconds before it. */
+async function showStill(sea, water, camera, tick) {
+  const { loop, ticks } = sea.document, step = 0.1, steps = 60;
+  for (let i = -steps; i <= 0; i++) {
+    const earlier = Math.round((i * step * ticks) / loop);
+    sea.set({ tick: (((tick + earlier) % ticks) + ticks) % ticks, eye: camera.eye, seconds: step });
+    const encoder = sea.device.createCommandEncoder();
+    addKernels(sea, encoder, 'frame', 'stepFoam');
+    sea.device.queue.submit([encoder.finish()]);
+    await sea.device.queue.onSubmittedWorkDone();
+  }
+  [canvas.width, canvas.height] = [canvas.clientWidth, canvas.clientHeight];
+  const picture = await water.still(canvas.width, canvas.height, camera, (encoder) => addKernels(sea, encoder, 'average', 'copyToTextures'));
+  canvas.getContext('2d').putImageData(picture, 0, 0);
 }
 
 async function start() {
   say('Reading the sea ...');
-  const sea = await Sea.load('.');
+  const side = Number(options.get('foam') ?? 512); // cells of foam, a power of two, over 256 m
+  const sea = await Sea.load('.', { foam: { side, cell: 256 / side } });
   sea.device.lost.then(({ message }) => say(`The graphics processor was lost: ${message}`, true));
   sea.device.addEventListener('uncapturederror', ({ error }) => say(error.message, true));
   const found = await selfCheck(sea);
   say(...report(sea, found));
-  const water = new Water(sea, canvas, await (await fetch('draw.wgsl')).text());
-  const camera = cameraOf(sea), paint = painter(sea, water, camera);
-  const { loop, ticks } = sea.document;
-  const tickAt = (seconds) => Math.floor(((seconds % loop) / loop) * ticks);
-  if (options.has('tick')) {
-    // A still, with the foam of the 8 s before it.
-    const tick = Number(options.get('tick')), step = 0.1;
-    for (let i = -80; i <= 0; i++) {
-      paint((((tick + Math.round((i * step * ticks) / loop)) % ticks) + ticks) % ticks, step);
-      await sea.device.queue.onSubmittedWorkDone();
-    }
-  } else {
-    let before = performance.now();
-    requestAnimationFrame(function next(now) {
-      paint(tickAt(now / 1000), Math.min(Math.max((now - before) / 1000, 0), 0.1));
-      before = now;
-      requestAnimationFrame(next);
-    });
-  }
+  const drawing = await (await fetch('draw.wgsl')).text(), camera = cameraOf(sea);
+  if (options.has('tick')) await showStill(sea, new Water(sea, drawing), camera, Number(options.get('tick')));
+  else play(sea, new Water(sea, drawing, canvas), camera);
   return { sea, found };
 }
 

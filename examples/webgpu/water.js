@@ -40,18 +40,23 @@ fn summed(rest: vec2f) -> Sums {
 const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
 
 export class Water {
-  /** Prepare pictures of a sea on a canvas; `drawing` is the text of draw.wgsl. */
-  constructor(sea, canvas, drawing) {
+  /**
+   * Prepare pictures of a sea.
+   *
+   * @param {string} drawing the text of draw.wgsl
+   * @param {?HTMLCanvasElement} canvas to draw to; without one, `still` draws pictures
+   */
+  constructor(sea, drawing, canvas = null) {
     const { device } = sea;
     const textures = 3 * sea.tiles.length + 1;
     if (textures > device.limits.maxSampledTexturesPerShaderStage) {
       throw new Error(`a picture of ${sea.tiles.length} tiles takes ${textures} textures; this device has ${device.limits.maxSampledTexturesPerShaderStage}`);
     }
     sea.makeTextures();
-    Object.assign(this, { sea, canvas, device });
-    this.context = canvas.getContext('webgpu');
-    this.format = navigator.gpu.getPreferredCanvasFormat();
-    this.context.configure({ device, format: this.format, usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+    Object.assign(this, { sea, device });
+    this.format = canvas ? navigator.gpu.getPreferredCanvasFormat() : 'rgba8unorm';
+    this.context = canvas?.getContext('webgpu');
+    this.context?.configure({ device, format: this.format });
     const module = device.createShaderModule({ code: sea.kernels + drawing + tileCode(sea.tiles.length) });
     const repeating = device.createSampler({
       addressModeU: 'repeat', addressModeV: 'repeat', magFilter: 'linear', minFilter: 'linear', mipmapFilter: 'linear', maxAnisotropy: 8,
@@ -84,12 +89,13 @@ export class Water {
   /**
    * Draw the sea as it is in its textures.
    *
-   * @param {object} camera yaw, pitch and field of view [radians], height above the mean level [m], eye: its place [m]
-   * @param {number[]} sun elevation and azimuth [radians]
+   * @param {object} camera yaw, pitch and field of view [radians], height above the mean level [m], eye: its place [m],
+   *   sun: elevation and azimuth [radians], exposure
+   * @param {GPUTexture} target the canvas, if none is given
    */
-  draw(encoder, { yaw, pitch, fov, height, eye }, [elevation, azimuth], exposure) {
-    const { canvas, device, sea } = this;
-    const [width, rows] = [canvas.width, canvas.height];
+  draw(encoder, { yaw, pitch, fov, height, eye, sun: [elevation, azimuth], exposure }, target = this.context.getCurrentTexture()) {
+    const { device, sea } = this;
+    const { width, height: rows } = target;
     const forward = [Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), Math.sin(pitch)];
     const right = [Math.sin(yaw), -Math.cos(yaw), 0], up = cross(right, forward);
     const tall = Math.tan(fov / 2), wide = (tall * width) / rows;
@@ -118,7 +124,7 @@ export class Water {
       this.depth = device.createTexture({ size: [width, rows], format: 'depth32float', usage: GPUTextureUsage.RENDER_ATTACHMENT });
     }
     const pass = encoder.beginRenderPass({
-      colorAttachments: [{ view: this.context.getCurrentTexture().createView(), loadOp: 'clear', storeOp: 'store' }],
+      colorAttachments: [{ view: target.createView(), loadOp: 'clear', storeOp: 'store' }],
       depthStencilAttachment: { view: this.depth.createView(), depthClearValue: 0, depthLoadOp: 'clear', depthStoreOp: 'discard' },
     });
     this.bindings.forEach((group, i) => pass.setBindGroup(i, group));
@@ -127,5 +133,23 @@ export class Water {
     pass.setPipeline(this.water);
     pass.draw(2 * (columns + 1), rings);
     pass.end();
+  }
+
+  /** Return a picture as ImageData, after the kernels that `before` adds to an encoder. */
+  async still(width, height, camera, before) {
+    const { device } = this, row = Math.ceil(width / 64) * 256; // bytes, a multiple of 256
+    const target = device.createTexture({ size: [width, height], format: this.format, usage: GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC });
+    const copy = device.createBuffer({ size: row * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+    const encoder = device.createCommandEncoder();
+    before(encoder);
+    this.draw(encoder, camera, target);
+    encoder.copyTextureToBuffer({ texture: target }, { buffer: copy, bytesPerRow: row }, [width, height]);
+    device.queue.submit([encoder.finish()]);
+    await copy.mapAsync(GPUMapMode.READ);
+    const bytes = new Uint8Array(copy.getMappedRange()), picture = new ImageData(width, height);
+    for (let y = 0; y < height; y++) picture.data.set(bytes.subarray(y * row, y * row + 4 * width), 4 * width * y);
+    target.destroy();
+    copy.destroy();
+    return picture;
   }
 }
