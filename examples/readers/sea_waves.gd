@@ -96,7 +96,7 @@ func _water(x: float, y: float, x0: float, y0: float, t: float) -> Water:
 	for i in tile.size():
 		var first := 4 * tile[i]
 		var turn := mx[i] * place[first] + my[i] * place[first + 1] - cycles[i] * now
-		var angle := TAU * (turn - round(turn))
+		var angle := TAU * (turn - roundf(turn))
 		var c := cos(angle)
 		var s := sin(angle)
 		var a := re[i] * c - im[i] * s

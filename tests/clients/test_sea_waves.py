@@ -77,7 +77,10 @@ def answers(packages, request):
     known = {}
 
     def of(language):
-        if language not in known:
+        if language in known:
+            assert known[language] is not None, "the reader could not be run"
+        else:
+            known[language] = None  # until it has answered
             count = POINTS[language]
             (packages / "ask.txt").write_text(sea_waves.questions(count))
             if language == "godot":
@@ -103,6 +106,13 @@ def godot(browser, count):
     (browser.site.folders["bakes"] / "waves.pck").write_bytes(pack(files))
     value, _ = browser.run("godot.html", {"pack": "/bakes/waves.pck"})
     return value["answers"]["lines"]
+
+
+@pytest.mark.parametrize("name", ["sea_waves.gd"])
+def test_the_linter_finds_nothing(name):
+    linter = pytest.importorskip("gdtoolkit.linter")
+    problems = linter.lint_code((READERS / name).read_text(encoding="utf-8"))
+    assert [str(problem) for problem in problems] == []
 
 
 @pytest.mark.parametrize("language", POINTS)
