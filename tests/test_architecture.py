@@ -16,7 +16,10 @@ from imports import imports_in, modules_in, packages_in, reach
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
 FLOORS = {
-    0: ["constants", "errors", "host", "forks", "arrays", "limits", "files", "example_projects"],
+    0: [
+        *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
+        *("example_projects", "engine_projects"),
+    ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
@@ -39,7 +42,11 @@ FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
 # The stairs within a floor, lowest step first. Elsewhere the parts of a floor do not import each
 # other, and the modules of one part may.
 STAIRS = [
-    [["constants", "errors"], ["arrays", "host", "files", "example_projects"], ["limits"]],
+    [
+        ["constants", "errors"],
+        [*("arrays", "host", "files"), *("example_projects", "engine_projects")],
+        ["limits"],
+    ],
     [
         ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
         ["physics.kinds"],
@@ -83,7 +90,7 @@ INNER = {
     ],
     "runtime": [
         ["layout"],
-        ["contents", "planes", "source"],
+        ["contents", "planes", "source", "engines", "textures", "project"],
         ["records"],
         ["describe", "reference"],
         ["document"],

@@ -13,9 +13,17 @@ if TYPE_CHECKING:
     from fftocean.ocean import Ocean
 
 
-def add_job_flags(parser: argparse.ArgumentParser) -> None:
-    """Add the job file, the flags of `PARAMETERS`, --fps and --set."""
+def add_job_flags(parser: argparse.ArgumentParser, *, own: tuple[str, ...] = ()) -> None:
+    """
+    Add the job file, the flags of `PARAMETERS`, --fps and --set.
+
+    Args:
+        parser: of the command.
+        own: flags of the command itself, which are not those of the job.
+    """
     from fftocean.job.parameters import PARAMETERS
+
+    parser.set_defaults(own_flags=own)
 
     parser.add_argument(
         "job",
@@ -26,6 +34,8 @@ def add_job_flags(parser: argparse.ArgumentParser) -> None:
     )
     group = parser.add_argument_group("keys of the job (flags override the file)")
     for parameter in PARAMETERS:
+        if parameter.flag in own:
+            continue
         if parameter.flag and parameter.switch:
             group.add_argument(
                 f"--{parameter.flag}",
@@ -79,6 +89,8 @@ def job_of(options: argparse.Namespace) -> "Job":
     job = Job.default() if options.job is None else Job.read(options.job)
     changes: dict[str, Any] = dict(parse_setting(text) for text in options.set)
     for parameter in PARAMETERS:
+        if parameter.flag in options.own_flags:
+            continue
         if parameter.flag and (given := getattr(options, parameter.flag)) is not None:
             changes[parameter.key] = given if parameter.switch else parse_value(given)
     for key, value in changes.items():
