@@ -17,7 +17,8 @@ GENERATED = "<!-- made by tools/references.py -->\n"
 HOW_TO_NAME = """\
 A job file is TOML. Every key has a default, so a file holds only what differs;
 `fftocean info JOB.toml` shows all values, and `fftocean keys PATTERN` finds keys in the terminal.
-Keys with a flag can be given on the command line, and every key by `--set KEY=VALUE`. An unknown key is refused, with the nearest known one.
+Keys with a flag can be given on the command line, and every key by `--set KEY=VALUE`. An unknown
+key is refused, with the nearest known one.
 
 ```toml
 [sea.wind]

@@ -46,7 +46,7 @@ def test_each_shell_has_its_function(shell):
     done = subprocess.run(
         [
             *(sys.executable, "-c"),
-            "import argcomplete, sys; print(argcomplete.shellcode(['fftocean'], shell=sys.argv[1]))",
+            "import argcomplete as a, sys; print(a.shellcode(['fftocean'], shell=sys.argv[1]))",
             shell,
         ],
         capture_output=True,
