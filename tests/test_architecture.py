@@ -77,7 +77,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
     "baking": [
         ["folder"],
         ["scene"],

@@ -3,6 +3,7 @@ Wave systems of a job: the tables [[sea.systems]], each a spectrum, a spreading 
 a measured spectrum from a file.
 """
 
+import datetime
 import difflib
 import math
 import os
@@ -105,9 +106,11 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
             f"{key}.measured must be a table with a file, and perhaps time and site counted "
             f"from 0, got {source!r:.80}"
         )
-    time, site = (
-        INDEX.check(f"{key}.measured.{name}", source.get(name, 0)) for name in ("time", "site")
-    )
+    site = INDEX.check(f"{key}.measured.site", source.get("site", 0))
+    when = source.get("time", 0)
+    dated = isinstance(when, (str, datetime.date))
+    if not dated:
+        INDEX.check(f"{key}.measured.time", when)
     direction, spreading = None, None
     if "direction" in table:
         direction = DIRECTION.check(f"{key}.direction", table["direction"])
@@ -120,11 +123,12 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
         if os.path.isdir(folder / source["file"]):  # noqa: PTH112  false for impossible names
             raise ReaderError("must be a file, got a directory")
         dataset = readers.open(folder / source["file"], site=site)
+        time = readers.nearest_time(dataset, str(when)) if dated else int(when)
         if "efth" not in dataset and (direction is None or spreading is None):
             raise JobError(
                 "the file has no directions; beside `measured` a job must have direction [degrees, "
                 "toward, counter-clockwise from +x] and spreading, such as direction = 90.0 and "
-                "spreading = { kind = 'blend' }"
+                "spreading = { kind = 'blend' }; without a job file, --toward"
             )
         return readers.Realised.from_spectrum(
             dataset, time=time, depth=math.inf, direction=direction, spreading=spreading
