@@ -89,7 +89,7 @@ INNER = {
         ["dry_run", "repair"],
     ],
     "runtime": [
-        ["layout"],
+        ["layout", "shaders"],
         ["contents", "planes", "source", "engines", "textures", "project"],
         ["records"],
         ["describe", "reference"],
