@@ -1,4 +1,5 @@
-// A sea in three.js: the live one of sea.json, or the bake of manifest.json or cascade.json.
+// A sea in three.js: the live one of sea.json, or the bake of manifest.json or cascade.json, whichever
+// index.html names.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Buoy } from './buoy.js';
@@ -12,14 +13,13 @@ const base = new URL('./', location.href);
 const element = (id) => document.getElementById(id);
 const told = (text) => (element('message').textContent = `Loading ${text} ...`);
 
-/** Return the name and the document of what lies in this folder. */
+/** Return the document that the page names. */
 async function found() {
-  for (const name of ['sea.json', 'cascade.json', 'manifest.json']) {
-    const answer = await fetch(new URL(name, base)).catch(() => null);
-    if (answer?.ok) return { name, document: await answer.json() };
-  }
+  const name = element('canvas').dataset.sea;
+  const answer = await fetch(new URL(name, base)).catch(() => null);
+  if (answer?.ok) return { name, document: await answer.json() };
   throw new Error(
-    'This folder has no sea.json, cascade.json or manifest.json, or was not opened by a server. Make one:\n\n' +
+    `${name} is not in this folder, or the page was not opened by a server. Make one:\n\n` +
       '    fftocean export-sea sea.toml -o DIR --engine three\n' +
       '    fftocean bake sea.toml -o DIR --engine three --format bin\n\n' +
       'and serve it: python -m http.server --directory DIR',
@@ -90,7 +90,7 @@ let bearing = sea.bearing + 180; // the wind comes from before the camera
 
 /** Put the camera where the buoy is seen, whatever the window's shape. */
 function place(distance = innerWidth < innerHeight ? 13 : 11, height = 3.2 + 0.4 * sea.wave_height) {
-  const angle = ((bearing + 25) * Math.PI) / 180;
+  const angle = ((bearing + 50) * Math.PI) / 180;
   controls.target.set(0, 1.2, 0);
   camera.position.set(-distance * Math.cos(angle), height, distance * Math.sin(angle));
   controls.update();

@@ -41,8 +41,12 @@ uniform sampler2D before; uniform float seconds; uniform vec3 rule; uniform bool
 out vec4 foam;
 void main() {
   vec2 rest = (gl_FragCoord.xy / ${WINDOW.samples.toFixed(1)} - 0.5) * ${WINDOW.size.toFixed(1)};
-  vec2 slope; vec3 stretch, variance; float baked;
-  summed(rest, slope, stretch, variance, baked);
+  // texels as they are: filtering would take away what foams
+  vec3 stretch = vec3(0.0);
+  ivec2 count, texel;
+  ${tiles.map((_, i) => `count = textureSize(slopes_${i}, 0);
+  texel = ivec2(floor(fract(place(${i}, rest)) * vec2(count))) % count;
+  stretch += vec3(texelFetch(slopes_${i}, texel, 0).zw, texelFetch(displacement_${i}, texel, 0).w);`).join('\n  ')}
   float breaking = rule.z * max(rule.y - eigenvalue(stretch), 0.0);
   float left = fresh ? 0.0 : exp(-seconds / rule.x);
   float amount = min(left * texelFetch(before, ivec2(gl_FragCoord.xy), 0).x + (1.0 - left) * rule.x * breaking, 30.0);
@@ -65,7 +69,7 @@ void main() {
 const FRAGMENT = (tiles) => `${HEAD}
 ${SKY_PLACE}${TONE}${sums(tiles)}${EIGENVALUE}
 uniform vec3 cameraPosition, sunward, sun_light, sky_light, beyond, rule;
-uniform sampler2D sky, foam_window, noise; uniform int foam_source; uniform float wave_height;
+uniform sampler2D sky, foam_window, noise; uniform int foam_source; uniform float wave_height; uniform vec2 wind;
 in vec3 at; in vec2 rest;
 out vec4 colour;
 
@@ -88,7 +92,10 @@ float cover(vec2 rest, vec3 stretch, float baked) {
   if (foam_source == 1) return clamp(baked, 0.0, 1.0);
   float now = 1.0 - exp(-rule.x * rule.z * max(rule.y - eigenvalue(stretch), 0.0));
   vec2 inside = abs(rest) * ${(2 / WINDOW.size).toFixed(6)};
-  float kept = texture(foam_window, rest * ${(1 / WINDOW.size).toFixed(8)} + 0.5).y;
+  // part of the coverage is spread over the water around: the noise makes streaks of it
+  vec2 at_ = rest * ${(1 / WINDOW.size).toFixed(8)} + 0.5;
+  float pixel = log2(max(length(fwidth(at_)) * ${WINDOW.samples.toFixed(1)}, 1.0));
+  float kept = mix(texture(foam_window, at_).y, textureLod(foam_window, at_, max(pixel, 2.3)).y, 0.7);
   return mix(kept, now, smoothstep(0.8, 1.0, max(inside.x, inside.y)));
 }
 
@@ -147,13 +154,14 @@ void main() {
 
   // foam: cells of noise where noise exceeds 1 - coverage, and bubbles below them
   float covered = cover(rest, stretch, baked);
-  float fine = texture(noise, rest / 7.3).r, broad = texture(noise, rest / 31.0 + 0.37).r;
-  float n = mix(fine, broad, smoothstep(20.0, 160.0, distance_) * 0.7 + 0.2);
-  float white = smoothstep(1.0 - covered - 0.16, 1.0 - covered + 0.16, n) * smoothstep(0.0, 0.05, covered);
+  vec2 drawn = vec2(dot(rest, wind), 2.2 * dot(rest, vec2(-wind.y, wind.x))); // out along the wind
+  float fine = texture(noise, drawn / 9.1).r, broad = texture(noise, drawn / 43.0 + 0.37).r;
+  float n = mix(fine, broad, 0.3 + 0.4 * smoothstep(20.0, 160.0, distance_));
+  float white = smoothstep(1.0 - covered - 0.22, 1.0 - covered + 0.22, n) * smoothstep(0.0, 0.08, covered);
   vec3 foam = 0.55 / 3.14159 * (sun_light * (0.3 + 0.7 * max(dot(facet, sunward), 0.0)) + sky_light) * (0.85 + 0.3 * fine);
   vec3 bubbles = body + 0.038 * falling * exp(-(ABSORPTION + BACK) * 5.0);
   radiance = mix(radiance, mix(radiance, bubbles, 0.75), smoothstep(0.0, 0.6, covered) * (1.0 - share) * 0.8);
-  radiance = mix(radiance, foam, white * 0.9);
+  radiance = mix(radiance, foam, white * 0.85);
 
   vec3 haze = textureLod(sky, sky_place(normalize(vec3(-to_eye.x, 0.02, -to_eye.z))), 1.0).rgb;
   colour = shown(mix(radiance, haze, 1.0 - exp(-distance_ / 17e3)));
@@ -212,7 +220,8 @@ export class Water {
   /**
    * @param tiles each with n, size, vSign and target
    * @param sea foam ({ decay, threshold, strength } or null), foam_source (0 none, 1 the bake's
-   *   map, 2 the stretches), beyond (slope covariance that no tile holds), wave_height [m]
+   *   map, 2 the stretches), beyond (slope covariance that no tile holds), wave_height [m],
+   *   bearing toward which the wind blows [degrees]
    */
   constructor(renderer, tiles, sky, sea) {
     this.passes = new Passes(renderer);
@@ -229,12 +238,14 @@ export class Water {
     this.foam = [0, 1].map(() => mapTarget(WINDOW.samples, WINDOW.samples, 1));
     this.step = pass(foamStep(tiles), ['before', 'seconds', 'fresh']);
     Object.assign(this.step.uniforms, own);
+    const toward = (sea.bearing * Math.PI) / 180;
     this.uniforms = {
       ...own, ...sky.uniforms,
       beyond: { value: new THREE.Vector3(...sea.beyond) },
       foam_window: { value: this.foam[0].texture },
       foam_source: { value: sea.foam_source },
       wave_height: { value: sea.wave_height },
+      wind: { value: new THREE.Vector2(Math.cos(toward), -Math.sin(toward)) },
       noise: { value: noiseTexture() },
     };
     this.mesh = new THREE.Mesh(rings(), new THREE.RawShaderMaterial({

@@ -103,9 +103,9 @@ def job_of(options: argparse.Namespace) -> "Job":
     job = _given_job(options)
     changes: dict[str, Any] = dict(parse_setting(text) for text in options.set)
     for parameter in PARAMETERS:
-        if parameter.flag in options.own_flags:
+        if not parameter.flag or parameter.flag in options.own_flags:
             continue
-        if parameter.flag and (given := getattr(options, parameter.flag)) is not None:
+        if (given := getattr(options, parameter.flag.replace("-", "_"))) is not None:
             changes[parameter.key] = given if parameter.switch else parse_value(given)
     for key, value in changes.items():
         if key in BY_KEY and BY_KEY[key].many and isinstance(value, str):

@@ -218,6 +218,13 @@ OUTPUT = (
         "bake.mips", False, "mip levels of each map; with the format ktx2", switch=True, flag="mips"
     ),
     Parameter(
+        "bake.engine_files",
+        True,
+        "files that play the bake in its engine, beside the maps",
+        switch=True,
+        flag="engine-files",
+    ),
+    Parameter(
         "bake.pictures",
         ("sheet", "animation"),
         "preview images, beside the maps",

@@ -42,6 +42,7 @@ ACCEPTED = {
     "ocean.seed": ("0",),
     "ocean.choppiness": ("0", "1e-308"),
     "bake.mips": ("true",),
+    "bake.engine_files": ("true",),
     "bake.foam.threshold": ("-1", "0", "1e-308"),
     "bake.foam.strength": ("0", "1e-308"),
 }

@@ -134,6 +134,7 @@ VERDICTS = {
     "bake.lookup":           "r   r   r  r r   r    r     r",
     "bake.normals":         "r   r   r  r r   r    r     r",
     "bake.mips":             "r   r   r  r r   a    r     r",
+    "bake.engine_files":     "r   r   r  r r   a    r     r",
     "bake.pictures":         "r   r   r  r r   r    r     r",
     "bake.foam.tau":         "r   r   r  r r   r    r     r",
     "bake.foam.threshold":   "r   r   a  a r   r    r     a",

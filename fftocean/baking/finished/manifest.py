@@ -8,6 +8,7 @@ from typing import Any
 from fftocean.baking.folder.layout import MANIFEST_FILE
 from fftocean.baking.folder.plan import Plan
 from fftocean.baking.folder.sealed import read_sealed, sealed
+from fftocean.baking.scene import video_memory
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.export import profiles, rules
@@ -25,6 +26,7 @@ def compose(
     blend: Mapping[str, Any],
     containers: Mapping[str, Any],
     pictures: Mapping[str, Any],
+    engine_files: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
     """
     Return the manifest of a bake as plain data.
@@ -37,6 +39,7 @@ def compose(
         blend: loss by linear blending between two frames.
         containers: files that hold several frames, and their sidecars, by map.
         pictures: entries of the previews, by name.
+        engine_files: entries of the files that play it in its engine.
     """
     job = scene.job
     shape = scene.ocean.grid.shape
@@ -76,8 +79,10 @@ def compose(
             **extremes_over(rows),
         },
         "maps": entries,
+        "video_memory": video_memory.described(scene, len(rows)),
         **({"containers": dict(containers)} if containers else {}),
         **pictures,
+        **({"engine_files": list(engine_files)} if engine_files else {}),
         "frames": list(rows),
     }
     return sealed(manifest)
