@@ -27,6 +27,7 @@ FLOORS = {
         *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
+        "wave_files",
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],

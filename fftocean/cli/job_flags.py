@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 from fftocean.errors import JobError
 
 if TYPE_CHECKING:
+    from fftocean.cascade import Cascade
     from fftocean.job.job import Job
     from fftocean.job.parameters import Parameter
+    from fftocean.ocean import Ocean
 
 
 def add_job_flags(parser: argparse.ArgumentParser) -> None:
@@ -88,3 +90,38 @@ def job_of(options: argparse.Namespace) -> "Job":
     if "bake.frames" in changes:
         raise JobError("--fps and a number of frames must not be given together; leave one out")
     return with_frame_rate(job, options.fps)
+
+
+def water_of(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Cascade":
+    """
+    Return the ocean of a job, or the cascade of its sea on some tiles.
+
+    Raises:
+        JobError: tiles that cannot share the sea, or a band beside tiles.
+    """
+    if not tiles:
+        return job.ocean()
+    from fftocean.cascade import Cascade
+    from fftocean.errors import JobError, ParameterError
+    from fftocean.job.parameters import BY_KEY
+
+    s = job.settings
+    for key in ("ocean.band_low", "ocean.band_high"):
+        if s[key] != BY_KEY[key].default:
+            raise JobError(
+                f"{job.source}: {key} must be left out where there are tiles, "
+                "whose bands follow from their sizes"
+            )
+    try:
+        return Cascade(
+            job.sea(),
+            tiles,
+            seed=s["ocean.seed"],
+            loop=s["ocean.loop"],
+            choppiness=s["ocean.choppiness"],
+            amplitudes=s["ocean.amplitudes"],
+        )
+    except JobError:
+        raise
+    except ParameterError as error:
+        raise JobError(f"{job.source}: {error}") from None

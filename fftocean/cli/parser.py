@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify, view
+from fftocean.cli import bake, bench, check, export, export_sea, info, plot, presets, verify, view
 from fftocean.cli.console import plain
 
 COMMANDS = (
     bake.COMMAND,
     export_sea.COMMAND,
+    export.COMMAND,
     check.COMMAND,
     info.COMMAND,
     verify.COMMAND,
