@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import Complex, Integer, Real, brief_repr
@@ -207,10 +208,9 @@ class BoundWaves:
         values = []
         for rate in rates:
             real, imag = sums.results[rate]
-            g = real + 1j * imag
-            values.append(2.0 * (g + np.conj(g[::-1, ::-1]))[half])
-        factor = 1j if kind == POTENTIAL else 1.0
-        return Cells(mx[half] * grid.dkx, my[half] * grid.dky, factor * np.array(values))
+            g = (1j if kind == POTENTIAL else 1.0) * (real + 1j * imag)
+            values.append(2.0 * sums.scale * (g + np.conj(g[::-1, ::-1]))[half])
+        return Cells(mx[half] * grid.dkx, my[half] * grid.dky, np.array(values))
 
 
 class Cells(NamedTuple):
@@ -219,6 +219,10 @@ class Cells(NamedTuple):
     kx: Real  # (cells,) [rad/m]
     ky: Real
     values: Complex  # (time derivatives, cells)
+
+    def kept(self, some: npt.NDArray[np.bool_]) -> "Cells":
+        """Return the cells of a mask."""
+        return Cells(self.kx[some], self.ky[some], self.values[:, some])
 
     def parts(self) -> Real:
         """Return real and imaginary parts, (time derivatives, 2, cells)."""

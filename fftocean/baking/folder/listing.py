@@ -76,6 +76,8 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
             "ocean.band_high": band[1],
             "bake.pictures": pictures,
         }
+        if index:
+            own["ocean.order"] = 1  # as in a `Cascade`
         jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
     return jobs
 
