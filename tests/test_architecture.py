@@ -23,7 +23,7 @@ FLOORS = {
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
+    4: ["computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
@@ -58,7 +58,7 @@ STAIRS = [
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
+    [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],

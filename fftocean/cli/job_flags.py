@@ -198,6 +198,8 @@ def water_of(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Casc
             loop=s["ocean.loop"],
             choppiness=s["ocean.choppiness"],
             amplitudes=s["ocean.amplitudes"],
+            order=s["ocean.order"],
+            bound=s["ocean.bound"],
         )
     except JobError:
         raise

@@ -181,6 +181,20 @@ TILE = (
         "gaussian, as in nature, or fixed: random phases alone",
         choices=("gaussian", "fixed"),
     ),
+    Parameter(
+        "ocean.order",
+        1,
+        "1 for linear waves; 2 adds second-order waves, which make crests higher and troughs "
+        "flatter",
+        limits.ORDER,
+        flag="order",
+    ),
+    Parameter(
+        "ocean.bound",
+        1000,
+        "number of waves whose pairs have second-order waves, the strongest",
+        limits.BOUND_WAVES,
+    ),
 )
 OUTPUT = (
     Parameter(

@@ -10,7 +10,7 @@ from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.files import path_of, write_parts
 from fftocean.ocean import Ocean
-from fftocean.wave_list import list_waves
+from fftocean.wave_list import list_waves, require_linear
 
 COLUMNS = (
     "frequency_Hz",
@@ -43,6 +43,7 @@ def components(source: Ocean | Cascade | Modes | Any, path: str | Path) -> str:
     Pinned by tests/wave_files/test_components.py.
     """
     file = path_of("path", path)
+    require_linear(source, "a table of waves")
     waves = list_waves(source)
     if waves.model is not None and waves.model.tau > 0.0:
         raise ParameterError(

@@ -20,7 +20,7 @@ from fftocean.errors import ParameterError, described
 from fftocean.files import path_of, write_parts
 from fftocean.limits import LARGEST_FINITE, LOOP, SMALLEST_POSITIVE, Count, Quantity
 from fftocean.ocean import Ocean
-from fftocean.wave_list import WaveList, list_waves
+from fftocean.wave_list import WaveList, list_waves, require_linear
 
 _WIDTH = Quantity("m", SMALLEST_POSITIVE, LARGEST_FINITE)
 _POINTS = Count("", 2, 1000)
@@ -128,6 +128,7 @@ def openfast(
     with this.
     """
     root = path_of("path", path)
+    require_linear(source, "an OpenFAST file")
     if wave_mod == 7:
         if grid is not None or dt is not None or tmax is not None:
             raise ParameterError(

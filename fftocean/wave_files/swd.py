@@ -29,7 +29,7 @@ from fftocean.fields import potential_factor
 from fftocean.files import path_of, write_parts
 from fftocean.limits import FRAMES, LARGEST_FINITE, SMALLEST_POSITIVE, Quantity
 from fftocean.ocean import Ocean
-from fftocean.wave_list import WaveList, list_waves
+from fftocean.wave_list import WaveList, list_waves, require_linear
 
 MAGIC, VERSION = 37.0221, 100
 AIRY, DEEP, FINITE = 6, 4, 5
@@ -82,6 +82,7 @@ def swd(
     """
     file = path_of("path", path)
     texts = [_text(name, value) for name, value in (("date", date), ("comment", comment))]
+    require_linear(source, "an SWD file")
     waves = list_waves(source)
     if waves.model is not None and waves.model.tau > 0.0:
         raise ParameterError(

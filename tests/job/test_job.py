@@ -127,6 +127,8 @@ VERDICTS = {
     "ocean.loop":            "r   r   r  r r   r    r     r",
     "ocean.choppiness":      "r   r   r  a r   r    r     a",
     "ocean.amplitudes":      "r   r   r  r r   r    r     r",
+    "ocean.order":           "r   r   r  r r   r    r     r",
+    "ocean.bound":           "r   r   r  a r   r    r     r",
     "bake.frames":           "r   r   r  r r   r    r     r",
     "bake.maps":             "r   r   r  r r   r    r     r",
     "bake.format":           "r   r   r  r r   r    r     r",

@@ -149,6 +149,7 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "stated_by": {} if ocean.sea is None else _stated(ocean.sea),
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
+        **({"order": 2, "bound": ocean.bound} if ocean.order > 1 else {}),
         "fft": ocean.backend,
     }
 
