@@ -26,6 +26,7 @@ from fftocean.ocean import (
     longest_period,
     memory_needed,
 )
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
@@ -63,8 +64,8 @@ class Cascade:
     Threads can share a cascade as they can share an `Ocean`.
 
     Raises:
-        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers
-            out or are beyond their tile.
+        ParameterError: a value out of range, tiles out of order, bands that leave wavenumbers out
+            or are beyond their tile, or a sea whose troughs would bare the bed.
     """
 
     def __init__(
@@ -102,6 +103,7 @@ class Cascade:
                 sea, grid, seed=own, loop=period, draw=amplitudes, band=band, parts=parts
             )
             oceans.append(from_amplitudes(sea, own, waves, choppiness, computation))
+        require_plausible(sea, stacklevel=2)
         self._set_up(sea, seed, tuple(oceans))
 
     def _set_up(self, sea: Sea | None, seed: int | None, oceans: tuple[Ocean, ...]) -> None:

@@ -24,6 +24,7 @@ from fftocean.kernels import passes
 from fftocean.limits import BAND_EDGE, BAND_START, CHOPPINESS, LOOP, MOMENTS, TIME
 from fftocean.lookahead import run_in_order
 from fftocean.physics import dispersion
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import PhaseFunction, Synthesis
 
@@ -72,8 +73,8 @@ class Ocean:
     it inherits and make new ones.
 
     Raises:
-        ParameterError: a value out of range, a spectrum that is not finite and >= 0, or too little
-            memory.
+        ParameterError: a value out of range, a spectrum that is not finite and >= 0, a sea whose
+            troughs would bare the bed, or too little memory.
     """
 
     def __init__(
@@ -111,6 +112,7 @@ class Ocean:
         self.seed: int | None = seed  # checked where it is used, next
         with no_fork():
             realised = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
+        require_plausible(sea, stacklevel=2)
         self._set_up(sea, realised, choppiness, computation)
 
     @classmethod

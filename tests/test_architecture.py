@@ -47,6 +47,7 @@ STAIRS = [
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
+        ["physics.plausibility"],
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],

@@ -112,6 +112,7 @@ def _sea(statistics: "Statistics") -> "Table":
 
 def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]:
     """Yield what a tile holds of the sea: a name and a text each."""
+    from fftocean.physics.plausibility import plausibility
     from fftocean.statistics import peak_wavelength, shortest_wavelength
 
     if (length := peak_wavelength(ocean)) > 0.0:
@@ -133,6 +134,7 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
         )
     yield "folds", str(statistics.folding)
     assert ocean.sea is not None  # a job has a sea
+    yield "wave height and steepness", str(plausibility(ocean.sea))
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
         if part:
             yield "water properties from", part

@@ -17,7 +17,7 @@ from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.job.wave_systems import measurement, systems_of, unknown_key
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea, WaveSystem
-from fftocean.physics.spectra import JONSWAP, TMA
+from fftocean.physics.spectra import TMA
 from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner
 
 if TYPE_CHECKING:
@@ -253,13 +253,17 @@ class Job:
         waves: list[WaveSystem] = []
         try:
             if self.wind:
-                deep = JONSWAP.from_wind(
-                    speed=s["sea.wind.speed"], fetch=s["sea.wind.fetch"], gamma=s["sea.wind.gamma"]
+                spectrum = TMA.from_wind(
+                    speed=s["sea.wind.speed"],
+                    fetch=s["sea.wind.fetch"],
+                    depth=depth,
+                    gamma=s["sea.wind.gamma"],
+                    growth=s["sea.wind.growth"],
                 )
                 spreading = Blend(DonelanBanner(), CosineSquared(), weight=s["sea.wind.blend"])
                 waves.append(
                     WaveSystem(
-                        spectrum=TMA(deep, depth),
+                        spectrum=spectrum,
                         spreading=spreading,
                         direction=s["sea.wind.direction"],
                     )

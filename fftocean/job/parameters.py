@@ -39,6 +39,7 @@ ENGINES = (
     "babylon",
     "houdini",
 )
+GROWTHS = ("jonswap", "kahma-calkoen", "young-verhagen")
 PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # repeated here so that the command line's help need not import the modules that define them; those
 # compare at import, or a test does
@@ -147,6 +148,12 @@ WIND = (
         3.3,
         "JONSWAP peak enhancement while the sea grows",
         limits.PEAK_ENHANCEMENT,
+    ),
+    Parameter(
+        "sea.wind.growth",
+        GROWTHS[0],
+        "law of growth with fetch in deep water; Young and Verhagen's holds in finite depth",
+        choices=GROWTHS,
     ),
     Parameter("sea.wind.blend", 0.5, "spreading: 0 is Donelan-Banner, 1 is cos^2", limits.FRACTION),
 )

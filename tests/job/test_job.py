@@ -38,6 +38,7 @@ GOOD = {
         "hs": "0.5",
         "tp": "8.0",
         "gamma": "2.0",
+        "growth": "'kahma-calkoen'",
         "speed": "9.0",
         "fetch": "1e5",
         "number": "4",
@@ -116,6 +117,7 @@ VERDICTS = {
     "sea.wind.fetch":        "r   r   r  r r   r    r     r",
     "sea.wind.direction":    "r   r   a  a r   r    r     a",
     "sea.wind.gamma":        "r   r   r  r r   r    r     r",
+    "sea.wind.growth":       "r   r   r  r r   r    r     r",
     "sea.wind.blend":        "r   r   r  a r   r    r     a",
     "sea.depth":             "r   a   r  r r   r    a     r",
     "ocean.band_low":        "r   r   r  a r   r    r     a",
@@ -376,7 +378,7 @@ def test_a_file_reads_as_its_text(tmp_path, ending):
         ),
         (
             "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n",
-            ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"],
+            ["{hs, tp, [gamma]} or {speed, fetch, [gamma], [growth]}", "got {hs}"],
         ),
         (
             "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n",
@@ -637,8 +639,8 @@ SPECTRA = {
         speed=9.0, fetch=1e5
     ),
     "kind = 'tma', hs = 1.5, tp = 9.0": lambda: fo.TMA.from_sea_state(hs=1.5, tp=9.0, depth=DEPTH),
-    "kind = 'tma', speed = 9.0, fetch = 1e5, gamma = 1.5": lambda: fo.TMA(
-        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=1.5), DEPTH
+    "kind = 'tma', speed = 9.0, fetch = 1e5, gamma = 1.5": lambda: fo.TMA.from_wind(
+        speed=9.0, fetch=1e5, gamma=1.5, depth=DEPTH
     ),
     "kind = 'pierson-moskowitz', hs = 2.0, tp = 9.0": lambda: fo.PiersonMoskowitz.from_sea_state(
         hs=2.0, tp=9.0
