@@ -109,7 +109,7 @@ class TileSet:
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
-                "foam": self.job.foam,
+                "foam": self.job.describe_foam(cascade),
                 "blend": blend.describe(cascade, max(1, round(self.job.frames / step))),
                 "extremes": {
                     "unit": {
@@ -147,7 +147,7 @@ class TileSet:
         Raises:
             OutputError: one cannot be written.
         """
-        frames, images, foam = self.job.frames, {}, previews.foam_of(self.job)
+        frames, images, foam = self.job.frames, {}, previews.foam_of(self.job, self.cascade)
         if "sheet" in self.job.pictures:
             sizes = ", ".join(f"{ocean.grid.lx:g}" for ocean in self.cascade.oceans)
             text = previews.caption(self.job, self.statistics, f"tiles {sizes} m")

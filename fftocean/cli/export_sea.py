@@ -51,7 +51,6 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
-    from fftocean.foam import Foam
     from fftocean.runtime.folder import export_sea
 
     with json_events(options.json) as print_json:
@@ -59,13 +58,14 @@ def run(options: argparse.Namespace) -> int:
         wind = None
         if job.wind:
             wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        water = _water(job, options.tiles)
         document = export_sea(
-            _water(job, options.tiles),
+            water,
             options.output,
             textures=options.textures,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            foam=job.foam_on(water),
             wind=wind,
             overwrite=options.overwrite,
         )

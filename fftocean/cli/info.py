@@ -54,7 +54,11 @@ def run(options: argparse.Namespace) -> int:
             console.print(Text(f"{key}: {plain(remark)}"))
     console.print(_sea(statistics))
     table = key_value_table("\nTile")
-    rows = (*_tile(scene.ocean, statistics), *_cost(estimate(job, scene=scene), job, scene.ocean))
+    rows = (
+        *_tile(scene.ocean, statistics),
+        *_foam(job, scene.ocean),
+        *_cost(estimate(job, scene=scene), job, scene.ocean),
+    )
     for name, text in rows:
         table.add_row(name, Text(text))
     console.print(table)
@@ -139,6 +143,17 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
         if part:
             yield "water properties from", part
     yield "FFT library", ocean.backend
+
+
+def _foam(job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:
+    """Yield the foam of a job that bakes it: a name and a text."""
+    if "foam" in job.maps:
+        foam = job.describe_foam(ocean)
+        yield (
+            "foam",
+            f"covers {100.0 * foam['coverage']:.2g} % of the water on average; threshold "
+            f"{foam['threshold']:.4g}, {foam['threshold_from']}",
+        )
 
 
 def _cost(cost: "Estimate", job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:

@@ -291,6 +291,48 @@ def test_every_default_keeps_its_own_rule():
     assert set(BY_KEY["bake.engine"].choices) == set(PROFILES)
 
 
+@pytest.mark.parametrize(
+    ("sea", "wind"),
+    [
+        ("[sea.wind]\nspeed = 12.0\n", 12.0),
+        (f"[[sea.systems]]\n{SWELL}\n", None),
+        ("[[sea.systems]]\nspectrum = { kind = 'beaufort', number = 6 }\n", 12.3),
+        ("[[sea.systems]]\nspectrum = { kind = 'elfouhaily', speed = 9.0, fetch = 1e5 }\n", 9.0),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'tma', spectrum = "
+            "{ kind = 'jonswap', speed = 8.0, fetch = 1e5 } }\n",
+            8.0,
+        ),
+    ],
+)
+def test_foam_follows_the_wind_that_a_job_names(sea, wind):
+    """By speed or by a number; a swell alone has none, and the fixed threshold."""
+    text = sea + "[ocean]\nn = 32\nsize = 80.0\n"
+    job = Job.from_toml(text)
+    assert job.wind_speed == (None if wind is None else pytest.approx(wind))
+    ocean = job.ocean()
+    told = job.describe_foam(ocean)
+    assert told["wind"] == job.wind_speed
+    if wind is None:
+        assert job.foam_on(ocean) == Foam()
+        assert told["threshold_from"] == "fixed, as the sea names no wind"
+        return
+    assert job.foam_on(ocean).threshold == pytest.approx(
+        Foam.whitecaps(ocean, wind).threshold, abs=5.1e-5
+    )
+    # rounding the threshold by 5e-5 changes the coverage by less than 1 %
+    assert told["coverage"] == pytest.approx(3.84e-6 * wind**3.41, rel=0.01)
+    assert "whitecaps of" in told["threshold_from"]
+    fixed = Job.from_toml(text + "[bake.foam]\nthreshold = 0.6\n")
+    assert fixed.foam_on(ocean) == Foam(threshold=0.6)
+    assert fixed.describe_foam(ocean)["threshold_from"] == "as the job has it"
+
+
+def test_the_threshold_of_foam_is_a_number_or_follows_the_wind():
+    refused("[bake.foam]\nthreshold = 'Monahan'\n", "bake.foam.threshold", "or 'wind'", "Monahan")
+    assert Job.from_toml("[bake.foam]\nthreshold = 'Wind'\n").foam_follows_wind
+
+
 def test_foam_is_that_of_the_library():
     """The same defaults, though the table of keys stands apart from what they mean."""
     assert Foam(**Job.default().foam) == Foam()

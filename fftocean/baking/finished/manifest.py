@@ -74,6 +74,7 @@ def compose(
             if scene.ocean.sea is None
             else {"plausibility": plausibility(scene.ocean.sea).as_plain()}
         ),
+        **({"foam": job.describe_foam(scene.ocean)} if "foam" in job.maps else {}),
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),

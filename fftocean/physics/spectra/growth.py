@@ -170,8 +170,10 @@ def shape_integral(gamma: float) -> float:
     )
 
 
-_EDGES = (0.37, 0.5, 0.65, 0.79, 0.86, 0.93, 1.0, 1.09, 1.18, 1.27, 1.45, 1.7, 2.0, 2.5, 3.2, 4.5)
-_EDGES += (7.0, 12.0, 25.0, 60.0, 200.0, 1000.0)
+_EDGES: Final = (
+    *(0.37, 0.5, 0.65, 0.79, 0.86, 0.93, 1.0, 1.09, 1.18, 1.27, 1.45, 1.7, 2.0, 2.5, 3.2, 4.5),
+    *(7.0, 12.0, 25.0, 60.0, 200.0, 1000.0),
+)
 """Frequencies, in peaks, between which the integrand of `shape_integral_at` is smooth."""
 
 
