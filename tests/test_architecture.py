@@ -55,6 +55,7 @@ STAIRS = [
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
+        ["physics.plausibility"],
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],

@@ -59,7 +59,6 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
     from fftocean.engine_projects import TEXTURES
-    from fftocean.foam import Foam
     from fftocean.runtime.folder import export_sea
 
     if options.textures not in (None, *TEXTURES) and options.job is None:
@@ -70,14 +69,15 @@ def run(options: argparse.Namespace) -> int:
         wind = None
         if job.wind:
             wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        water = water_of(job, options.tiles)
         document = export_sea(
-            water_of(job, options.tiles),
+            water,
             options.output,
             textures=options.textures or False,
             engine=options.engine,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            foam=job.foam_on(water),
             wind=wind,
             overwrite=options.overwrite,
         )

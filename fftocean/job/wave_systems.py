@@ -7,14 +7,14 @@ import datetime
 import difflib
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.job.parameters import spelled
 from fftocean.limits import DIRECTION, Count
-from fftocean.physics import presets  # noqa: F401  registers the spectra of its numbers
+from fftocean.physics import presets
 from fftocean.physics.kinds import Part, Registry
 from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import SPECTRA
@@ -188,6 +188,19 @@ def _made(key: str, table: Any, kinds: Registry[M], water: Water, nested: int = 
 
 
 _BY_ROLE: dict[str, Registry[Any]] = {kinds.role: kinds for kinds in (SPECTRA, SPREADINGS)}
+
+
+def winds_of(table: Any) -> Iterator[float]:
+    """Yield the winds that the table of a spectrum names [m/s]: by speed, or by a number."""
+    if not isinstance(table, dict):
+        return
+    numbered = {"beaufort": presets.beaufort, "sea-state": presets.sea_state}
+    preset = numbered.get(spelled(str(table.get("kind")), numbered) or "")
+    if preset is not None and isinstance(table.get("number"), int):
+        yield preset(table["number"]).wind
+    elif isinstance(table.get("speed"), (int, float)):
+        yield float(table["speed"])
+    yield from winds_of(table.get("spectrum"))
 
 
 def unknown_key(key: str, known: Iterable[str]) -> str:
