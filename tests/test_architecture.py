@@ -23,7 +23,16 @@ FLOORS = {
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
+    4: [
+        "computation",
+        "bound_waves",
+        "synthesis",
+        "frame",
+        "lookahead",
+        "ocean",
+        "gerstner",
+        "cell_lattice",
+    ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
