@@ -132,8 +132,8 @@ class Ocean:
         with no_fork():
             realised = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
             second = bound_by_order(order, bound, realised, choppiness, computation)
-        require_plausible(sea, stacklevel=2)
         self._set_up(sea, realised, choppiness, computation, second)
+        require_plausible(sea, stacklevel=2)
 
     @classmethod
     def from_modes(

@@ -57,7 +57,10 @@ STAIRS = [
         ["limits"],
     ],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
+        [
+            *("physics", "physics.units", "physics.dispersion", "physics.moments"),
+            *("physics.water", "physics.second_order"),
+        ],
         ["physics.kinds"],
         ["physics.spreading"],
         ["physics.spectra"],
