@@ -1,8 +1,8 @@
 """
 Kernels by which a graphics processor runs the sea of a package; docs/kernels.md describes them.
 
-`fftocean.wgsl` and `fftocean.hlsl` are the two sources. `tools/shaders.py` generates the others, one
-file an entry point: GLSL 450 for Vulkan and Godot, and Metal.
+`fftocean.wgsl` and `fftocean.hlsl` are the two sources. `tools/shaders.py` generates the others,
+one file an entry point: GLSL 450 for Vulkan and Godot, and Metal.
 """
 
 from pathlib import Path
