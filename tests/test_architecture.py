@@ -23,13 +23,23 @@ FLOORS = {
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
+    4: [
+        "computation",
+        "bound_waves",
+        "synthesis",
+        "frame",
+        "lookahead",
+        "ocean",
+        "gerstner",
+        "cell_lattice",
+    ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
+        "wave_files",
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
@@ -47,17 +57,21 @@ STAIRS = [
         ["limits"],
     ],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
+        [
+            *("physics", "physics.units", "physics.dispersion", "physics.moments"),
+            *("physics.water", "physics.second_order"),
+        ],
         ["physics.kinds"],
         ["physics.spreading"],
         ["physics.spectra"],
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
+        ["physics.plausibility"],
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
+    [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
@@ -76,7 +90,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
     "baking": [
         ["folder"],
         ["scene"],

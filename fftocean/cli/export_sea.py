@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any
 from fftocean.cli.arguments import add_tiles_flag, path
 from fftocean.cli.command import Command
 from fftocean.cli.console import plain, size_in_words
-from fftocean.cli.job_flags import add_job_flags, job_of
+from fftocean.cli.job_flags import add_job_flags, job_of, water_of
 from fftocean.cli.progress import json_events
 
 if TYPE_CHECKING:
-    from fftocean.cascade import Cascade
     from fftocean.job.job import Job
-    from fftocean.ocean import Ocean
 
 
 def add_flags(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +59,6 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
     from fftocean.engine_projects import TEXTURES
-    from fftocean.foam import Foam
     from fftocean.runtime.folder import export_sea
 
     if options.textures not in (None, *TEXTURES) and options.job is None:
@@ -72,14 +69,15 @@ def run(options: argparse.Namespace) -> int:
         wind = None
         if job.wind:
             wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        water = water_of(job, options.tiles)
         document = export_sea(
-            _water(job, options.tiles),
+            water,
             options.output,
             textures=options.textures or False,
             engine=options.engine,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            foam=job.foam_on(water),
             wind=wind,
             overwrite=options.overwrite,
         )
@@ -89,41 +87,6 @@ def run(options: argparse.Namespace) -> int:
             _summarise(options.output, document)
             _next_step(options.output, document)
     return 0
-
-
-def _water(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Cascade":
-    """
-    Return the ocean of a job, or the cascade of its sea on some tiles.
-
-    Raises:
-        JobError: tiles that cannot share the sea, or a band beside tiles.
-    """
-    if not tiles:
-        return job.ocean()
-    from fftocean.cascade import Cascade
-    from fftocean.errors import JobError, ParameterError
-    from fftocean.job.parameters import BY_KEY
-
-    s = job.settings
-    for key in ("ocean.band_low", "ocean.band_high"):
-        if s[key] != BY_KEY[key].default:
-            raise JobError(
-                f"{job.source}: {key} must be left out where there are tiles, "
-                "whose bands follow from their sizes"
-            )
-    try:
-        return Cascade(
-            job.sea(),
-            tiles,
-            seed=s["ocean.seed"],
-            loop=s["ocean.loop"],
-            choppiness=s["ocean.choppiness"],
-            amplitudes=s["ocean.amplitudes"],
-        )
-    except JobError:
-        raise
-    except ParameterError as error:
-        raise JobError(f"{job.source}: {error}") from None
 
 
 def _job_text(job: "Job", tiles: list[tuple[int, float]] | None) -> str:
