@@ -18,7 +18,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: [
         *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
-        *("example_projects", "engine_projects"),
+        *("example_projects", "engine_projects", "notebook_html"),
     ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
@@ -54,7 +54,7 @@ STAIRS = [
     [
         ["constants", "errors"],
         [*("arrays", "host", "files"), *("example_projects", "engine_projects")],
-        ["limits"],
+        ["limits", "notebook_html"],
     ],
     [
         [
