@@ -1,4 +1,4 @@
-"""What notebooks show of a value: parsed as HTML, with the image decoded."""
+"""HTML that notebooks show of a value: parsed, with the image decoded."""
 
 import base64
 import io
