@@ -159,9 +159,9 @@ class Statistics:
             ]
             scatter = f"{self.hs_scatter:.2g} m" if key == "hs" else ""
             rows.append((name, *values, scatter))
-        rows.append(("folds", "", str(self.folding), ""))
         heads = ("", "specified", "realised", "expected scatter")
-        return notebook_html.table("Statistics", rows, heads=heads)
+        shown = notebook_html.table("Statistics", rows, heads=heads)
+        return f"{shown}<p>{notebook_html.escape(str(self.folding))}</p>"
 
     def __repr__(self) -> str:
         specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"

@@ -43,7 +43,7 @@ FLOORS = {
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
-    9: ["view", "plots", "science", "bench"],
+    9: ["view", "plots", "science", "bench", "report"],
     10: ["cli", "__main__"],
 }
 FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
@@ -78,7 +78,7 @@ STAIRS = [
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
-    [["plots.theme"], ["plots"], ["bench.charts"]],
+    [["plots.theme"], ["plots"], ["bench.charts", "report"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {

@@ -19,6 +19,7 @@ from fftocean.cli import (
     keys,
     plot,
     presets,
+    report,
     verify,
     view,
 )
@@ -35,6 +36,7 @@ COMMANDS = (
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    report.COMMAND,
     view.COMMAND,
 )
 
