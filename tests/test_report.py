@@ -80,5 +80,5 @@ def test_a_changed_bake_is_said(tmp_path):
     image.write_bytes(image.read_bytes()[:-1])
     write_report(job, tmp_path / "sea.html", folder=tmp_path / "sea")
     text = Path(tmp_path / "sea.html").read_text(encoding="utf-8")
-    assert "1 problem:" in text
+    assert "Problems: 1." in text
     assert "Every file agrees" not in text
