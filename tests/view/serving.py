@@ -18,7 +18,7 @@ from fftocean.view.viewer import Viewer
 PAGE = {
     "index.html": '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8" />\n'
     '<title>fftocean</title>\n<link rel="stylesheet" href="page.css" />\n'
-    '<script src="page.js" defer></script>\n</head>\n<body><main id="fftocean"></main></body>\n'
+    '<script type="module" src="page.js"></script>\n</head>\n<body><main id="fftocean"></main></body>\n'
     "</html>\n",
     "page.js": "console.log('page');\n",
     "static.js": "console.log('static </script> <!-- in it');\n",
