@@ -89,6 +89,7 @@ export async function bundle() {
 
   // Names of shaders and of properties become short; see short_names.json for the second.
   const { properties } = await json('short_names.json');
+  checkProperties(properties, texts, parts);
   const constants = await json('gl_constants.json');
   const shaders = [...texts].filter(([file]) => file.includes(`${path.sep}shaders${path.sep}`));
   const shaderTexts = shaders.map(([, text]) => text);
@@ -188,6 +189,20 @@ export async function bundle() {
   files['page.css'] = style.outputFiles[0].text;
   files['index.html'] = await readFile(inSources('index.html'), 'utf8');
   return files;
+}
+
+/** Refuse short names of properties that are also asked for by their whole name. */
+function checkProperties(properties, texts, parts) {
+  const whole = new Set(parts.map(([, name]) => name.replace('.js', '')));
+  for (const text of texts.values()) {
+    for (const [, name] of text.matchAll(/\bexport (?:async )?(?:function|class|const) (\w+)/g)) {
+      whole.add(name);
+    }
+    for (const [, name] of text.matchAll(/'(\w+)'/g)) whole.add(name);
+    for (const [, name] of text.matchAll(/\bdataset\.(\w+)/g)) whole.add(name);
+  }
+  const wrong = properties.filter((name) => whole.has(name));
+  if (wrong.length) throw new Error(`short_names.json must not have ${wrong.join(', ')}`);
 }
 
 /** Return a file whose imports of the core are one, at its beginning. */
