@@ -197,7 +197,7 @@ def _files(folder: Path) -> str:
     """Return the check of a bake and its maps."""
     found = check(folder)
     verdict = (
-        f'<p class="bad">{len(found)} problem{"s" * (len(found) != 1)}: {escape(shortened(str(found[0])))}</p>'
+        f'<p class="bad">Problems: {len(found)}. {escape(shortened(str(found[0])))}</p>'
         if found
         else '<p class="good">Every file agrees with its checksum.</p>'
     )
