@@ -13,6 +13,7 @@ from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
+from fftocean.physics.plausibility import plausibility
 from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics
 
@@ -71,6 +72,12 @@ def compose(
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": statistics.as_plain(),  # specified and realised
+        **(
+            {}
+            if scene.ocean.sea is None
+            else {"plausibility": plausibility(scene.ocean.sea).as_plain()}
+        ),
+        **({"foam": job.describe_foam(scene.ocean)} if "foam" in job.maps else {}),
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),
@@ -149,6 +156,7 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "stated_by": {} if ocean.sea is None else _stated(ocean.sea),
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
+        **({"order": 2, "bound": ocean.bound} if ocean.order > 1 else {}),
         "fft": ocean.backend,
     }
 

@@ -77,6 +77,8 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
             "bake.pictures": pictures,
             "bake.engine_files": False,  # those of the cascade play all tiles
         }
+        if index:
+            own["ocean.order"] = 1  # as in a `Cascade`
         jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
     return jobs
 
