@@ -67,10 +67,7 @@ def opened(browser, folder, *, width=320, height=200):
 def packed(browser, npm, name, water):
     """Export a package with the project beside it; return the folder and the document."""
     folder = browser.site.folders["bakes"] / f"three-project-{name}"
-    document = fo.export_sea(water, folder)
-    for path, file in project_files("threejs").items():
-        if not (folder / path).exists():
-            shutil.copyfile(file, folder / path)
+    document = fo.export_sea(water, folder, engine="three")
     with_three(folder, npm)
     return folder, document
 

@@ -6,12 +6,58 @@ func _ready() -> void:
 	var ask: Dictionary = JSON.parse_string(FileAccess.get_file_as_string("res://ask.json"))
 	for name: String in ask["scenes"]:
 		await shown(name, ask["scenes"][name], ask)
+	for name: String in ask["textures"]:
+		var values := ShaderMaterial.new()
+		var code: Dictionary = ask["textures"][name]
+		values.shader = Shader.new()
+		values.shader.code = code["code"]
+		for map: String in code["maps"]:
+			values.set_shader_parameter(map, floats_of(code["maps"][map], code["size"]))
+		var tile: Array = code["tile"]
+		values.set_shader_parameter("tile_0", Vector4(tile[0], tile[1], tile[2], tile[3]))
+		values.set_shader_parameter("tiles", 1)
+		var bytes := await probed(values, code["code"], code["places"])
+		answer(name, Marshalls.raw_to_base64(bytes))
+	await laid_out(ask["compute"])
 	answer("version", Engine.get_version_info()["string"])
 	print("DONE")
 
 
 func answer(name: String, value: Variant) -> void:
 	print("ANSWER ", JSON.stringify([name, value], "", true, true))
+
+
+# sea_compute.gd without a device: what it would give to the kernels.
+class Recorded extends "res://live/sea_compute.gd":
+	var ran := PackedByteArray()
+
+	func _start(_folder: String) -> void:
+		pass
+
+	func _run(block: PackedByteArray) -> void:
+		ran = block
+
+
+func laid_out(ask: Dictionary) -> void:
+	var package: RefCounted = load("res://live/sea_package.gd").new("res://live")
+	var compute := Recorded.new(package, "res://live")
+	compute.step(int(ask["tick"]), ask["seconds"], Vector2(ask["about"][0], ask["about"][1]))
+	await RenderingServer.frame_post_draw
+	answer("compute error", compute.error)
+	answer("block", Marshalls.raw_to_base64(compute.ran))
+	answer("groups", [compute.groups, compute.side])
+	answer("bindings", Recorded.KERNELS)
+	for table: String in ["h0", "wave"]:
+		var bytes := PackedByteArray()
+		for tile: Dictionary in package.tiles:
+			bytes.append_array(tile[table].to_byte_array())
+		answer(table, Marshalls.raw_to_base64(bytes))
+
+
+func floats_of(text: String, size: Array) -> ImageTexture:
+	var bytes := Marshalls.base64_to_raw(text)
+	var image := Image.create_from_data(int(size[0]), int(size[1]), false, Image.FORMAT_RGBAF, bytes)
+	return ImageTexture.create_from_image(image)
 
 
 # A scene at a time: heights at points, the sums of its shader at places, and a picture.
