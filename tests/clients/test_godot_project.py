@@ -6,9 +6,7 @@ the web build, which has no compute shaders; and what it would give to the kerne
 import base64
 import json
 import re
-import shutil
 import struct
-import subprocess
 import sys
 from pathlib import Path
 
@@ -34,27 +32,14 @@ MODES = [(1, 0, 0.30, 0.2), (2, -1, 0.18, 1.1), (-1, 2, 0.12, 2.5), (5, 3, 0.05,
 SEA = {"n": (32, 16), "size": (50.0, 20.0), "depth": 12.0, "loop": 20.0}
 FOAM_CELL, FOAM_SIDE = 0.4, 512
 
-needs_gdtoolkit = pytest.mark.skipif(
-    not (Path(sys.executable).parent / "gdparse").exists() and not shutil.which("gdparse"),
-    reason="gdtoolkit is not installed",
-)
 
-
-def gdtool(name, *files):
-    """Run a tool of gdtoolkit; return its exit status and what it said."""
-    beside = Path(sys.executable).parent / name
-    command = [str(beside) if beside.exists() else shutil.which(name), *map(str, files)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
-    return done.returncode, done.stdout + done.stderr
-
-
-@needs_gdtoolkit
-@pytest.mark.process
-def test_all_scripts_parse_and_are_clean():
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_a_script_parses_and_is_clean(script):
     """gdtoolkit's parser and linter find nothing."""
-    for tool in ("gdparse", "gdlint"):
-        status, said = gdtool(tool, *SCRIPTS)
-        assert status == 0, said
+    linter = pytest.importorskip("gdtoolkit.linter")
+    code = script.read_text(encoding="utf-8")
+    found = linter.lint_code(code, linter.DEFAULT_CONFIG)
+    assert not found, found
 
 
 def test_scenes_and_scripts_name_files_of_their_own_folder():
@@ -277,8 +262,10 @@ def test_the_kernels_would_get_the_bytes_that_their_page_asks_for(godot):
     package = read_package(godot["package"])
     h0, wave = tables(package)
     assert base64.b64decode(answers["h0"]) == h0.astype("<f4").tobytes()
-    found = np.frombuffer(base64.b64decode(answers["wave"]), "<f4")
-    assert np.allclose(found, wave.ravel(), rtol=1e-6)
+    found = np.frombuffer(base64.b64decode(answers["wave"]), "<f4").reshape(-1, 2)
+    there = wave[:, 0] > 0  # elsewhere there is no wave, and its factor is of no account
+    assert np.array_equal(found[:, 0], wave[:, 0])
+    assert np.allclose(found[there], wave[there], rtol=1e-6)
     layout = Layout(document, [], FOAM_SIDE)
     corner = [int(np.floor(a / FOAM_CELL)) - FOAM_SIDE // 2 for a in (31.0, -12.3)]
     foam = Foam(
