@@ -1,4 +1,4 @@
-"""Files that play a bake in its engine: whole, checked, repaired, replaced; never the user's own."""
+"""Files that play a bake in its engine: whole, checked, repaired, and never a user's own."""
 
 import json
 import re
