@@ -100,7 +100,8 @@ class Cascade:
             sum(memory_needed(grid, computation.dtype) for grid in grids),
         )
         _warn_of_short_loops(sea, shared, loops)
-        oceans, parts = [], parts_of_sea(sea)
+        oceans: list[Ocean] = []
+        parts = parts_of_sea(sea)
         for grid, own, band, period in zip(
             grids, tile_seeds(seed, grids), shared, loops, strict=True
         ):

@@ -328,7 +328,7 @@ def _residuals(ocean: Ocean, chosen: Integer, steepness: float) -> tuple[float, 
     mx, my = np.rint(kx / grid.dkx).astype(int), np.rint(ky / grid.dky).astype(int)
     water = Ocean.from_modes(
         zip(mx.tolist(), my.tolist(), amplitude.tolist(), phase.tolist(), strict=True),
-        n=tuple(4 * int(np.max(np.abs(m))) + 16 for m in (mx, my)),
+        n=(4 * int(np.max(np.abs(mx))) + 16, 4 * int(np.max(np.abs(my))) + 16),
         size=(grid.lx, grid.ly),
         depth=h,
         choppiness=ocean.choppiness,

@@ -378,6 +378,7 @@ def _classes(sea: Sea) -> tuple[Real, Real, Real]:
             energy = share * system.spectrum(omega) * d_omega
             some = energy > 1e-12 * np.max(energy, initial=0.0)
             omega, energy = omega[some], energy[some]
+            theta: Real
             if isinstance(system.spreading, LongCrested):
                 theta, spread = np.zeros(1), np.ones((omega.size, 1))
             else:
@@ -395,16 +396,16 @@ def _classes(sea: Sea) -> tuple[Real, Real, Real]:
             )
     if not columns:
         return np.zeros(0), np.zeros(0), np.zeros(0)
-    variance, omega, theta = (np.concatenate(column) for column in zip(*columns, strict=True))
+    variance, omega, angle = (np.concatenate(column) for column in zip(*columns, strict=True))
     along = np.floor(np.log(omega / np.min(omega)) / math.log(_RATIO)).astype(np.int64)
-    around = np.floor(theta / (2.0 * np.pi / _ANGLES)).astype(np.int64) % _ANGLES
+    around = np.floor(angle / (2.0 * np.pi / _ANGLES)).astype(np.int64) % _ANGLES
     number = along * _ANGLES + around
-    total = np.bincount(number, variance)
+    total: Real = np.bincount(number, variance)
     some = total > _NEGLIGIBLE * np.max(total, initial=0.0)
-    mean = np.bincount(number, variance * omega)[some] / total[some]
+    mean: Real = np.bincount(number, variance * omega)[some] / total[some]
     turned = (
-        np.bincount(number, variance * np.exp(1j * theta).real)[some]
-        + 1j * (np.bincount(number, variance * np.exp(1j * theta).imag)[some])
+        np.bincount(number, variance * np.exp(1j * angle).real)[some]
+        + 1j * (np.bincount(number, variance * np.exp(1j * angle).imag)[some])
     )
     return total[some], mean, np.angle(turned)
 

@@ -20,7 +20,10 @@ FLOORS = {
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
+    4: [
+        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
+        "cell_lattice",
+    ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
@@ -41,7 +44,10 @@ FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
 STAIRS = [
     [["constants", "errors"], ["arrays", "host", "files", "example_projects"], ["limits"]],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
+        [
+            *("physics", "physics.units", "physics.dispersion", "physics.moments"),
+            *("physics.second_order", "physics.water"),
+        ],
         ["physics.kinds"],
         ["physics.spreading"],
         ["physics.spectra"],
