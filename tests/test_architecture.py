@@ -31,6 +31,7 @@ FLOORS = {
         "lookahead",
         "ocean",
         "gerstner",
+        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
         "cell_lattice",
     ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
@@ -60,6 +61,7 @@ STAIRS = [
         [
             *("physics", "physics.units", "physics.dispersion", "physics.moments"),
             *("physics.water", "physics.second_order"),
+            *("physics.second_order", "physics.water"),
         ],
         ["physics.kinds"],
         ["physics.spreading"],
