@@ -9,6 +9,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fftocean import export as export
     from fftocean import foam as foam
     from fftocean import gerstner as gerstner
     from fftocean import kinematics as kinematics
@@ -147,6 +148,7 @@ _NAMES_BY_MODULE = {
 }
 _PUBLIC_MODULES = {
     "dispersion": "fftocean.physics.dispersion",
+    "export": "fftocean.export",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
     "kinematics": "fftocean.kinematics",

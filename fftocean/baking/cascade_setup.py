@@ -79,6 +79,7 @@ class TileSet:
         rows: Sequence[Mapping[str, Any]],
         manifests: Sequence[Mapping[str, Any]],
         pictures: Mapping[str, Any],
+        players: Sequence[Mapping[str, Any]] = (),
     ) -> dict[str, Any]:
         """
         Return the list of a cascade's tiles as plain data.
@@ -87,6 +88,7 @@ class TileSet:
             rows: of the tiles, in order.
             manifests: of the tiles, in order.
             pictures: entries of the previews of the summed tiles, by name.
+            players: entries of the files that play the tiles in their engine.
         """
         profile, cascade = self.scenes[0].profile, self.cascade
         step = self.chosen[1] - self.chosen[0] if len(self.chosen) > 1 else 1
@@ -124,7 +126,12 @@ class TileSet:
                 },
                 "tiles": list(rows),
                 "tile_units": {"size": "m", "band": "rad/m", "m0": "m^2"},
+                "video_memory": {
+                    key: sum(m["video_memory"][key] for m in manifests)
+                    for key in ("bytes", "bytes_a_frame", "bytes_with_all_levels")
+                },
                 **pictures,
+                **({"engine_files": list(players)} if players else {}),
             }
         )
 

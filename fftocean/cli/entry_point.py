@@ -36,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             warnings.simplefilter("always", SeaWarning)
             warnings.showwarning = _note_printer()
             given = sys.argv[1:] if arguments is None else arguments
-            if not given:
+            if not given and "_ARGCOMPLETE" not in os.environ:  # which a shell sets that completes
                 print(FIRST_STEPS, end="", file=sys.stderr)
                 return 2
             options = build_parser().parse_args(given)

@@ -181,6 +181,7 @@ def _describe_cascade(options: argparse.Namespace, job: "Job") -> int:
         *water.rows(),
         ("files", f"{cost.files} files, about {cost.bytes / 1e6:.0f} MB"),
         ("memory", f"{notes.memory(cost)}, for the largest tile"),
+        ("video memory", f"{notes.video_memory(cost)}, as textures in an engine"),
         ("time to bake", f"about {cost.seconds:.0f} s here"),
     ):
         table.add_row(name, Text(text))

@@ -311,6 +311,8 @@ class Job:
                 amplitudes=s["ocean.amplitudes"],
                 dtype=dtype,
                 band=(low, high),
+                order=s["ocean.order"],
+                bound=s["ocean.bound"],
             )
         except (JobError, ReaderError):
             raise

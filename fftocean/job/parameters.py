@@ -189,6 +189,20 @@ TILE = (
         "gaussian, as in nature, or fixed: random phases alone",
         choices=("gaussian", "fixed"),
     ),
+    Parameter(
+        "ocean.order",
+        1,
+        "1 for linear waves; 2 adds second-order waves, which make crests higher and troughs "
+        "flatter",
+        limits.ORDER,
+        flag="order",
+    ),
+    Parameter(
+        "ocean.bound",
+        1000,
+        "number of waves whose pairs have second-order waves, the strongest",
+        limits.BOUND_WAVES,
+    ),
 )
 OUTPUT = (
     Parameter(
@@ -224,6 +238,13 @@ OUTPUT = (
     ),
     Parameter(
         "bake.mips", False, "mip levels of each map; with the format ktx2", switch=True, flag="mips"
+    ),
+    Parameter(
+        "bake.engine_files",
+        True,
+        "files that play the bake in its engine, beside the maps",
+        switch=True,
+        flag="engine-files",
     ),
     Parameter(
         "bake.pictures",

@@ -3,6 +3,7 @@ Wave systems of a job: the tables [[sea.systems]], each a spectrum, a spreading 
 a measured spectrum from a file.
 """
 
+import datetime
 import difflib
 import math
 import os
@@ -106,10 +107,12 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
             f"{key}.measured must be a table with a file, and perhaps time and site counted "
             f"from 0, and the exponent of a tail, got {source!r:.80}"
         )
+    site = INDEX.check(f"{key}.measured.site", source.get("site", 0))
+    when = source.get("time", 0)
+    dated = isinstance(when, (str, datetime.date))
+    if not dated:
+        INDEX.check(f"{key}.measured.time", when)
     try:
-        time, site = (
-            INDEX.check(f"{key}.measured.{name}", source.get(name, 0)) for name in ("time", "site")
-        )
         tail = source.get("tail")
         tail = None if tail is None else TAIL.check(f"{key}.measured.tail", tail)
     except ParameterError as error:
@@ -126,11 +129,12 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
         if os.path.isdir(folder / source["file"]):  # noqa: PTH112  false for impossible names
             raise ReaderError("must be a file, got a directory")
         dataset = readers.open(folder / source["file"], site=site)
+        time = readers.nearest_time(dataset, str(when)) if dated else int(when)
         if "efth" not in dataset and (direction is None or spreading is None):
             raise JobError(
                 "the file has no directions; beside `measured` a job must have direction [degrees, "
                 "toward, counter-clockwise from +x] and spreading, such as direction = 90.0 and "
-                "spreading = { kind = 'blend' }"
+                "spreading = { kind = 'blend' }; without a job file, --toward"
             )
         return readers.Realised.from_spectrum(
             dataset,
