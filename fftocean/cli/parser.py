@@ -19,6 +19,7 @@ from fftocean.cli import (
     keys,
     plot,
     presets,
+    series,
     verify,
     view,
 )
@@ -28,6 +29,7 @@ COMMANDS = (
     bake.COMMAND,
     export_sea.COMMAND,
     export.COMMAND,
+    series.COMMAND,
     check.COMMAND,
     info.COMMAND,
     keys.COMMAND,
