@@ -41,6 +41,7 @@ FLOORS = {
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
         "wave_files",
+        "probe_series",
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],

@@ -20,6 +20,7 @@ from fftocean.cli import (
     plot,
     presets,
     report,
+    series,
     verify,
     view,
 )
@@ -29,6 +30,7 @@ COMMANDS = (
     bake.COMMAND,
     export_sea.COMMAND,
     export.COMMAND,
+    series.COMMAND,
     check.COMMAND,
     info.COMMAND,
     keys.COMMAND,

@@ -236,14 +236,16 @@ class Sea:
         direction: float | None = None,
         spreading: Spreading | None = None,
         negative: str = "refuse",
+        tail: float | None = None,
     ) -> "Sea":
         """
         Return the sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight
         from the wavespectra package.
 
         Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
-        bands. `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports
-        what was masked, repaired or assumed.
+        bands; with a `tail`, say 5, it goes on beyond the last frequency as f^-5.
+        `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was
+        masked, repaired, assumed or added.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
@@ -260,6 +262,7 @@ class Sea:
             direction=direction,
             spreading=spreading,
             negative=negative,
+            tail=tail,
         )
 
     @classmethod
