@@ -32,6 +32,11 @@ def table(caption: str, rows: Iterable[Sequence[str]], *, heads: Sequence[str] =
     return f"<table><caption>{escape(caption)}</caption>{''.join(lines)}</table>"
 
 
+def line(text: str) -> str:
+    """Return a line of text in HTML, escaped."""
+    return f"<p>{escape(text)}</p>"
+
+
 def image(height: Real, alternative: str) -> str:
     """
     Return an image of a height field in HTML, north up: dark troughs, light crests.

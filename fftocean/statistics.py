@@ -161,7 +161,7 @@ class Statistics:
             rows.append((name, *values, scatter))
         heads = ("", "specified", "realised", "expected scatter")
         shown = notebook_html.table("Statistics", rows, heads=heads)
-        return f"{shown}<p>{notebook_html.escape(str(self.folding))}</p>"
+        return shown + notebook_html.line(str(self.folding))
 
     def __repr__(self) -> str:
         specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"
