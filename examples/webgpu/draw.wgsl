@@ -23,6 +23,7 @@ const EARTH = 6371e3;       // radius [m]
 const SUN = vec3f(1.0, 0.97, 0.93) * 10.0;   // irradiance above the air, any unit
 const RAYLEIGH = vec3f(0.046, 0.108, 0.265); // optical depth of the air at 610, 550, 465 nm
 const HAZE = vec3f(0.03, 0.032, 0.035);      // of what is in it
+const OZONE = vec3f(0.010, 0.028, 0.001);     // which only absorbs
 const WATER = vec3f(0.0016, 0.0085, 0.0135); // radiance from below, of the irradiance [1/sr]
 
 // Air masses on the way to a direction (Kasten & Young 1989).
@@ -31,14 +32,14 @@ fn air_mass(up: f32) -> f32 {
   return 1.0 / (max(up, 0.0) + 0.50572 * pow(degrees + 6.07995, -1.6364));
 }
 
-fn sunlight() -> vec3f { return SUN * exp(-(RAYLEIGH + HAZE) * air_mass(view.sun.z)); }
+fn sunlight() -> vec3f { return SUN * exp(-(RAYLEIGH + HAZE + OZONE) * air_mass(view.sun.z)); }
 
 // Clear sky: light scattered once in a flat layer, and a share of what was scattered before.
 fn sky(direction: vec3f) -> vec3f {
   let cosine = dot(direction, view.sun.xyz);
   let to_eye = air_mass(max(direction.z, 0.0));
   let to_sun = air_mass(view.sun.z);
-  let depth = RAYLEIGH + HAZE;
+  let depth = RAYLEIGH + HAZE + OZONE;
   let g = 0.76;
   let rayleigh = 3.0 / (16.0 * PI) * (1.0 + cosine * cosine);
   let haze = (1.0 - g * g) / (4.0 * PI * pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
@@ -134,7 +135,7 @@ fn foam_at(rest: vec2f, pixel: f32) -> f32 {
   let bend = vec2f(smooth_noise(at), smooth_noise(at + 37.0));
   let fine = 0.55 * web(at + bend) + 0.45 * web(3.0 * at + 2.0 * bend);
   let noise = 0.7 * fine + 0.3 * smooth_noise(0.5 * at);
-  let broken = smoothstep(0.0, 0.55, 1.3 * noise - 1.05 + pow(cover, 0.6));
+  let broken = smoothstep(0.0, 0.55, 1.3 * noise - 1.3 + 1.25 * pow(cover, 0.6));
   return mix(broken, cover, smoothstep(0.1, 0.6, pixel));
 }
 
