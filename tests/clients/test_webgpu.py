@@ -142,7 +142,7 @@ def test_the_picture_shows_sky_water_glitter_and_foam(page):
 
 
 def test_sines_of_the_platform_fail_the_self_check(page):
-    """They are too coarse there: the error is many times the limit."""
+    """Sines that are too coarse: the error is many times the limit."""
     opened, _ = page
     found = opened.evaluate(PLATFORM)
     assert found["worst"] > 10 * FIELDS
