@@ -26,7 +26,7 @@ FLOORS = {
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
-        *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
@@ -53,7 +53,7 @@ STAIRS = [
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
-    [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
+    [["products"], ["statistics", "polar_spectrum"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
@@ -69,7 +69,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "job_text"]],
     "baking": [
         ["folder"],
         ["scene"],
