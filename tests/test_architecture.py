@@ -39,9 +39,10 @@ FLOORS = {
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss"),
         *("summed_waves", "interpolated_tiles", "query"),
-        *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
         "wave_files",
         "probe_series",
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
@@ -77,7 +78,7 @@ STAIRS = [
     [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
-    [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
+    [["products"], ["statistics", "polar_spectrum"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
@@ -94,6 +95,7 @@ STEP = {
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
     "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "job_text"]],
     "baking": [
         ["folder"],
         ["scene"],

@@ -20,11 +20,11 @@ from typing import TYPE_CHECKING, Any, Final
 from fftocean.cascade import Cascade, Tile, tile_jobs
 from fftocean.errors import JobError, ParameterError, ReaderError, SeaWarning
 from fftocean.job.job import Job
+from fftocean.job.job_text import job_text, toml_value
 from fftocean.job.parameters import PARAMETERS as JOB_PARAMETERS
 from fftocean.job.parameters import WIND
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
-from fftocean.view.job_text import job_text, toml_value
 from fftocean.view.parameters import BY_NAME, SENT
 from fftocean.view.swell import Swell, swell_of, table_of
 
