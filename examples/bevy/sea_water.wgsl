@@ -106,6 +106,6 @@ fn fragment(in: Between) -> @location(0) vec4f {
   let facet = middle - normal * dot(middle, normal);
   let steep = dot(facet, facet) / max(dot(middle, normal) * dot(middle, normal), 1e-4);
   light += vec3f(1.0, 0.95, 0.85) * 0.001 * sea.sun.w * exp(-0.5 * steep / variance) / (6.2831853 * variance);
-  let foam = smoothstep(0.45, 0.1, area); // where the surface is squeezed, without memory
+  let foam = 1.0 - smoothstep(0.1, 0.45, area); // where the surface is squeezed, without memory
   return vec4f(mix(light, vec3f(0.8), foam), 1.0);
 }
