@@ -58,7 +58,7 @@ def questions(count):
 
 @dataclass
 class Answers:
-    """What a reader answered."""
+    """Answers of a reader."""
 
     at: np.ndarray  # (points, 10): of all waves
     rest: np.ndarray
