@@ -125,16 +125,16 @@ def draw(result: Result, path: Path) -> None:
 def markdown(result: Result) -> str:
     """Return the table "tiles, points -> milliseconds a step" of docs/robots.md."""
     counts = sorted({int(r.at["points"]) for r in result.all("bicubic")})
+    some = result.all("exact")[0].at["points"]
     heads = [f"{points} point{'s' * (points > 1)}" for points in counts]
-    lines = [
-        "| tiles | samples a side | mode | " + " | ".join(heads) + " |",
-        "|---|---|---|" + "---|" * len(heads),
-    ]
-    seas = sorted({(int(r.at["tiles"]), int(r.at["n"])) for r in result.all("bicubic")})
-    for (tiles, n), mode in itertools.product(seas, ("bicubic", "bilinear")):
-        found = [result.find(mode, tiles=tiles, n=n, points=points).median for points in counts]
-        cells = " | ".join(f"{value:.2g}" for value in found)
-        lines.append(f"| {tiles} | {n} | {mode} | {cells} |")
+    heads += [f"all waves at {some} points", f"the same below, {some} points"]
+    lines = ["| tiles | samples a side | " + " | ".join(heads) + " |"]
+    lines.append("|---|---|" + "---|" * len(heads))
+    for tiles, n in sorted({(int(r.at["tiles"]), int(r.at["n"])) for r in result.all("bicubic")}):
+        readings = [result.find("bicubic", tiles=tiles, n=n, points=p) for p in counts]
+        readings += [result.find(what, tiles=tiles, n=n) for what in ("exact", "below the surface")]
+        cells = " | ".join(f"{float(f'{r.median:.2g}'):g}" for r in readings)
+        lines.append(f"| {tiles} | {n} | {cells} |")
     return "\n".join(lines) + "\n"
 
 

@@ -94,6 +94,16 @@ def test_waves_too_short_for_the_spacing_become_roughness(package, cascade, fold
     assert 0.1 * captured < middle.rough.mean() < 0.9 * captured
 
 
+def test_a_wave_of_two_and_a_half_samples_is_half_in_the_mesh(package, tmp_path):
+    """At k d = 3/4 pi its amplitude is cos^2(pi/4); the missing variance is 1 - 1/4 of its own."""
+    wave = fo.Ocean.from_modes([(4, 0, 0.1, 0.3)], n=32, size=32.0, loop=8.0, dtype="float64")
+    fo.export_sea(wave, tmp_path / "sea")
+    surface = package.Surface(package.Sea(tmp_path / "sea"), np.arange(32) * 3.0, np.arange(3) * 3)
+    k = 2.0 * np.pi * 4 / 32.0
+    assert np.std(surface.fields(0)["height"]) == pytest.approx(0.05 / np.sqrt(2.0), rel=1e-6)
+    assert surface.rough == pytest.approx(0.75 * 0.5 * (0.1 * k) ** 2, rel=1e-6)
+
+
 def test_foam_is_the_periodic_solution_of_its_equation(package, folder):
     """A patch that breaks once decays by its rate, and the loop closes."""
     sea = package.Sea(folder)
