@@ -28,6 +28,7 @@ from fftocean.ocean import (
     longest_period,
     memory_needed,
 )
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
@@ -67,8 +68,8 @@ class Cascade:
     Threads can share a cascade as they can share an `Ocean`.
 
     Raises:
-        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers
-            out or are beyond their tile.
+        ParameterError: a value out of range, tiles out of order, bands that leave wavenumbers out
+            or are beyond their tile, or a sea whose troughs would bare the bed.
     """
 
     def __init__(
@@ -112,6 +113,7 @@ class Cascade:
                 order if not oceans else 1, bound, waves, choppiness, computation
             )
             oceans.append(from_amplitudes(sea, own, waves, choppiness, computation, second))
+        require_plausible(sea, stacklevel=2)
         self._set_up(sea, seed, tuple(oceans))
 
     def _set_up(self, sea: Sea | None, seed: int | None, oceans: tuple[Ocean, ...]) -> None:

@@ -34,6 +34,7 @@ from fftocean.limits import (
 )
 from fftocean.lookahead import run_in_order
 from fftocean.physics import dispersion
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
 from fftocean.synthesis import Synthesis
 
@@ -89,8 +90,8 @@ class Ocean:
     it inherits and make new ones.
 
     Raises:
-        ParameterError: a value out of range, a spectrum that is not finite and >= 0, or too little
-            memory.
+        ParameterError: a value out of range, a spectrum that is not finite and >= 0, a sea whose
+            troughs would bare the bed, or too little memory.
     """
 
     def __init__(
@@ -132,6 +133,7 @@ class Ocean:
             realised = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
             second = bound_by_order(order, bound, realised, choppiness, computation)
         self._set_up(sea, realised, choppiness, computation, second)
+        require_plausible(sea, stacklevel=2)
 
     @classmethod
     def from_modes(

@@ -98,7 +98,7 @@ class Plan:
 
     @property
     def sources(self) -> tuple[Source, ...]:
-        """The functions that the half-spectra are made of, potentials first."""
+        """Sources of the half-spectra, potentials first."""
         used = {source for one in self.half_spectra for source in (one.source, one.other) if source}
         return tuple(sorted(used, reverse=True))
 

@@ -16,12 +16,21 @@ from imports import imports_in, modules_in, packages_in, reach
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
 FLOORS = {
-    0: ["constants", "errors", "host", "forks", "arrays", "limits", "files", "example_projects"],
+    0: [
+        *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
+        *("example_projects", "engine_projects"),
+    ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: [
-        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
+        "computation",
+        "bound_waves",
+        "synthesis",
+        "frame",
+        "lookahead",
+        "ocean",
+        "gerstner",
         "cell_lattice",
     ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
@@ -42,11 +51,15 @@ FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
 # The stairs within a floor, lowest step first. Elsewhere the parts of a floor do not import each
 # other, and the modules of one part may.
 STAIRS = [
-    [["constants", "errors"], ["arrays", "host", "files", "example_projects"], ["limits"]],
+    [
+        ["constants", "errors"],
+        [*("arrays", "host", "files"), *("example_projects", "engine_projects")],
+        ["limits"],
+    ],
     [
         [
             *("physics", "physics.units", "physics.dispersion", "physics.moments"),
-            *("physics.second_order", "physics.water"),
+            *("physics.water", "physics.second_order"),
         ],
         ["physics.kinds"],
         ["physics.spreading"],
@@ -54,6 +67,7 @@ STAIRS = [
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
+        ["physics.plausibility"],
     ],
     [["cells"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
@@ -76,7 +90,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
     "baking": [
         ["folder"],
         ["scene"],
@@ -88,8 +102,8 @@ INNER = {
         ["dry_run", "repair"],
     ],
     "runtime": [
-        ["layout"],
-        ["contents", "planes", "source"],
+        ["layout", "shaders"],
+        ["contents", "planes", "source", "engines", "textures", "project"],
         ["records"],
         ["describe", "reference"],
         ["document"],

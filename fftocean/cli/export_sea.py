@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 def add_flags(parser: argparse.ArgumentParser) -> None:
     """Add the flags of `fftocean export-sea`."""
+    from fftocean.engine_projects import ENGINES, TEXTURES
+
     parser.add_argument(
         "-o",
         "--output",
@@ -30,8 +32,15 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--textures",
-        action="store_true",
-        help="add the waves as float32 textures, ready for a graphics processor",
+        nargs="?",
+        const="bin",
+        metavar="FORMAT",
+        help=f"add the waves as float32 textures: {', '.join(TEXTURES)} (without a value: bin)",
+    )
+    parser.add_argument(
+        "--engine",
+        choices=tuple(ENGINES),
+        help="add the kernels and a project that opens in this engine, beside the package",
     )
     parser.add_argument(
         "--ticks",
@@ -44,26 +53,31 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
         "--json", action="store_true", help="print events as lines of JSON: done, error"
     )
     parser.add_argument("--quiet", action="store_true", help="no summary")
-    add_job_flags(parser)
+    add_job_flags(parser, own=("engine",))
 
 
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
-    from fftocean.foam import Foam
+    from fftocean.engine_projects import TEXTURES
     from fftocean.runtime.folder import export_sea
 
+    if options.textures not in (None, *TEXTURES) and options.job is None:
+        # `--textures JOB.toml`: a bare flag before the job
+        options.job, options.textures = path(options.textures), "bin"
     with json_events(options.json) as print_json:
         job = job_of(options)
         wind = None
         if job.wind:
             wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        water = water_of(job, options.tiles)
         document = export_sea(
-            water_of(job, options.tiles),
+            water,
             options.output,
-            textures=options.textures,
+            textures=options.textures or False,
+            engine=options.engine,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            foam=job.foam_on(water),
             wind=wind,
             overwrite=options.overwrite,
         )
@@ -71,6 +85,7 @@ def run(options: argparse.Namespace) -> int:
             print_json({"event": "done", "folder": str(options.output), **_sizes(document)})
         elif not options.quiet:
             _summarise(options.output, document)
+            _next_step(options.output, document)
     return 0
 
 
@@ -107,13 +122,27 @@ def _summarise(folder: Path, document: Mapping[str, Any]) -> None:
     )
 
 
+def _next_step(folder: Path, document: Mapping[str, Any]) -> None:
+    """Print what to do with the project of an engine, and which of its files were kept."""
+    from fftocean.engine_projects import ENGINES
+    from fftocean.runtime.folder import edited_files
+
+    if "project" not in document:
+        return
+    engine = ENGINES[document["project"]["engine"]]
+    if edited := edited_files(folder, document):
+        print(f"kept as edited: {', '.join(map(plain, edited))}")
+    print(f"{engine.caption}: {engine.first_step}")
+
+
 COMMAND = Command(
     name="export-sea",
     arguments="[JOB.toml] [-o DIR]",
     summary="write the waves of a sea for programs that evolve them: pages, engines",
     examples=(
         "fftocean export-sea -o sea --n 256",
-        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures",
+        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures ktx2",
+        "fftocean export-sea gale.toml -o gale --n 256 --engine godot",
     ),
     run=run,
     add_flags=add_flags,

@@ -2,13 +2,26 @@
 
 import argparse
 import difflib
+import os
 import re
 import sys
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, export, export_sea, info, plot, presets, verify, view
+from fftocean.cli import (
+    bake,
+    bench,
+    check,
+    export,
+    export_sea,
+    info,
+    keys,
+    plot,
+    presets,
+    verify,
+    view,
+)
 from fftocean.cli.console import plain
 
 COMMANDS = (
@@ -17,6 +30,7 @@ COMMANDS = (
     export.COMMAND,
     check.COMMAND,
     info.COMMAND,
+    keys.COMMAND,
     verify.COMMAND,
     bench.COMMAND,
     plot.COMMAND,
@@ -92,4 +106,13 @@ def build_parser() -> argparse.ArgumentParser:
         )
         one.set_defaults(run=command.run)
         command.add_flags(one)
+    _complete(parser)
     return parser
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer a shell that asks for completions, and exit; do nothing otherwise."""
+    if "_ARGCOMPLETE" in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser)

@@ -12,7 +12,7 @@ from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
 from fftocean.physics import moments, presets
-from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
+from fftocean.physics.spectra import TMA, FrequencySpectrum, require_spectrum
 from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
 from fftocean.physics.water import SAME, Statement, agreed, statements
 
@@ -154,10 +154,13 @@ class Sea:
         depth: float = math.inf,
         direction: float = 0.0,
         gamma: float = 3.3,
+        growth: str = "jonswap",
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
         Return a TMA sea, spread by an even blend of Donelan-Banner and cos^2.
+
+        In water of finite depth it grows as Young and Verhagen (1996) measured: `TMA.from_wind`.
 
         Args:
             speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says
@@ -166,13 +169,13 @@ class Sea:
             depth: still-water depth [m].
             direction: toward which the wind blows, counter-clockwise from +x [degrees].
             gamma: peak enhancement of the growing sea [-].
+            growth: law of growth in deep water: "jonswap", "kahma-calkoen" or "young-verhagen".
             spreading: another model of directional spreading.
 
         Raises:
-            ParameterError: a value out of its range.
+            ParameterError: a value out of its range, or an unknown law of growth.
         """
-        deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
-        spectrum = TMA(deep, DEPTH.check("depth", depth))
+        spectrum = TMA.from_wind(speed=speed, fetch=fetch, depth=depth, gamma=gamma, growth=growth)
         return cls(
             WaveSystem(
                 spectrum=spectrum,

@@ -26,8 +26,8 @@ SPECTRUM_CASES = [
     ("jonswap", "speed = 9, fetch = 1e5", fo.JONSWAP.from_wind(speed=9.0, fetch=1e5)),
     (
         "jonswap",
-        "speed = 9, fetch = 1e5, gamma = 2",
-        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0),
+        "speed = 9, fetch = 1e5, gamma = 2, growth = 'kahma-calkoen'",
+        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0, growth="kahma-calkoen"),
     ),
     ("tma", "hs = 1, tp = 6", fo.TMA.from_sea_state(hs=1.0, tp=6.0, depth=DEPTH)),
     (
@@ -37,8 +37,8 @@ SPECTRUM_CASES = [
     ),
     (
         "tma",
-        "speed = 9, fetch = 1e5, gamma = 2",
-        fo.TMA(fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0), DEPTH),
+        "speed = 9, fetch = 1e5, gamma = 2, growth = 'kahma-calkoen'",
+        fo.TMA.from_wind(speed=9.0, fetch=1e5, gamma=2.0, depth=DEPTH, growth="kahma-calkoen"),
     ),
     (
         "tma",
