@@ -49,7 +49,9 @@ def flags(parser: argparse.ArgumentParser) -> None:
 def sea() -> Sea:
     """Return a wind sea of 3 m and 8 s, spread over 30 degrees."""
     spreading = CosinePower(s=2.0 / math.radians(30.0) ** 2 - 1.0)
-    return Sea(WaveSystem(spectrum=JONSWAP.from_sea_state(hs=3.0, tp=8.0), spreading=spreading))
+    return Sea(
+        WaveSystem(spectrum=JONSWAP.from_sea_state(hs=3.0, tp=8.0, gamma=3.3), spreading=spreading)
+    )
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:

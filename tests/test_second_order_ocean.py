@@ -20,7 +20,7 @@ from fftocean.gerstner.compiled import eight_fields
 
 SEA = fo.Sea(
     fo.WaveSystem(
-        spectrum=fo.JONSWAP.from_sea_state(hs=3.0, tp=8.0),
+        spectrum=fo.JONSWAP.from_sea_state(hs=3.0, tp=8.0, gamma=3.3),
         spreading=fo.CosinePower(s=2.0 / math.radians(30.0) ** 2 - 1.0),
     )
 )

@@ -4,7 +4,8 @@ Figures of docs/second_order.md: skewness and crests of many seeds, and the pict
     python tools/second_order.py figures [--seeds 24]
     python tools/second_order.py picture docs/second_order.webp
 
-The sea has Hs = 3 m, Tp = 8 s, a JONSWAP spectrum and 30 degrees of spread, on 500 m of deep water.
+The sea has Hs = 3 m, Tp = 8 s, a JONSWAP spectrum of gamma 3.3 and 30 degrees of spread, on 500 m
+of deep water.
 Crests are the highest elevations between two upward crossings of the mean level at a point, at
 choppiness 0, of which the water's elevation is that of the frames.
 """
@@ -33,7 +34,7 @@ APART = 4
 def sea() -> fo.Sea:
     """Return the sea."""
     spreading = fo.CosinePower(s=2.0 / math.radians(30.0) ** 2 - 1.0)
-    spectrum = fo.JONSWAP.from_sea_state(hs=HS, tp=TP)
+    spectrum = fo.JONSWAP.from_sea_state(hs=HS, tp=TP, gamma=3.3)
     return fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading))
 
 
@@ -124,12 +125,12 @@ def figures(seeds: int) -> None:
         print(f"{level:8.1f}  {ratio:13.2f}  {law:19.2f}")
 
 
-STEEP = {"hs": 5.0, "tp": 8.5}
+STEEP = {"hs": 5.0, "tp": 8.5, "gamma": 3.3}
 """Sea of the picture."""
 KINDS = (
-    ("linear", "#8a8a8a", {"choppiness": 0.0, "order": 1}),
-    ("choppy: linear, choppiness 1", "#0072b2", {"choppiness": 1.0, "order": 1}),
-    ("second order, choppiness 1", "#c75000", {"choppiness": 1.0, "order": 2}),
+    ("linear", "#7a7a7a", {"choppiness": 0.0, "order": 1}),
+    ("choppy, order 1", "#0072b2", {"choppiness": 1.0, "order": 1}),
+    ("choppy, order 2", "#c75000", {"choppiness": 1.0, "order": 2}),
 )
 PIXELS = 480, 300
 
@@ -164,20 +165,13 @@ def picture(path: Path) -> None:
             ax.set_axis_off()
             ax.set_title(name, color=colour, fontweight="bold")
         ax = figure.add_subplot(grid[1, :])
-        along, tops = np.linspace(-80.0, 80.0, 1200), []
-        for ocean, (_, colour, _) in zip(seas, KINDS, strict=True):
+        along = np.linspace(-80.0, 80.0, 1200)
+        for row, (ocean, (name, colour, _)) in enumerate(zip(seas, KINDS, strict=True)):
             z = fo.Query(ocean).at(x, y - along, moment, ("heights",)).heights
             ax.plot(along, z, color=colour, linewidth=1.8)
-            tops.append((float(z.max()), float(along[int(np.argmax(z))]), colour))
-        for i, (top, at, colour) in enumerate(tops):
-            side = -1.0 if i == 0 else 1.0
-            ax.annotate(
-                f"{top:.2f} m",
-                (at, top),
-                (at + 4.0 * side, top - (0.5 if i == 1 else 0.0)),
-                color=colour,
-                ha="right" if i == 0 else "left",
-                va="center",
+            words = f"{name}: {z.max():.2f} m"
+            ax.text(
+                0.985, 0.93 - 0.1 * row, words, color=colour, ha="right", transform=ax.transAxes
             )
         ax.axhline(0.0, color="#bbbbbb", linewidth=0.8, zorder=0)
         ax.set(xlabel="distance along the waves [m]", ylabel="elevation [m]", xlim=(-80, 80))
