@@ -142,6 +142,27 @@ class Statistics:
             del plain["skewness"]
         return plain
 
+    def _repr_html_(self) -> str:
+        """Return a table of specified and realised statistics for notebooks."""
+        from fftocean import notebook_html
+
+        rows = []
+        for name, key, unit, digits in (
+            ("Hs", "hs", "m", 3),
+            ("Tp", "tp", "s", 3),
+            ("mean direction", "mean_direction", "degrees", 4),
+            ("spread", "spread", "degrees", 3),
+        ):
+            values = [
+                "" if state is None else f"{getattr(state, key):.{digits}g} {unit}"
+                for state in (self.specified, self)
+            ]
+            scatter = f"{self.hs_scatter:.2g} m" if key == "hs" else ""
+            rows.append((name, *values, scatter))
+        heads = ("", "specified", "realised", "expected scatter")
+        shown = notebook_html.table("Statistics", rows, heads=heads)
+        return shown + notebook_html.line(str(self.folding))
+
     def __repr__(self) -> str:
         specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"
         return (
