@@ -31,7 +31,6 @@ FLOORS = {
         "lookahead",
         "ocean",
         "gerstner",
-        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
         "cell_lattice",
     ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
@@ -63,7 +62,6 @@ STAIRS = [
         [
             *("physics", "physics.units", "physics.dispersion", "physics.moments"),
             *("physics.water", "physics.second_order"),
-            *("physics.second_order", "physics.water"),
         ],
         ["physics.kinds"],
         ["physics.spreading"],

@@ -187,6 +187,8 @@ class TileSet:
         yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
         yield "wave height and steepness", str(plausibility(self.sea))
+        if (second := self.cascade.oceans[0].bound_waves) is not None:
+            yield "second order", f"of the largest tile alone, {second.report}"
         yield "folds", str(s.folding)
         yield (
             "maps",

@@ -109,9 +109,17 @@ def _sea(statistics: "Statistics") -> "Table":
             f"{realised.mean_direction:.1f} deg",
         ),
         ("directional spread", f"{specified.spread:.1f} deg", f"{realised.spread:.1f} deg"),
+        *_skewness(statistics),
     ):
         table.add_row(name, one, other, *scatter)
     return table
+
+
+def _skewness(statistics: "Statistics") -> Iterator[tuple[str, str, str]]:
+    """Yield the row of a sea of order 2: specified, and of the waves of this seed."""
+    if (found := statistics.skewness) is not None:
+        expected = f"{found.expected:.3f}, {100 * found.share:.0f} % resolved"
+        yield "skewness of the elevation", f"{found.specified or 0.0:.3f}", expected
 
 
 def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]:
@@ -136,6 +144,8 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
             "loop frequency error",
             f"{100 * error.rms:.1f} % rms, {100 * error.bias:+.1f} % bias{better}",
         )
+    if ocean.bound_waves is not None:
+        yield "second order", str(ocean.bound_waves.report)
     yield "folds", str(statistics.folding)
     assert ocean.sea is not None  # a job has a sea
     yield "wave height and steepness", str(plausibility(ocean.sea))
