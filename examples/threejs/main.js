@@ -34,7 +34,7 @@ async function live(renderer, document) {
   const [xx, yy, xy] = document.slope_variance?.beyond ?? [0, 0, 0];
   let tick = 0;
   return {
-    simulation, waves,
+    simulation, waves, package: sea,
     tiles: simulation.tiles,
     loop: document.loop,
     about: `live: ${sea.tiles.map(({ n, size }) => `${n[0]} x ${n[1]} over ${size[0]} m`).join(', ')}`,

@@ -138,7 +138,7 @@ export class WaveSum {
   /** Return the surface at a place in the world: height and slopes there. */
   at(x, y, tick) {
     let rest = [x, y], found;
-    for (let i = 0; i < 5; i++) {
+    for (let i = 0; i < 8; i++) {
       found = this.atRest(...rest, tick);
       rest = [x - found.dx, y - found.dy];
     }

@@ -6,7 +6,7 @@ import { SKY_PLACE, TONE } from './sky.js';
 const WINDOW = { samples: 512, size: 160 }; // of foam that is remembered, about the origin [m]
 
 /** Return the code of the sums over tiles: linear fields alone, never normals. */
-function sums(tiles) {
+export function sums(tiles) {
   const each = (line) => tiles.map((_, i) => line.replaceAll('TILE', i)).join('\n  ');
   return `
 ${each('uniform sampler2D displacement_TILE, slopes_TILE, moments_TILE;')}

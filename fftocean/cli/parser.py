@@ -19,6 +19,7 @@ from fftocean.cli import (
     keys,
     plot,
     presets,
+    report,
     series,
     verify,
     view,
@@ -37,6 +38,7 @@ COMMANDS = (
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    report.COMMAND,
     view.COMMAND,
 )
 

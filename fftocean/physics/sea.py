@@ -300,6 +300,27 @@ class Sea:
         """The first spectrum or spreading that states the surface tension; None where none does."""
         return next(map(str, self._stated("surface_tension")), None)
 
+    def _repr_html_(self) -> str:
+        """Return a table of the sea and its spectrum for notebooks."""
+        from fftocean import notebook_html
+
+        rows = [
+            *(
+                (f"system {i}", f"{_short(system.spectrum)}, {_short(system.spreading)}")
+                for i, system in enumerate(self.systems[:8])
+            ),
+            ("Hs", f"{self.hs:.3g} m"),
+            ("Tp", f"{self.tp:.3g} s"),
+            ("depth", f"{self.depth:g} m"),
+        ]
+        shown = notebook_html.table("Sea", rows)
+        if not self.tp > 0.0:
+            return shown
+        f = np.linspace(0.4, 4.0, 120) / self.tp
+        density = 2.0 * np.pi * self(2.0 * np.pi * f)
+        label = f"S(f) from {f[0]:.3g} to {f[-1]:.3g} Hz, at most {np.max(density):.3g} m²/Hz"
+        return shown + notebook_html.curve(f, density, label)
+
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]
         more = [f"{len(self.systems) - 3} more systems"] if len(self.systems) > 3 else []
