@@ -1,4 +1,4 @@
-"""What a manifest says of the sea beside its statistics: limits of real seas, and foam."""
+"""Entries of a manifest about the sea beside its statistics: limits of real seas, and foam."""
 
 import numpy as np
 import pytest
