@@ -99,7 +99,7 @@ def at(
         threads: number of threads that share the points.
         order: 1 or 2; None for that of the source. An ocean of order 2 adds, below the surface, the
             potential of its waves of second order: to velocities, to accelerations (which remain
-            those at a fixed point), and to the pressure, which then has -rho |velocity|^2/2 too.
+            those at a fixed point), and to the pressure, which then has -rho u^2/2 too.
             The expansion is about z = 0: "none" and "extrapolation" keep it in order.
 
     Raises:
