@@ -25,7 +25,7 @@ FLOORS = {
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss"),
-        *("summed_waves", "interpolated_tiles", "query"),
+        *("mean_motion", "summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
     ],
     7: ["job", "proof"],
@@ -52,7 +52,7 @@ STAIRS = [
     [["wisdom"], ["transforms"]],
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
-    [["summed_waves", "interpolated_tiles"], ["query"]],
+    [["mean_motion", "summed_waves", "interpolated_tiles"], ["kinematics", "query"]],
     [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
