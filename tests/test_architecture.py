@@ -18,13 +18,14 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: ["constants", "errors", "host", "forks", "arrays", "limits", "files", "example_projects"],
     1: ["physics", "grid", "noise"],
-    2: ["cells", "amplitudes", "readers", "fields"],
+    2: ["cells", "amplitudes", "readers", "fields", "fixed_values"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss"),
+        "constraints",
         *("mean_motion", "summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
     ],
@@ -48,7 +49,7 @@ STAIRS = [
         ["physics.sea"],
         ["physics.panels"],
     ],
-    [["cells"], ["amplitudes"]],
+    [["cells", "fields"], ["fixed_values"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
@@ -69,7 +70,7 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate"]],
+    "job": [["parameters"], ["wave_systems", "fixed_tables"], ["job"], ["frame_rate"]],
     "baking": [
         ["folder"],
         ["scene"],

@@ -69,6 +69,7 @@ class TileSet:
         sea = oceans[0].sea
         assert sea is not None  # a job has a sea
         self.cascade: Cascade = from_oceans(sea, job.settings["ocean.seed"], oceans)
+        self.rarity = tile_jobs[0].rarity
         self.statistics: Statistics = measure(self.cascade)
 
     def listed(
@@ -102,6 +103,7 @@ class TileSet:
                     "frames": len(self.chosen),
                 },
                 "statistics": self.statistics.as_plain(),
+                **({} if self.rarity is None else {"constrained": self.rarity.as_plain()}),
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
@@ -176,6 +178,8 @@ class TileSet:
         yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
         yield "folds", str(s.folding)
+        if self.rarity is not None:
+            yield "fixed values", str(self.rarity)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

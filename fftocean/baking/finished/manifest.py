@@ -68,6 +68,7 @@ def compose(
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": statistics.as_plain(),  # specified and realised
+        **({} if (rarity := scene.ocean.rarity) is None else {"constrained": rarity.as_plain()}),
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),

@@ -1,10 +1,11 @@
 """Job and list of a baked cascade, and their agreement with the manifests of its tiles."""
 
+import math
 import os
 import shutil
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,14 @@ from fftocean.baking.folder import layout
 from fftocean.baking.folder.identity import differences
 from fftocean.baking.folder.ownership import remove_workspace
 from fftocean.baking.folder.sealed import read_sealed
-from fftocean.cascade import tile_jobs
+from fftocean.cascade import from_oceans, tile_jobs
 from fftocean.cells import Band
+from fftocean.constraints import constrained
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
 from fftocean.files import digest, read_json, read_whole, remove, remove_temporary_files
+from fftocean.fixed_values import Rarity
 from fftocean.grid import Grid
+from fftocean.job import fixed_tables
 from fftocean.job.job import Job, finite_or_word
 from fftocean.job.parameters import PARAMETERS
 
@@ -39,6 +43,7 @@ class TileJob:
     seed: int
     band: Band
     job: Job
+    rarity: Rarity | None = None  # of the values that the sum of all tiles is made to have
 
     def row(self, data: bytes, manifest: Mapping[str, Any]) -> dict[str, Any]:
         """Return a tile's entry of the list, from its manifest and that file's bytes."""
@@ -76,8 +81,50 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
             "ocean.band_high": band[1],
             "bake.pictures": pictures,
         }
-        jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
-    return jobs
+        tile = replace(job.replaced(own), crests=(), fixes=())
+        jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, tile))
+    return _with_fixed_values(job, jobs) if job.fixed else jobs
+
+
+def _with_fixed_values(job: Job, jobs: list[TileJob]) -> list[TileJob]:
+    """
+    Return the tiles with their shares of the values that the job fixes for their sum.
+
+    Waves that are made to have those shares tile by tile are the waves of the constrained cascade.
+    """
+    settings = job.settings
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SeaWarning)  # given once, when the tiles are set up
+            free = from_oceans(
+                None, settings["ocean.seed"], tuple(tile.job.ocean() for tile in jobs)
+            )
+        cascade = constrained(free, *job.fixed)
+    except JobError:
+        raise
+    except ParameterError as error:
+        raise JobError(f"{job.source}: ocean: {error}") from None
+    return [
+        replace(tile, job=replace(tile.job, fixes=ocean.amplitudes.fixed), rarity=cascade.rarity)
+        for tile, ocean in zip(jobs, cascade.oceans, strict=True)
+    ]
+
+
+def _same_job(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """
+    Return True for equal jobs; shares of fixed values may differ by the rounding of a machine.
+    """
+    fixes = [job.get(fixed_tables.FIX, []) for job in (one, other)]
+    rest = [{k: v for k, v in job.items() if k != fixed_tables.FIX} for job in (one, other)]
+    return (
+        rest[0] == rest[1]
+        and len(fixes[0]) == len(fixes[1])
+        and all(
+            {**a, "value": 0.0} == {**b, "value": 0.0}
+            and math.isclose(a["value"], b["value"], rel_tol=1e-6, abs_tol=1e-9)
+            for a, b in zip(*fixes, strict=True)
+        )
+    )
 
 
 SUMMED = ("sheet", "animation")
@@ -276,7 +323,7 @@ def inconsistencies(
                     name,
                     f"{key} of {tile.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
                 )
-        if manifest["job"] != tile.job.describe():
+        if not _same_job(manifest["job"], tile.job.describe()):
             yield (
                 path,
                 f"its job is not that of {tile.path}: "
