@@ -59,9 +59,11 @@ class TileJob:
         }
 
 
-def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
+def jobs_of_tiles(job: Job, tiles: Sequence[Any], *, fixed: bool = True) -> list[TileJob]:
     """
-    Return the tiles of a cascade as jobs.
+    Return the tiles of a cascade as jobs, each with its share of the values that the job fixes.
+
+    Without `fixed`, no tile has any: to find the shares, the waves of all tiles are needed.
 
     Raises:
         JobError: tiles that cannot share a sea.
@@ -83,7 +85,7 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
         }
         tile = replace(job.replaced(own), crests=(), fixes=())
         jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, tile))
-    return _with_fixed_values(job, jobs) if job.fixed else jobs
+    return _with_fixed_values(job, jobs) if fixed and job.fixed else jobs
 
 
 def _with_fixed_values(job: Job, jobs: list[TileJob]) -> list[TileJob]:
@@ -110,21 +112,20 @@ def _with_fixed_values(job: Job, jobs: list[TileJob]) -> list[TileJob]:
     ]
 
 
-def _same_job(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """
-    Return True for equal jobs; shares of fixed values may differ by the rounding of a machine.
-    """
-    fixes = [job.get(fixed_tables.FIX, []) for job in (one, other)]
-    rest = [{k: v for k, v in job.items() if k != fixed_tables.FIX} for job in (one, other)]
-    return (
-        rest[0] == rest[1]
-        and len(fixes[0]) == len(fixes[1])
-        and all(
-            {**a, "value": 0.0} == {**b, "value": 0.0}
-            and math.isclose(a["value"], b["value"], rel_tol=1e-6, abs_tol=1e-9)
-            for a, b in zip(*fixes, strict=True)
-        )
-    )
+def _wrong_shares(listing: Mapping[str, Any], jobs: Sequence[Mapping[str, Any]]) -> str:
+    """Return what is wrong with the tiles' shares of the values that their sum has, or ""."""
+    values = listing.get("constrained", {}).get("values", [])
+    shares = [job.get(fixed_tables.FIX, []) for job in jobs]
+    if any(len(share) != len(values) for share in shares):
+        return f"the {len(values)} fixed values are not those of its tiles"
+    for value, *own in zip(values, *shares, strict=True):
+        if any({**part, "value": value["value"]} != value for part in own):
+            return f"the tiles do not have {value!r:.120}"
+        total = math.fsum(part["value"] for part in own)
+        size = max(abs(part["value"]) for part in own)
+        if abs(total - value["value"]) > 1e-9 * max(1.0, size):
+            return f"the tiles' shares of {value!r:.120} add up to {total!r}"
+    return ""
 
 
 SUMMED = ("sheet", "animation")
@@ -287,7 +288,7 @@ def inconsistencies(
         job, tiles = job_of(header, source=name, at_sea=False)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeaWarning)  # given when it was baked
-            jobs = jobs_of_tiles(job, tiles)
+            jobs = jobs_of_tiles(job, tiles, fixed=False)
         rows = listing["tiles"]
         edges = [edge for row in rows for edge in map(float, row["band"])]
     except (JobError, IntegrityError, KeyError, TypeError, ValueError) as error:
@@ -303,7 +304,7 @@ def inconsistencies(
     if [row.get("path") for row in rows] != [tile.path for tile in jobs]:
         yield name, f"its tiles are not the {len(jobs)} of its job"
         return
-    bounds = {"max_height": 0.0, "max_horizontal": 0.0}
+    bounds, found = {"max_height": 0.0, "max_horizontal": 0.0}, []
     for tile, row in zip(jobs, rows, strict=True):
         path = f"{tile.path}/{layout.MANIFEST_FILE}"
         data = read_whole(folder / path)
@@ -323,15 +324,19 @@ def inconsistencies(
                     name,
                     f"{key} of {tile.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
                 )
-        if not _same_job(manifest["job"], tile.job.describe()):
+        described = {k: v for k, v in manifest["job"].items() if k != fixed_tables.FIX}
+        found.append(manifest["job"])
+        if described != tile.job.describe():
             yield (
                 path,
                 f"its job is not that of {tile.path}: "
-                f"{_first_difference(tile.job.describe(), manifest['job'])}",
+                f"{_first_difference(tile.job.describe(), described)}",
             )
         for key in ("version", "subset", "downsample", "inputs"):
             if manifest[key] != listing[key]:
                 yield path, f"{key} is {manifest[key]!r:.80}, and {listing[key]!r:.80} in {name}"
+    if len(found) == len(jobs) and (wrong := _wrong_shares(listing, found)):
+        yield name, wrong
     for key, total in bounds.items():
         if listing["extremes"][key] != total:
             yield (
