@@ -99,9 +99,8 @@ def constrained(source: Source, *what: Crest | Fix, height_of: HeightOf | None =
     law = _Law(tiles, values.fixes)
     heights = np.array(values.heights)
     made = law.apply(values.targets(heights))
-    sea = _sea_of(source, made)
     if height_of is not None and values.new:
-        heights, made, sea = _whole(source, law, values, made, sea, height_of)
+        heights, made = _whole(source, law, values, made, height_of)
     b = values.targets(heights)
     rarity = Rarity(
         fixes=tuple(replace(f, value=float(v)) for f, v in zip(values.fixes, b, strict=True)),
@@ -112,7 +111,7 @@ def constrained(source: Source, *what: Crest | Fix, height_of: HeightOf | None =
         degrees=law.degrees,
         m0=law.m0,
         period=2.0 * math.pi * math.sqrt(law.m0 / law.m2),
-        min_jacobian=_least_jacobian(sea, values.fixes),
+        min_jacobian=_least_jacobian(source, made, values.fixes),
     )
     if rarity.min_jacobian <= 0.0:
         warnings.warn(
@@ -388,12 +387,11 @@ def _whole(
     law: _Law,
     values: _Values,
     made: list[Amplitudes],
-    sea: Source,
     height_of: HeightOf,
-) -> tuple[Real, list[Amplitudes], Source]:
+) -> tuple[Real, list[Amplitudes]]:
     """
-    Return the heights of the sum of waves whose whole surface has the crests' heights, the waves,
-    and the sea, by a secant for each crest.
+    Return the heights of the sum of waves whose whole surface has the crests' heights, and the
+    waves, by a secant for each crest.
 
     Raises:
         ParameterError: it does not converge, or `height_of` returns no number.
@@ -401,8 +399,8 @@ def _whole(
     new = list(values.new)
     goal = np.array([values.crests[i].height for i in new])
 
-    def measured(sea: Source) -> Real:
-        found = np.empty(len(new))
+    def measured(made: Sequence[Amplitudes]) -> Real:
+        sea, found = _sea_of(source, made), np.empty(len(new))
         for j, i in enumerate(new):
             crest = values.crests[i]
             try:
@@ -414,16 +412,15 @@ def _whole(
         return found
 
     heights = np.array(values.heights)
-    found = measured(sea)
+    found = measured(made)
     slope = np.ones(len(new))  # of the whole height over that of the sum of waves
     for _ in range(_ROUNDS):
         if np.all(np.abs(found - goal) <= _ACCURATE * np.abs(goal)):
-            return heights, made, sea
+            return heights, made
         step = np.clip((goal - found) / slope, -0.5 * np.abs(goal), 0.5 * np.abs(goal))
         heights[new] += step
         made = law.apply(values.targets(heights))
-        sea = _sea_of(source, made)
-        last, found = found, measured(sea)
+        last, found = found, measured(made)
         rise = np.divide(found - last, step, out=slope.copy(), where=np.abs(step) > 0.0)
         slope = np.where(rise > 0.05, np.minimum(rise, 20.0), slope)
     raise ParameterError(
@@ -432,22 +429,26 @@ def _whole(
     )
 
 
-def _least_jacobian(sea: Ocean | Cascade, fixes: Sequence[Fix]) -> float:
+def _least_jacobian(
+    source: Ocean | Cascade, made: Sequence[Amplitudes], fixes: Sequence[Fix]
+) -> float:
     """
     Return the least Jacobian at the times of the values: over the tile of an ocean; of a cascade
     on a window as wide as its smallest tile about each place.
     """
-    if sea.choppiness == 0.0:
+    if source.choppiness == 0.0:
         return 1.0
-    if isinstance(sea, Ocean):
+    if isinstance(source, Ocean):
+        sea = source.with_amplitudes(made[0])
         return min(
             float(np.min(sea.frame(t, ("jacobian",)).jacobian)) for t in {fix.t for fix in fixes}
         )
-    grid, least = sea.oceans[-1].grid, math.inf
+    grid, least = source.oceans[-1].grid, math.inf
+    whole = _sea_of(source, made)
     for x, y, t in {fix.place for fix in fixes}:
         corner = x - grid.lx / 2.0, y - grid.ly / 2.0
         window = Window(
-            sea, n=(grid.nx, grid.ny), size=(grid.lx, grid.ly), x=corner[0], y=corner[1]
+            whole, n=(grid.nx, grid.ny), size=(grid.lx, grid.ly), x=corner[0], y=corner[1]
         )
         least = min(least, float(np.min(window.frame(t, ("jacobian",)).jacobian)))
     return least

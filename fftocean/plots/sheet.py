@@ -33,7 +33,8 @@ def _draw_job(figure: "FigureBase", ocean: Ocean) -> None:
     loop = f"repeats every {ocean.loop:g} s" if ocean.loop is not None else "never repeats in time"
     title = f"A tile of {grid.lx:g} × {grid.ly:g} m, {grid.nx} × {grid.ny} samples, {depth}; {loop}"
     if ocean.rarity is not None:
-        title += "\n" + "\n".join(wrap(f"Made to have: {ocean.rarity}", width=130))
+        what, _, how_rare = str(ocean.rarity).partition(": ")
+        title += "\n".join(["", *wrap(f"with {what}", width=130), *wrap(how_rare, width=130)])
     figure.suptitle(title, fontsize=14)
     upper, lower = panels(figure, 2, 1, height_ratios=(1.0, 1.15), hspace=0.03)
     spectrum, directions = panels(upper, 1, 2, wspace=0.03)
