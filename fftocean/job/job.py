@@ -324,7 +324,7 @@ class Job:
 
     @property
     def fixed(self) -> tuple[Crest | Fix, ...]:
-        """What the water is made to have at places and times."""
+        """Crests and single values that the water is made to have."""
         return (*self.crests, *self.fixes)
 
     @property
