@@ -31,6 +31,7 @@ from fftocean.kernels import passes
 from fftocean.limits import Quantity
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion
+from fftocean.query import Query
 from fftocean.window import Window
 
 Source = TypeVar("Source", Ocean, Cascade)
@@ -64,8 +65,11 @@ def constrained(source: Source, *what: Crest | Fix, height_of: HeightOf | None =
         what: crests, and single values of fields.
         height_of: function (sea, x, y, t) that returns the height [m] of a surface that follows
             from the waves; the height of each crest is then that of this surface, found by the
-            secant method. None is the height of frames, the sum of waves. For heights above the
-            still-water level: lambda sea, *at: fo.Query(sea, mode="exact").at(*at).heights
+            secant method. None is the height of frames: the sum of waves, at order 2 with the bound
+            waves. For heights above the still-water level:
+            lambda sea, *at: fo.Query(sea, mode="exact").at(*at).heights
+
+    At order 2 the values of `Fix` and the zeros of a crest are those of the waves of first order.
 
     The crest comes back on every repetition of the tile in space, and of the loop in time. A sea
     of fixed amplitudes no longer has them fixed. Only waves that have energy in the sea can move: a
@@ -99,6 +103,8 @@ def constrained(source: Source, *what: Crest | Fix, height_of: HeightOf | None =
     law = _Law(tiles, values.fixes)
     heights = np.array(values.heights)
     made = law.apply(values.targets(heights))
+    if height_of is None and source.order == 2:
+        height_of = _height_in_frames
     if height_of is not None and values.new:
         heights, made = _whole(source, law, values, made, height_of)
     b = values.targets(heights)
@@ -427,6 +433,11 @@ def _whole(
         f"height_of must lead to a height of {goal.tolist()} m, and has "
         f"{found.tolist()} m after {_ROUNDS} rounds"
     )
+
+
+def _height_in_frames(sea: Ocean | Cascade, x: float, y: float, t: float) -> Any:
+    """Return the height of frames at the water that rests at (x, y), with all waves."""
+    return Query(sea, mode="exact", level="frame").at(x, y, t, "heights").heights
 
 
 def _least_jacobian(

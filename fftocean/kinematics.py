@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,12 +12,14 @@ import numpy.typing as npt
 from fftocean import mean_motion
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, brief_repr
+from fftocean.bound_waves import ELEVATION, POTENTIAL
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
 from fftocean.errors import ParameterError
 from fftocean.gerstner.waves import Waves
+from fftocean.kernels import bound
 from fftocean.kernels import query as kernels
-from fftocean.limits import THREADS, TIME
+from fftocean.limits import ORDER, THREADS, TIME
 from fftocean.ocean import Ocean
 from fftocean.points import as_coordinates, group_by_time
 from fftocean.wave_list import WaveList, as_tiles, list_waves
@@ -54,6 +56,7 @@ def at(
     shortest: float = 0.0,
     depth: float | None = None,
     threads: int = 1,
+    order: int | None = None,
 ) -> Kinematics:
     """
     Return velocity, acceleration and dynamic pressure of the water at points (x, y, z) and times t.
@@ -95,10 +98,15 @@ def at(
         depth: still-water depth of `Modes` [m], None is deep water; the other sources have their
             own.
         threads: number of threads that share the points.
+        order: 1 or 2; None for that of the source. An ocean of order 2 adds, below the surface, the
+            potential of its waves of second order: to velocities, to accelerations (which remain
+            those at a fixed point), and to the pressure, which then has -rho |velocity|^2/2 too.
+            The expansion is about z = 0: "none" and "extrapolation" keep it in order.
 
     Raises:
-        ParameterError: a source without waves, or one that starts from rest; an unknown stretching;
-            values that are not numbers; shapes that do not broadcast.
+        ParameterError: order 2 of a source of order 1; a source without waves, or one that starts
+            from rest; an unknown stretching; values that are not numbers; shapes that do not
+            broadcast.
 
     Source: Dean & Dalrymple, Water Wave Mechanics (1991), ch. 3 and 4; Wheeler 1970 (Journal of
     Petroleum Technology 22); extrapolation: Forristall 1981 (J. Waterway, Port, Coastal and Ocean
@@ -112,6 +120,13 @@ def at(
         )
     waves = list_waves(source, depth=depth, shortest=shortest)
     _require_steady(waves)
+    if order is not None:
+        if ORDER.check("order", order) == 2 and waves.bound is None:
+            raise ParameterError(
+                "order 2 needs an ocean or a cascade that has it: Ocean(..., order=2), "
+                f"got {source!r:.80}"
+            )
+        waves = waves if order == 2 else replace(waves, bound=None)
     points = [
         as_coordinates(name, values) for name, values in (("x", x), ("y", y), ("z", z), ("t", t))
     ]
@@ -164,6 +179,7 @@ _BLOCK = 256  # points at a time
 def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Real, Real], Real]:
     """Return the function of points at one time, to velocity ... height, (points, 8)."""
     tiles = as_tiles(waves, t)
+    second = None if waves.bound is None else _SecondOrder(waves, t)
 
     def work(x: Real, y: Real, z: Real) -> Real:
         out = np.empty((x.size, 8))
@@ -173,6 +189,8 @@ def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Re
             np.empty((x.size, 7)),
         )
         kernels.sum_heights(tiles, x, y, origin, height)
+        if second is not None:
+            height += second.heights(x, y)
         level = np.clip(_read_at(z, height, waves.depth, stretching), -waves.depth, 0.0)
         kernels.sum_below(
             tiles,
@@ -186,10 +204,43 @@ def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Re
         )
         if stretching == "extrapolation":
             _extrapolate(waves, tiles, x, y, z, moved)
+        if second is not None:
+            second.add(x, y, level, moved)
         out[:, :7], out[:, 7] = moved, height
         return out
 
     return work
+
+
+class _SecondOrder:
+    """Elevation and potential of the waves of second order at one time."""
+
+    def __init__(self, waves: WaveList, t: float) -> None:
+        assert waves.bound is not None  # asked by the caller
+        elevation = waves.bound.cells(ELEVATION, t, beyond=True)
+        kept = np.hypot(elevation.kx, elevation.ky) * waves.shortest <= 2.0 * np.pi
+        potential = waves.bound.cells(POTENTIAL, t, (0, 1), beyond=True)
+        self._elevation, self._potential = elevation.kept(kept), potential.kept(kept)
+        self._size, self._depth = waves.sizes[0], waves.depth
+
+    def heights(self, x: Real, y: Real) -> Real:
+        """Return the elevation at points [m]."""
+        out = np.empty((x.size, 1))
+        cells = self._elevation
+        bound.sum_cells(cells.kx, cells.ky, cells.parts(), *self._within(x, y), out)
+        return out[:, 0]
+
+    def add(self, x: Real, y: Real, z: Real, moved: Real) -> None:
+        """Add to velocity, acceleration and -d potential/dt - |velocity|^2/2, (points, 7)."""
+        out, cells = np.empty((x.size, 7)), self._potential
+        place = (*self._within(x, y), z)
+        bound.sum_below(cells.kx, cells.ky, cells.parts(), self._depth, *place, out)
+        out[:, 6] -= 0.5 * np.sum(moved[:, :3] ** 2, axis=1)
+        moved += out
+
+    def _within(self, x: Real, y: Real) -> tuple[Real, Real]:
+        """Return the points within the tile."""
+        return np.remainder(x, self._size[0]), np.remainder(y, self._size[1])
 
 
 def _read_at(z: Real, height: Real, depth: float, stretching: str) -> Real:

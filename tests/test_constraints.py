@@ -366,6 +366,26 @@ def test_the_height_of_another_surface():
     assert more.rarity.linear_heights == pytest.approx(both.rarity.linear_heights, rel=1e-12)
 
 
+def test_a_crest_of_second_order_has_its_height_with_the_bound_waves():
+    """
+    In the frame, by the transform of both orders; the linear part is lower, level and at rest, by
+    the direct sum of the linear waves. A single value is that of the linear waves.
+    """
+    free = ocean(n=64, order=2, bound=80)
+    x, y = float(free.grid.x[20]), float(free.grid.y[41])
+    sea = fo.constrained(free, fo.Crest(height=4.5, x=x, y=y, t=6.0))
+    assert sea.order == 2
+    assert sea.frame(6.0, ("height",)).height[41, 20] == pytest.approx(4.5, abs=1e-8)
+    linear = fo.gerstner.surface(sea.linear(), x, y, 6.0)
+    assert float(linear.height) == pytest.approx(sea.rarity.linear_heights[0], abs=1e-12)
+    assert 3.9 < float(linear.height) < 4.4
+    assert abs(float(linear.slope_x)) + abs(float(linear.displace_y)) < 1e-12
+    checks = {check.name: check.passed for check in fo.verify(sea)}
+    assert checks["fixed values"]
+    fixed = fo.constrained(free, fo.Fix("height", x, y, 6.0, 1.0))
+    assert float(fo.gerstner.surface(fixed.linear(), x, y, 6.0).height) == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize(
     ("height_of", "says"),
     [
