@@ -112,6 +112,7 @@ class MovingSeas:
             self._given is not None
             and state.has_random_numbers_of(self._given.state)
             and not state.has_waves_of(self._given.state)
+            and not (state.base.crests or state.base.fixes)  # each sea is constrained anew
         )
 
     def make(self, state: State, number: int) -> MadeSea:
