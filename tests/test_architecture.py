@@ -36,15 +36,10 @@ FLOORS = {
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
-        *("kinematics", "statistics", "blend_loss"),
+        *("kinematics", "statistics", "blend_loss", "constraints", "mean_motion"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
-        "constraints",
-        *("mean_motion", "summed_waves", "interpolated_tiles", "query"),
-        *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
-        "wave_files",
-        "probe_series",
-        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
+        *("wave_files", "probe_series"),
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
@@ -101,13 +96,11 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "job_text"]],
     "job": [
         ["parameters"],
         ["wave_systems", "fixed_tables"],
         ["job"],
-        ["frame_rate", "reference", "sources"],
+        ["frame_rate", "job_text", "reference", "sources"],
     ],
     "baking": [
         ["folder"],
