@@ -80,7 +80,7 @@ STAIRS = [
         ["kinematics", "query"],
         ["constraints"],
     ],
-    [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
+    [["products"], ["statistics", "polar_spectrum"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],

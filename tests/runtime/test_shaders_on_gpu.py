@@ -381,7 +381,7 @@ def test_a_fold_is_told(run_by):
 
 @pytest.mark.parametrize("tiles", [1, 4])
 def test_the_shaders_of_the_page_compile_by_naga(gpu, tiles):
-    """Which is Firefox's compiler; Chromium's has them in tests/clients/test_webgpu.py."""
+    """Compile them with Firefox's compiler; Chromium's has them in tests/clients/test_webgpu.py."""
     require_command("node")
     page = ROOT / "examples" / "webgpu"
     script = (
