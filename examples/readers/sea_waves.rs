@@ -35,16 +35,28 @@ impl Json {
     }
 
     pub fn items(&self) -> &[Json] {
-        if let Json::List(items) = self { items } else { &[] }
+        if let Json::List(items) = self {
+            items
+        } else {
+            &[]
+        }
     }
 
     pub fn text(&self) -> &str {
-        if let Json::Text(text) = self { text } else { "" }
+        if let Json::Text(text) = self {
+            text
+        } else {
+            ""
+        }
     }
 
     /// The number, or NaN.
     pub fn number(&self) -> f64 {
-        if let Json::Number(number) = self { *number } else { f64::NAN }
+        if let Json::Number(number) = self {
+            *number
+        } else {
+            f64::NAN
+        }
     }
 
     fn is_whole(&self, low: f64, high: f64) -> bool {
@@ -204,9 +216,9 @@ pub struct Water {
     pub x: f64, // place now [m]
     pub y: f64,
     pub height: f64,
-    pub normal: [f64; 3], // unit, up
-    pub residual: f64,    // distance from the place that was asked for [m]
-    pub jacobian: f64,    // 0 or less: in a fold, one of several
+    pub normal: [f64; 3],   // unit, up
+    pub residual: f64,      // distance from the place that was asked for [m]
+    pub jacobian: f64,      // 0 or less: in a fold, one of several
     pub gradient: [f64; 3], // of the place now: dx/dx0, dx/dy0 = dy/dx0, dy/dy0
 }
 
@@ -310,14 +322,17 @@ impl SeaWaves {
     fn water(&self, goal: [f64; 2], x0: f64, y0: f64, t: f64) -> Water {
         let (now, c) = (t % self.period / self.period, self.choppiness);
         // In each tile's own period: far from the origin no digits are lost.
-        let places: Vec<[f64; 2]> =
-            self.sizes.iter().map(|size| [x0 % size[0] / size[0], y0 % size[1] / size[1]]).collect();
+        let places: Vec<[f64; 2]> = self
+            .sizes
+            .iter()
+            .map(|size| [x0 % size[0] / size[0], y0 % size[1] / size[1]])
+            .collect();
         let (mut height, mut moved, mut slope) = (0.0, [0.0; 2], [0.0; 2]);
         let mut stretch = [0.0; 3];
         for w in &self.waves {
             let place = places[w.tile];
-            let turn = f64::from(w.mx) * place[0] + f64::from(w.my) * place[1]
-                - f64::from(w.cycles) * now;
+            let turn =
+                f64::from(w.mx) * place[0] + f64::from(w.my) * place[1] - f64::from(w.cycles) * now;
             let (sine, cosine) = (TAU * (turn - turn.round())).sin_cos();
             let (a, b) = (w.re * cosine - w.im * sine, w.re * sine + w.im * cosine);
             let (kx, ky, fa, fb) = (w.kx, w.ky, w.f * a, w.f * b);
@@ -436,12 +451,14 @@ fn parsed(file: Option<Vec<u8>>) -> Result<Json, String> {
     must((1..=16).contains(&tree.get("tiles").items().len()), || {
         "tiles of sea.json must be a list of 1 to 16".into()
     })?;
-    must(matches!(tree.get("files"), Json::List(_)), || {
-        "files of sea.json must be a list".into()
-    })?;
+    must(matches!(tree.get("files"), Json::List(_)), || "files of sea.json must be a list".into())?;
     Ok(tree)
 }
 
 fn must(right: bool, rule: impl FnOnce() -> String) -> Result<(), String> {
-    if right { Ok(()) } else { Err(rule()) }
+    if right {
+        Ok(())
+    } else {
+        Err(rule())
+    }
 }

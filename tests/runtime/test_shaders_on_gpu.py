@@ -350,7 +350,7 @@ def test_heights_are_those_of_the_library(run_by, kind):
         x, y = rng.uniform(-400, 400, (2, count)).astype(np.float32).astype(float)
         gpu_sea.frame(tick, points=count, iterations=4, origin=origin)
         seen = gpu_sea.heights(x, y)
-        query = fo.Query(water, mode="exact")
+        query = fo.Query(water, mode="exact", level="frame")
         answer = query.at(x + origin[0], y + origin[1], LOOP * tick / ticks)
         assert not answer.folded.any()
         size = np.std(answer.heights)
@@ -381,7 +381,7 @@ def test_a_fold_is_told(run_by):
 
 @pytest.mark.parametrize("tiles", [1, 4])
 def test_the_shaders_of_the_page_compile_by_naga(gpu, tiles):
-    """Which is Firefox's compiler; Chromium's has them in tests/clients/test_webgpu.py."""
+    """Compile them with Firefox's compiler; Chromium's has them in tests/clients/test_webgpu.py."""
     require_command("node")
     page = ROOT / "examples" / "webgpu"
     script = (
