@@ -99,7 +99,7 @@ def require_right(found, folder, *, metres, unit):
     """
     x, y, t = points(len(found.at)).T
     sea = fo.load_sea(folder, dtype="float64")
-    expected = fo.Query(sea, mode="exact").at(x, y, t)
+    expected = fo.Query(sea, mode="exact", level="frame").at(x, y, t)
     assert not np.any(expected.folded)
     at = dict(zip(COLUMNS, found.at.T, strict=True))
     errors = {
