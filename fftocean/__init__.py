@@ -70,6 +70,8 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import Mitsuyasu as Mitsuyasu
     from fftocean.physics.spreading import SwellElongation as SwellElongation
     from fftocean.physics.spreading import WrappedNormal as WrappedNormal
+    from fftocean.probe_series import Series as Series
+    from fftocean.probe_series import series as series
     from fftocean.products import Folding as Folding
     from fftocean.products import folding as folding
     from fftocean.products import jacobian as jacobian
@@ -138,6 +140,7 @@ _NAMES_BY_MODULE = {
         "SwellElongation",
         "WrappedNormal",
     ),
+    "fftocean.probe_series": ("Series", "series"),
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),

@@ -359,8 +359,9 @@ class BoundSpectrum:
 
     def add(self, rate: int, first: int, real: Real, imag: Real) -> None:
         """Add the spectrum, in the unit, to the columns first, first + 1, ... of the tile's."""
-        sums = self._sums.results[self._rate + rate]
-        kernels.add_folded(*sums, first, self._gain, self._own, self._scale, real, imag)
+        g_real, g_imag = self._sums.results[self._rate + rate]
+        gain, own, scale = self._gain, self._own, self._scale
+        kernels.add_folded(g_real, g_imag, first, gain, own, scale, real, imag)
 
 
 class _Layout:

@@ -566,6 +566,27 @@ class Ocean:
                     self._process = Process()
         return self._lock
 
+    def _repr_html_(self) -> str:
+        """Return a table of the ocean and its surface at t = 0 for notebooks."""
+        from fftocean import notebook_html
+
+        g = self.grid
+        rows = [
+            ("samples", f"{g.nx} x {g.ny}"),
+            ("size", f"{g.lx:g} x {g.ly:g} m"),
+            ("depth", f"{self.depth:g} m"),
+            ("loop", "none" if self.loop is None else f"{self.loop:g} s"),
+            ("choppiness", f"{self.choppiness:g}"),
+            ("seed", "none: given waves" if self.seed is None else f"{self.seed}"),
+            ("dtype", self.dtype),
+        ]
+        shown = notebook_html.table("Ocean", rows)
+        if g.nx * g.ny > 2**20:  # an image is not worth a frame of a second
+            return shown
+        return shown + notebook_html.image(
+            self.frame(0.0, ["height"]).height, "height at t = 0, north up"
+        )
+
     def __repr__(self) -> str:
         g = self.grid
         return (

@@ -142,6 +142,27 @@ class Statistics:
             del plain["skewness"]
         return plain
 
+    def _repr_html_(self) -> str:
+        """Return a table of specified and realised statistics for notebooks."""
+        from fftocean import notebook_html
+
+        rows = []
+        for name, key, unit, digits in (
+            ("Hs", "hs", "m", 3),
+            ("Tp", "tp", "s", 3),
+            ("mean direction", "mean_direction", "degrees", 4),
+            ("spread", "spread", "degrees", 3),
+        ):
+            values = [
+                "" if state is None else f"{getattr(state, key):.{digits}g} {unit}"
+                for state in (self.specified, self)
+            ]
+            scatter = f"{self.hs_scatter:.2g} m" if key == "hs" else ""
+            rows.append((name, *values, scatter))
+        heads = ("", "specified", "realised", "expected scatter")
+        shown = notebook_html.table("Statistics", rows, heads=heads)
+        return shown + notebook_html.line(str(self.folding))
+
     def __repr__(self) -> str:
         specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"
         return (
@@ -377,7 +398,10 @@ def _classes(sea: Sea) -> tuple[Real, Real, Real]:
             omega, d_omega = (a.ravel() for a in gauss(edges[:-1], edges[1:]))
             energy = share * system.spectrum(omega) * d_omega
             some = energy > 1e-12 * np.max(energy, initial=0.0)
+            if not np.any(some):
+                continue
             omega, energy = omega[some], energy[some]
+            theta: Real
             if isinstance(system.spreading, LongCrested):
                 theta, spread = np.zeros(1), np.ones((omega.size, 1))
             else:
@@ -395,18 +419,15 @@ def _classes(sea: Sea) -> tuple[Real, Real, Real]:
             )
     if not columns:
         return np.zeros(0), np.zeros(0), np.zeros(0)
-    variance, omega, theta = (np.concatenate(column) for column in zip(*columns, strict=True))
+    variance, omega, angle = (np.concatenate(column) for column in zip(*columns, strict=True))
     along = np.floor(np.log(omega / np.min(omega)) / math.log(_RATIO)).astype(np.int64)
-    around = np.floor(theta / (2.0 * np.pi / _ANGLES)).astype(np.int64) % _ANGLES
+    around = np.floor(angle / (2.0 * np.pi / _ANGLES)).astype(np.int64) % _ANGLES
     number = along * _ANGLES + around
-    total = np.bincount(number, variance)
+    total = np.bincount(number, variance).astype(np.float64)
     some = total > _NEGLIGIBLE * np.max(total, initial=0.0)
-    mean = np.bincount(number, variance * omega)[some] / total[some]
-    turned = (
-        np.bincount(number, variance * np.exp(1j * theta).real)[some]
-        + 1j * (np.bincount(number, variance * np.exp(1j * theta).imag)[some])
-    )
-    return total[some], mean, np.angle(turned)
+    mean: Real = np.bincount(number, variance * omega)[some] / total[some]
+    east, north = (np.bincount(number, variance * f(angle))[some] for f in (np.cos, np.sin))
+    return total[some], mean, np.arctan2(north, east)
 
 
 def _polar(sea: Sea) -> tuple[Real, Real]:

@@ -403,10 +403,10 @@ class Synthesis:
             return parts
 
         if self._bound is not None:
-            for source in plan.sources:  # potentials before heights: those have no second order
-                parts = parts_of(source)
-                if source[0] == "height":
-                    self._bound.add(source[1], block.start, *(part[:n] for part in parts))
+            for of, dt in plan.sources:  # potentials before heights: those have no second order
+                real, imag = parts_of((of, dt))
+                if of == "height":
+                    self._bound.add(dt, block.start, real[:n], imag[:n])
         for s, spectrum in enumerate(plan.half_spectra):
             power, other_power, first, second = self._ky_factors[spectrum]
             parts = _swapped(parts_of(spectrum.source), spectrum.quarters)

@@ -18,7 +18,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: [
         *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
-        *("example_projects", "engine_projects"),
+        *("example_projects", "engine_projects", "notebook_html"),
     ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields"],
@@ -31,6 +31,7 @@ FLOORS = {
         "lookahead",
         "ocean",
         "gerstner",
+        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
         "cell_lattice",
     ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
@@ -40,10 +41,11 @@ FLOORS = {
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
         "wave_files",
+        "probe_series",
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
-    9: ["view", "plots", "science", "bench"],
+    9: ["view", "plots", "science", "bench", "report"],
     10: ["cli", "__main__"],
 }
 FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
@@ -54,12 +56,13 @@ STAIRS = [
     [
         ["constants", "errors"],
         [*("arrays", "host", "files"), *("example_projects", "engine_projects")],
-        ["limits"],
+        ["limits", "notebook_html"],
     ],
     [
         [
             *("physics", "physics.units", "physics.dispersion", "physics.moments"),
             *("physics.water", "physics.second_order"),
+            *("physics.second_order", "physics.water"),
         ],
         ["physics.kinds"],
         ["physics.spreading"],
@@ -78,7 +81,7 @@ STAIRS = [
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
-    [["plots.theme"], ["plots"], ["bench.charts"]],
+    [["plots.theme"], ["plots"], ["bench.charts", "report"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {

@@ -19,6 +19,8 @@ from fftocean.cli import (
     keys,
     plot,
     presets,
+    report,
+    series,
     verify,
     view,
 )
@@ -28,6 +30,7 @@ COMMANDS = (
     bake.COMMAND,
     export_sea.COMMAND,
     export.COMMAND,
+    series.COMMAND,
     check.COMMAND,
     info.COMMAND,
     keys.COMMAND,
@@ -35,6 +38,7 @@ COMMANDS = (
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    report.COMMAND,
     view.COMMAND,
 )
 

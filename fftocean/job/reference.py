@@ -50,9 +50,10 @@ SYSTEM_ROWS = (
     ),
     Row(
         "sea.systems[].measured",
-        "a table { file = ..., time = 0, site = 0 }, time also as a date",
+        "a table { file = ..., time = 0, site = 0, tail = 5.0 }, time also as a date",
         "",
-        "measured spectrum instead of a formula: a file of any format that fftocean reads",
+        "measured spectrum instead of a formula: a file of any format that fftocean reads; tail is "
+        "the exponent of a tail beyond its last frequency, none by default",
     ),
 )
 

@@ -18,6 +18,7 @@ from fftocean.physics import presets
 from fftocean.physics.kinds import Part, Registry
 from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import SPECTRA
+from fftocean.physics.spectra.tabulated import TAIL
 from fftocean.physics.spreading import SPREADINGS, Spreading
 
 if TYPE_CHECKING:
@@ -99,18 +100,23 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
     source = table["measured"]
     if (
         not isinstance(source, dict)
-        or not {"file"} <= set(source) <= {"file", "time", "site"}
+        or not {"file"} <= set(source) <= {"file", "time", "site", "tail"}
         or not isinstance(source["file"], str)
     ):
         raise JobError(
             f"{key}.measured must be a table with a file, and perhaps time and site counted "
-            f"from 0, got {source!r:.80}"
+            f"from 0, and the exponent of a tail, got {source!r:.80}"
         )
     site = INDEX.check(f"{key}.measured.site", source.get("site", 0))
     when = source.get("time", 0)
     dated = isinstance(when, (str, datetime.date))
     if not dated:
         INDEX.check(f"{key}.measured.time", when)
+    try:
+        tail = source.get("tail")
+        tail = None if tail is None else TAIL.check(f"{key}.measured.tail", tail)
+    except ParameterError as error:
+        raise JobError(str(error)) from None
     direction, spreading = None, None
     if "direction" in table:
         direction = DIRECTION.check(f"{key}.direction", table["direction"])
@@ -131,7 +137,12 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
                 "spreading = { kind = 'blend' }; without a job file, --toward"
             )
         return readers.Realised.from_spectrum(
-            dataset, time=time, depth=math.inf, direction=direction, spreading=spreading
+            dataset,
+            time=time,
+            depth=math.inf,
+            direction=direction,
+            spreading=spreading,
+            tail=tail,
         )
     except ReaderError as error:
         raise ReaderError(f"{where}: {_without_name(error, source['file'])}") from None

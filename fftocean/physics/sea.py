@@ -236,14 +236,16 @@ class Sea:
         direction: float | None = None,
         spreading: Spreading | None = None,
         negative: str = "refuse",
+        tail: float | None = None,
     ) -> "Sea":
         """
         Return the sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight
         from the wavespectra package.
 
         Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
-        bands. `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports
-        what was masked, repaired or assumed.
+        bands; with a `tail`, say 5, it goes on beyond the last frequency as f^-5.
+        `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was
+        masked, repaired, assumed or added.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
@@ -260,6 +262,7 @@ class Sea:
             direction=direction,
             spreading=spreading,
             negative=negative,
+            tail=tail,
         )
 
     @classmethod
@@ -296,6 +299,27 @@ class Sea:
     def surface_tension_from(self) -> str | None:
         """The first spectrum or spreading that states the surface tension; None where none does."""
         return next(map(str, self._stated("surface_tension")), None)
+
+    def _repr_html_(self) -> str:
+        """Return a table of the sea and its spectrum for notebooks."""
+        from fftocean import notebook_html
+
+        rows = [
+            *(
+                (f"system {i}", f"{_short(system.spectrum)}, {_short(system.spreading)}")
+                for i, system in enumerate(self.systems[:8])
+            ),
+            ("Hs", f"{self.hs:.3g} m"),
+            ("Tp", f"{self.tp:.3g} s"),
+            ("depth", f"{self.depth:g} m"),
+        ]
+        shown = notebook_html.table("Sea", rows)
+        if not self.tp > 0.0:
+            return shown
+        f = np.linspace(0.4, 4.0, 120) / self.tp
+        density = 2.0 * np.pi * self(2.0 * np.pi * f)
+        label = f"S(f) from {f[0]:.3g} to {f[-1]:.3g} Hz, at most {np.max(density):.3g} m²/Hz"
+        return shown + notebook_html.curve(f, density, label)
 
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]

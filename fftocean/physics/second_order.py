@@ -127,7 +127,7 @@ def skewness(waves: Components, variance: Real, depth: float) -> float:
             + interaction(ours, waves.conjugate, depth).elevation
         )
         total += float(np.einsum("i,ij,j->", variance[part], both, variance))
-    return 3.0 * total / m0**1.5
+    return 3.0 * total / float(m0**1.5)
 
 
 _PAIRS = 2**16

@@ -136,9 +136,7 @@ class Everything:
         self._tiles = [ocean.modes() for ocean in cascade.oceans]
 
     def modes(self):
-        return Modes(
-            *(np.concatenate(column) for column in zip(*self._tiles, strict=True))
-        )
+        return Modes(*(np.concatenate(column) for column in zip(*self._tiles, strict=True)))
 
 
 def require_strongest(found):

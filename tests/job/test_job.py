@@ -39,6 +39,7 @@ GOOD = {
         "tp": "8.0",
         "gamma": "2.0",
         "growth": "'kahma-calkoen'",
+        "tail": "5.0",
         "speed": "9.0",
         "fetch": "1e5",
         "number": "4",
@@ -849,6 +850,18 @@ WW3 = str(SPECTRA_FILES / "ww3file.nc")
 
 def measured_job(*tables, **sea):
     return Job.from_tree({"sea": {"systems": [{"measured": table} for table in tables], **sea}})
+
+
+def test_a_measured_system_has_the_tail_that_its_table_names():
+    plain, tailed = measured_job({"file": WW3}), measured_job({"file": WW3, "tail": 5.0})
+    made = tailed.measurements()["sea.systems[0]"]
+    assert made.tail_variance > 0.0
+    assert tailed.sea().variance == pytest.approx(
+        plain.sea().variance + made.tail_variance, rel=1e-9
+    )
+    assert any("a tail f^-5" in note for note in tailed.measured_notes()["sea.systems[0]"])
+    with pytest.raises(JobError, match=r"sea\.systems\[0\]\.measured\.tail must be between 1\.5"):
+        measured_job({"file": WW3, "tail": 1.0})
 
 
 def test_a_job_takes_the_depth_of_its_measured_file_unless_it_names_one():

@@ -89,8 +89,8 @@ SPECTRUM_CASES = [
     ("sea-state", "number = 4", fo.presets.sea_state(4).spectrum(DEPTH)),
     (
         "tabulated",
-        "frequency = [0.1, 0.2], density = [1.0, 2.0]",
-        fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0]),
+        "frequency = [0.1, 0.2], density = [1.0, 2.0], tail = 4",
+        fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0], tail=4.0),
     ),
 ]
 SPREADING_CASES = [
