@@ -248,7 +248,7 @@ def test_godot_imports_every_frame_as_data(tmp_path):
 
 
 def test_settings_that_godot_made_itself_are_the_users(tmp_path):
-    """Godot writes an `.import` beside every image: beside those of other engines it is no extra."""
+    """Godot writes an `.import` beside every image: beside other engines' images it is no extra."""
     bake(job("canonical", "exr"), tmp_path)
     own = tmp_path / "displacement" / "0000.exr.import"
     own.write_text("Godot's own")
