@@ -9,6 +9,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fftocean import export as export
     from fftocean import foam as foam
     from fftocean import gerstner as gerstner
     from fftocean import kinematics as kinematics
@@ -69,6 +70,8 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import Mitsuyasu as Mitsuyasu
     from fftocean.physics.spreading import SwellElongation as SwellElongation
     from fftocean.physics.spreading import WrappedNormal as WrappedNormal
+    from fftocean.probe_series import Series as Series
+    from fftocean.probe_series import series as series
     from fftocean.products import Folding as Folding
     from fftocean.products import folding as folding
     from fftocean.products import jacobian as jacobian
@@ -137,6 +140,7 @@ _NAMES_BY_MODULE = {
         "SwellElongation",
         "WrappedNormal",
     ),
+    "fftocean.probe_series": ("Series", "series"),
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),
@@ -147,6 +151,7 @@ _NAMES_BY_MODULE = {
 }
 _PUBLIC_MODULES = {
     "dispersion": "fftocean.physics.dispersion",
+    "export": "fftocean.export",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
     "kinematics": "fftocean.kinematics",

@@ -348,3 +348,17 @@ def refined(
         variance_forward=spread(amplitudes.variance_forward, divisor**2),
         variance_backward=spread(amplitudes.variance_backward, divisor**2),
     )
+
+
+def refined_gain(
+    grid: Grid, fine: Grid, kept: npt.NDArray[np.bool_], response: Callable[[Real], Real]
+) -> Real:
+    """
+    Return the factor that `refined` gives to each cell of the finer grid, (ny, nx // 2 + 1).
+    """
+    rows, columns = np.nonzero(kept)
+    gain = np.zeros(fine.half_shape)
+    gain[grid.my[rows], columns] = 1.0 / (
+        response(grid.mx[columns] / fine.nx) * response(grid.my[rows] / fine.ny)
+    )
+    return gain

@@ -77,6 +77,19 @@ class _Arrays:
             other._arrays,
         )
 
+    def _repr_html_(self) -> str:
+        """Return the fields and an image of the height for notebooks."""
+        from fftocean import notebook_html
+
+        rows = [
+            ("samples", f"{self.grid.nx} x {self.grid.ny}"),
+            ("fields", ", ".join(self._arrays)),
+        ]
+        shown = notebook_html.table(f"{type(self).__name__} at t = {self.t:g} s", rows)
+        if "height" not in self._arrays:
+            return shown
+        return shown + notebook_html.image(self._arrays["height"], "height, north up")
+
     def __repr__(self) -> str:
         size = f"{self.grid.nx} x {self.grid.ny}"
         return f"{type(self).__name__}(t={self.t}, {size}, {', '.join(self._arrays)})"

@@ -41,7 +41,7 @@ class InterpolatedTiles:
         self._spline, self._shortest, self._threads = spline, shortest, threads
         self._plain = used
         self._oceans = (
-            [self._filtered(ocean, 1.0) for ocean in used] if spline or shortest > 0.0 else used
+            [self._filtered(ocean) for ocean in used] if spline or shortest > 0.0 else used
         )
         self._accelerated: list[Ocean] | None = None
         self._choppiness = oceans[0].choppiness
@@ -63,19 +63,20 @@ class InterpolatedTiles:
         self._lock, self._process = threading.Lock(), Process()
         self._last = _TexelGroups(math.nan)
 
-    def _filtered(self, ocean: Ocean, gain: "float | Real") -> Ocean:
+    def _filtered(self, ocean: Ocean, rate: int = 0) -> Ocean:
         """
-        Return an ocean without short waves, whose texels are spline coefficients times a gain.
+        Return an ocean without short waves, whose texels are spline coefficients.
 
         Args:
             ocean: the tile.
-            gain: factor on the waves, (ny, nx // 2 + 1) or one number.
+            rate: time derivatives, 0 or 2.
         """
         a, grid = ocean.amplitudes, ocean.grid
-        factor = gain * _kept(ocean, self._shortest)
+        gain = 1.0 * _kept(ocean, self._shortest)
         if self._spline:
-            factor = factor / interpolate.spline_response(grid.mx / grid.nx)[None, :]
-            factor = factor / interpolate.spline_response(grid.my / grid.ny)[:, None]
+            gain = gain / interpolate.spline_response(grid.mx / grid.nx)[None, :]
+            gain = gain / interpolate.spline_response(grid.my / grid.ny)[:, None]
+        factor = gain if rate == 0 else -(a.running_omega**2) * gain
         forward, backward = (np.asfortranarray(h * factor) for h in (a.forward, a.backward))
         energies = a.variance_forward * factor**2, a.variance_backward * factor**2
         changed = replace(
@@ -85,7 +86,9 @@ class InterpolatedTiles:
             variance_forward=energies[0],
             variance_backward=energies[1],
         )
-        return ocean.with_amplitudes(changed, planning="estimate", threads=self._threads)
+        return ocean.spectrally_scaled(
+            changed, gain, rate, planning="estimate", threads=self._threads
+        )
 
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
@@ -166,10 +169,7 @@ class InterpolatedTiles:
                 )
             elif group == "acceleration":
                 if self._accelerated is None:
-                    self._accelerated = [
-                        self._filtered(ocean, -(ocean.amplitudes.running_omega**2))
-                        for ocean in self._plain
-                    ]
+                    self._accelerated = [self._filtered(ocean, rate=2) for ocean in self._plain]
                 texels.groups[group] = [
                     _side_by_side(ocean.frame(texels.t, MOTION), MOTION)
                     for ocean in self._accelerated

@@ -392,6 +392,8 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "surface_tension": amplitudes.surface_tension,
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
+        "order": tiles[0].order if tiles[0].order > 1 else None,
+        "bound": tiles[0].bound if tiles[0].order > 1 else None,
         "amplitudes": amplitudes.draw,
         "seed": None
         if seed is None
@@ -405,14 +407,15 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         )
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
-    specified, loop, folding = (
-        statistics.pop(name) or {} for name in ("specified", "loop", "folding")
+    specified, loop, folding, skewness = (
+        statistics.pop(name) or {} for name in ("specified", "loop", "folding", "skewness")
     )
     for prefix, numbers in (
         ("ordered", specified),  # the attributes' name in files of all versions
         ("measured", statistics),
         ("loop", loop),
         ("folding", folding),
+        ("skewness", skewness),
     ):
         found |= {f"{prefix}_{name}": value for name, value in numbers.items()}
     return {

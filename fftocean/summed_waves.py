@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 from fftocean.arrays import Real
+from fftocean.bound_waves import SURFACE
+from fftocean.kernels import bound
 from fftocean.kernels import query as kernels
 from fftocean.point_results import FAR, PointFunction, PointResults, write_normals
 from fftocean.wave_list import WaveList, as_tiles
@@ -39,10 +41,15 @@ class SummedWaves:
             kernels.invert(kernels.WAVES, tiles, x, y, tuple(search), origin, out.found())
             heights = out.arrays["heights"]
             heights *= grow
+            second = None if waves.bound is None else _second_order(waves, t, x, y, out.offsets)
+            if second is not None:
+                heights += second[:, 0]
             if not set(fields) - {"heights"}:
                 return
             sums = np.empty((x.size, 14))
             kernels.sum_waves(tiles, waves.omega, x, y, out.offsets, origin, sums)
+            if second is not None:
+                sums[:, [0, 1, 10, 13]] += second[:, 1:]  # slopes, and z of velocity, acceleration
             place, velocity, acceleration = sums[:, 5:8], sums[:, 8:11], sums[:, 11:14]
             if "normals" in fields:
                 write_normals(grow * sums[:, :5], c, out.arrays["normals"])
@@ -54,6 +61,28 @@ class SummedWaves:
                 ) * (c, c, 1.0)
 
         return find
+
+
+def _second_order(waves: WaveList, t: float, x: Real, y: Real, offsets: Real) -> Real:
+    """
+    Return height, slopes, velocity and acceleration upward of the waves of second order, at points
+    x + offsets, (points, 5).
+    """
+    assert waves.bound is not None  # asked by the caller
+    kx, ky, values = waves.bound.cells(SURFACE, t, (0, 1, 2))
+    kept = np.hypot(kx, ky) * waves.shortest <= 2.0 * np.pi
+    kx, ky, (height, velocity, acceleration) = kx[kept], ky[kept], values[:, kept]
+    spectra = np.stack([height, 1j * kx * height, 1j * ky * height, velocity, acceleration])
+    (lx, ly), out = waves.sizes[0], np.empty((x.size, 5))
+    bound.sum_cells(
+        kx,
+        ky,
+        np.stack([spectra.real, spectra.imag], axis=1),
+        np.remainder(x, lx) + offsets[:, 0],
+        np.remainder(y, ly) + offsets[:, 1],
+        out,
+    )
+    return out
 
 
 def _growth(waves: WaveList, t: float) -> tuple[float, float, float]:

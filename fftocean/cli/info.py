@@ -54,7 +54,11 @@ def run(options: argparse.Namespace) -> int:
             console.print(Text(f"{key}: {plain(remark)}"))
     console.print(_sea(statistics))
     table = key_value_table("\nTile")
-    rows = (*_tile(scene.ocean, statistics), *_cost(estimate(job, scene=scene), job, scene.ocean))
+    rows = (
+        *_tile(scene.ocean, statistics),
+        *_foam(job, scene.ocean),
+        *_cost(estimate(job, scene=scene), job, scene.ocean),
+    )
     for name, text in rows:
         table.add_row(name, Text(text))
     console.print(table)
@@ -112,6 +116,7 @@ def _sea(statistics: "Statistics") -> "Table":
 
 def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]:
     """Yield what a tile holds of the sea: a name and a text each."""
+    from fftocean.physics.plausibility import plausibility
     from fftocean.statistics import peak_wavelength, shortest_wavelength
 
     if (length := peak_wavelength(ocean)) > 0.0:
@@ -133,10 +138,22 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
         )
     yield "folds", str(statistics.folding)
     assert ocean.sea is not None  # a job has a sea
+    yield "wave height and steepness", str(plausibility(ocean.sea))
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
         if part:
             yield "water properties from", part
     yield "FFT library", ocean.backend
+
+
+def _foam(job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:
+    """Yield the foam of a job that bakes it: a name and a text."""
+    if "foam" in job.maps:
+        foam = job.describe_foam(ocean)
+        yield (
+            "foam",
+            f"covers {100.0 * foam['coverage']:.2g} % of the water on average; threshold "
+            f"{foam['threshold']:.4g}, {foam['threshold_from']}",
+        )
 
 
 def _cost(cost: "Estimate", job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:
@@ -164,6 +181,7 @@ def _describe_cascade(options: argparse.Namespace, job: "Job") -> int:
         *water.rows(),
         ("files", f"{cost.files} files, about {cost.bytes / 1e6:.0f} MB"),
         ("memory", f"{notes.memory(cost)}, for the largest tile"),
+        ("video memory", f"{notes.video_memory(cost)}, as textures in an engine"),
         ("time to bake", f"about {cost.seconds:.0f} s here"),
     ):
         table.add_row(name, Text(text))

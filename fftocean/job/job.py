@@ -5,7 +5,7 @@ import math
 import tomllib
 import warnings
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,18 +14,21 @@ from fftocean.arrays import shortened
 from fftocean.errors import JobError, ParameterError, ReaderError, described
 from fftocean.files import digest_of, path_of
 from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
-from fftocean.job.wave_systems import measurement, systems_of, unknown_key
+from fftocean.job.wave_systems import measurement, systems_of, unknown_key, winds_of
 from fftocean.ocean import Ocean
 from fftocean.physics.sea import Sea, WaveSystem
-from fftocean.physics.spectra import JONSWAP, TMA
+from fftocean.physics.spectra import TMA
 from fftocean.physics.spreading import Blend, CosineSquared, DonelanBanner
 
 if TYPE_CHECKING:
+    from fftocean.cascade import Cascade
+    from fftocean.foam import Foam
     from fftocean.readers import Realised
 
 _KNOWN = (*BY_KEY, "sea.systems")
 MAX_BYTES = 64 * 1024
 MAX_LINE = 2048  # the standard parser takes time quadratic in the length of a dotted key
+FIXED_THRESHOLD = 0.72  # of foam on a sea that names no wind; that of `Foam`
 MAX_SYSTEMS = 64  # the finest partitions of measured seas have 20
 
 
@@ -253,13 +256,17 @@ class Job:
         waves: list[WaveSystem] = []
         try:
             if self.wind:
-                deep = JONSWAP.from_wind(
-                    speed=s["sea.wind.speed"], fetch=s["sea.wind.fetch"], gamma=s["sea.wind.gamma"]
+                spectrum = TMA.from_wind(
+                    speed=s["sea.wind.speed"],
+                    fetch=s["sea.wind.fetch"],
+                    depth=depth,
+                    gamma=s["sea.wind.gamma"],
+                    growth=s["sea.wind.growth"],
                 )
                 spreading = Blend(DonelanBanner(), CosineSquared(), weight=s["sea.wind.blend"])
                 waves.append(
                     WaveSystem(
-                        spectrum=TMA(deep, depth),
+                        spectrum=spectrum,
                         spreading=spreading,
                         direction=s["sea.wind.direction"],
                     )
@@ -304,6 +311,8 @@ class Job:
                 amplitudes=s["ocean.amplitudes"],
                 dtype=dtype,
                 band=(low, high),
+                order=s["ocean.order"],
+                bound=s["ocean.bound"],
             )
         except (JobError, ReaderError):
             raise
@@ -352,8 +361,65 @@ class Job:
 
     @property
     def foam(self) -> dict[str, float]:
-        """Parameters of foam: tau, threshold and strength."""
-        return {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
+        """
+        Parameters of foam: tau, threshold and strength. Where the threshold follows the wind,
+        `foam_on` has it, and here is the fixed one of seas without a wind.
+        """
+        given = {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
+        return given | ({"threshold": FIXED_THRESHOLD} if self.foam_follows_wind else {})
+
+    @property
+    def foam_follows_wind(self) -> bool:
+        """True if the threshold of foam is the one that covers what whitecaps do in the wind."""
+        return bool(self.settings["bake.foam.threshold"] == "wind")
+
+    @property
+    def wind_speed(self) -> float | None:
+        """
+        Wind 10 m above the sea [m/s]: the strongest of those that the wind sea and the tables of
+        systems name, by speed or by a number on a scale; None if none does.
+        """
+        named = [self.settings["sea.wind.speed"]] if self.wind else []
+        named += [wind for table in self.systems for wind in winds_of(table.get("spectrum"))]
+        return max(named, default=None)
+
+    def foam_on(self, water: "Ocean | Cascade") -> "Foam":
+        """
+        Return the foam of the job on its water.
+
+        A threshold that follows the wind is solved for the waves of the water, and rounded to 1e-4;
+        without a wind it is fixed.
+        """
+        from fftocean.foam import Foam
+
+        given, wind = self.foam, self.wind_speed
+        if not self.foam_follows_wind or wind is None:
+            return Foam(**given)
+        solved = Foam.whitecaps(water, wind, tau=given["tau"], strength=given["strength"])
+        return replace(solved, threshold=round(solved.threshold, 4))
+
+    def describe_foam(self, water: "Ocean | Cascade") -> dict[str, Any]:
+        """
+        Return the foam of the job on its water as plain data: parameters, the mean coverage that
+        they specify, the wind if they follow it, and the origin of the threshold in words.
+        """
+        from fftocean.foam_coverage import mean_coverage
+
+        foam, wind = self.foam_on(water), self.wind_speed
+        given = {"tau": foam.tau, "threshold": foam.threshold, "strength": foam.strength}
+        covered = mean_coverage(water, foam.threshold, tau=foam.tau, strength=foam.strength)
+        if not self.foam_follows_wind:
+            origin = "as the job has it"
+        elif wind is None:
+            origin = "fixed, as the sea names no wind"
+        else:
+            origin = f"that of the whitecaps of {wind:g} m/s (Monahan & O'Muircheartaigh 1980)"
+        return {
+            **given,
+            "coverage": covered,
+            "wind": wind if self.foam_follows_wind else None,
+            "threshold_from": origin,
+        }
 
     def downsampled(self, factor: int) -> "Job":
         """

@@ -7,11 +7,28 @@ from typing import Final
 
 from fftocean.errors import OutputError
 
+PARTS: Final = (
+    "accessibility.js",
+    "bake.js",
+    "blend.js",
+    "buoy.js",
+    "comparison.js",
+    "dialogs.js",
+    "files.js",
+    "heads_up.js",
+    "interface.js",
+    "verification.js",
+    "views.js",
+    "worker_simulation.js",
+)
+"""Modules that the page loads when they are wanted; `core.js` is what they and it share."""
+
+_SCRIPT: Final = "text/javascript; charset=utf-8"
+
 TYPES: Final = {
     "index.html": "text/html; charset=utf-8",
-    "page.js": "text/javascript; charset=utf-8",
-    "worker.js": "text/javascript; charset=utf-8",
     "page.css": "text/css; charset=utf-8",
+    **dict.fromkeys(("page.js", "core.js", *PARTS, "worker.js"), _SCRIPT),
 }
 """The closed list of files that are served, with their types."""
 

@@ -173,9 +173,10 @@ def _foam_of(state: State, cascade: Cascade) -> Foam:
     All waves count: the page's windows of foam take the tiles' samples as they are, unfiltered.
     """
     own, wind = state.base.foam, _wind_of(state)
-    if "foam" in state.base.maps or wind is None:
+    fixed = "foam" in state.base.maps and not state.base.foam_follows_wind
+    if fixed or wind is None:
         return Foam(**own)
-    return Foam.from_wind(cascade, wind[0], tau=own["tau"], strength=own["strength"])
+    return Foam.whitecaps(cascade, wind[0], tau=own["tau"], strength=own["strength"])
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:

@@ -117,6 +117,11 @@ class State:
                 cascade.
         """
         settings = job.settings
+        if settings["ocean.order"] > 1:
+            raise JobError(
+                f"{job.source}: ocean.order must be 1 for the live page, whose programs evolve "
+                f"linear waves, got {settings['ocean.order']}"
+            )
         swell = swell_of(job.systems[-1]) if job.systems else None
         systems = job.systems[:-1] if swell else job.systems
         values = {name: settings[key] for name, key in _KEYS.items()}

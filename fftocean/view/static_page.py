@@ -23,6 +23,7 @@ import fftocean
 from fftocean.errors import OutputError
 from fftocean.files import make_folder, write_whole
 from fftocean.view import parameters
+from fftocean.view.one_file import one_script
 from fftocean.view.page_files import read_text
 from fftocean.view.seas import MadeSea, make_exact
 from fftocean.view.state import State
@@ -52,14 +53,14 @@ def static_page(state: State, *, folder: Traversable | None = None) -> bytes:
 def page_of(sea: MadeSea, *, folder: Traversable | None = None) -> bytes:
     """Return the page of a sea that is made."""
     page = read_text("index.html", folder)
-    style, script = (read_text(name, folder).strip() for name in ("page.css", "static.js"))
+    style, script = read_text("page.css", folder).strip(), one_script("static.js", folder=folder)
     about = about_sea(sea)
     page = _replaced(
         page,
         r'<link\s+rel="stylesheet"\s+href="page\.css"\s*/?>',
         f"<style>{_style(style)}</style>",
     )
-    page = _replaced(page, r'<script\s+src="page\.js"\s+defer\s*></script>', "")
+    page = _replaced(page, r'<script\s+type="module"\s+src="page\.js"\s*></script>', "")
     page = _replaced(
         page,
         r'<meta\s+charset="utf-8"\s*/?>',

@@ -22,6 +22,7 @@ from fftocean.ocean import Ocean, from_amplitudes
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
 from fftocean.view import parameters, protocol
+from fftocean.view.one_file import one_script
 from fftocean.view.page_files import read_text
 from fftocean.wave_list import oceans_of
 
@@ -113,7 +114,7 @@ def _widget_class() -> Any:
                 displayed.
         """
 
-        _esm = read_text("widget.js")
+        _esm = one_script("widget.js")
         _css = read_text("page.css")
         sea = traitlets.Bytes(b"").tag(sync=True)
         about = traitlets.Dict().tag(sync=True)

@@ -50,7 +50,7 @@ async function newPage({ width = 320, height = 200, reducedMotion, before }) {
   return { context, page, log, failures, requests };
 }
 
-const PATIENCE = 150e3; // [ms] less than the test's own, so that one that waits in vain does not take the browser with it
+const PATIENCE = 40e3; // [ms] less than the test's own, so that one that waits in vain does not take the browser with it
 
 /** Return the value of an expression once it is true. */
 async function until(page, expression) {

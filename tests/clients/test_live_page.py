@@ -15,6 +15,8 @@ import sys
 import pytest
 from conftest import ROOT, require
 
+from fftocean.view.page_files import TYPES
+
 pytest.importorskip("websockets")
 from websockets.sync.client import connect  # after the skip
 
@@ -82,7 +84,7 @@ AT_REST = """(() => {
   const { camera, clock, layout, table } = fftocean;
   document.documentElement.style.fontSize = '';
   for (const name of ['figures', 'controls']) layout.toggle(name, false);
-  for (const dialog of [layout.help, layout.text]) dialog.node.close();
+  for (const dialog of [layout.help, layout.text]) dialog?.node.close();
   for (const group of document.querySelectorAll('details')) group.open = true;
   layout.toasts.replaceChildren();
   layout.showBanner('');
@@ -102,7 +104,7 @@ AT_REST = """(() => {
 def one_page(browser, server):
     """Open the page small and still, for all tests that leave the server as it was."""
     with browser.page(server.address, **SMALL) as opened:
-        opened.until(f"{SETTLED} && fftocean.frames > 0")
+        opened.until(f"{SETTLED} && fftocean.frames > 0 && fftocean.whole")
         yield opened
 
 
@@ -134,7 +136,7 @@ def test_the_page_asks_for_its_own_files_alone(server, page):
     site = server.address.split("/#")[0]
     paths = {re.sub(r"^(http|ws)://[^/]+", "", url).split("#")[0] for url in page.requests}
     assert all(url.startswith((site, site.replace("http", "ws"))) for url in page.requests)
-    assert paths <= {"/", "/page.css", "/page.js", "/parameters.json", "/socket", "/worker.js"}
+    assert paths <= {"/", "/parameters.json", "/socket", *(f"/{name}" for name in TYPES)}
     assert server.address.split("#")[1] not in "".join(url.split("#")[0] for url in page.requests)
 
 
@@ -295,7 +297,7 @@ def test_keys_of_the_page_itself(page):
         page.do({"hold": key, "until": condition})
     assert page.evaluate("fftocean.held.any") is False
     page.press("?")
-    assert page.evaluate("fftocean.layout.help.node.open")
+    page.until("fftocean.layout.help?.node.open")
     page.press("Escape")
     assert not page.evaluate("fftocean.layout.help.node.open")
     assert page.evaluate("sent.length") == 0
@@ -305,6 +307,8 @@ def test_keys_of_the_page_itself(page):
 def test_every_key_is_listed_and_has_a_control(page):
     """The list of keys has every key of the tables, and each parameter a labelled control."""
     table = page.evaluate("fetch('parameters.json').then((answer) => answer.json())")
+    page.press("?")
+    page.until("fftocean.layout.help?.node.open")
     shown = page.evaluate(
         "[...document.querySelectorAll('.keys-list kbd')].map(n => n.textContent)"
     )
@@ -338,7 +342,7 @@ def test_a_text_that_cannot_be_copied_is_shown(page):
     """The text stands selected in a dialog if the browser refuses the clipboard."""
     page.evaluate("navigator.clipboard.writeText = () => Promise.reject(new Error('no')); null")
     page.press("b")
-    page.until("fftocean.layout.text.node.open")
+    page.until("fftocean.layout.text?.node.open")
     assert page.evaluate("document.activeElement.value") == page.evaluate("fftocean.copied.text")
     page.press("Escape")
     assert not page.evaluate("fftocean.layout.text.node.open")
@@ -523,8 +527,8 @@ def test_without_float_targets_a_worker_computes_the_sea(browser, server):
     with browser.page(server.address, **SMALL, before=WITHOUT_FLOATS) as page:
         page.until(f"{SETTLED} && fftocean.frames > 0")
         assert page.evaluate("fftocean.stage.kind") == "worker"
-        assert "JavaScript" in page.evaluate("document.querySelector('.notes').textContent")
         page.evaluate("fftocean.verify()")
+        assert "JavaScript" in page.evaluate("document.querySelector('.notes').textContent")
         assert page.evaluate("fftocean.verdict.worst") <= 2e-7
         assert page.log == []
 

@@ -129,7 +129,7 @@ def test_sines_of_the_platform_are_too_coarse(page):
     """With them in the shaders, the comparison above fails: by much."""
     oceans, package = sea("deep-64")
     ticks = package.document["ticks"]
-    seen = page("fields", "deep-64", ticks=[12345], options={"sine": "platform"})
+    seen = page("fields", "deep-64", ticks=[12345], options={"platformSine": True})
     assert worst(oceans, [12345], ticks, seen["frames"]) > 10 * GPU
 
 

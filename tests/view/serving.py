@@ -10,7 +10,7 @@ import threading
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from fftocean.view.page_files import served_files
+from fftocean.view.page_files import PARTS, served_files
 from fftocean.view.server import PageServer
 from fftocean.view.state import State
 from fftocean.view.viewer import Viewer
@@ -18,10 +18,13 @@ from fftocean.view.viewer import Viewer
 PAGE = {
     "index.html": '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8" />\n'
     '<title>fftocean</title>\n<link rel="stylesheet" href="page.css" />\n'
-    '<script src="page.js" defer></script>\n</head>\n<body><main id="fftocean"></main></body>\n'
+    '<script type="module" src="page.js"></script>\n</head>\n'
+    '<body><main id="fftocean"></main></body>\n'
     "</html>\n",
-    "page.js": "console.log('page');\n",
-    "static.js": "console.log('static </script> <!-- in it');\n",
+    "page.js": 'import{e0 as a}from"./core.js";a("page");\n',
+    "core.js": "var b=(t)=>console.log(t);export{b as e0};\n",
+    "static.js": 'import{e0 as a}from"./core.js";a("static </script> <!-- in it");\n',
+    **{name: f'import{{e0 as a}}from"./core.js";a("{name}");\n' for name in PARTS},
     "worker.js": "postMessage(1);\n",
     "page.css": "body { margin: 0 }\n",
 }

@@ -8,6 +8,8 @@ from serving import PAGE, answer
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+from fftocean.view.page_files import PARTS
+
 LATE = int(importlib.metadata.version("websockets").partition(".")[0]) >= 17
 """From this version on websockets leaves the refusal of methods to the server."""
 
@@ -39,6 +41,8 @@ def test_the_page_is_served_to_its_own_host(shared):
         ("/", "index.html"),
         ("/page.js", "page.js"),
         ("/page.css", "page.css"),
+        ("/core.js", "core.js"),
+        *((f"/{name}", name) for name in PARTS),
         ("/worker.js", "worker.js"),
     ):
         status, _, body = shared.request(path)
@@ -91,6 +95,7 @@ def test_a_request_with_a_body_gets_nothing(shared):
         "/PAGE.JS",
         "/page.js;x",
         "/static.js",
+        "/widget.js",
         "/__init__.py",
         "/etc/passwd",
         "/../../../../etc/passwd",

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import fftocean
-from fftocean.baking.folder import layout
+from fftocean.baking.folder import engine_files, layout
 from fftocean.baking.folder.identity import differences
-from fftocean.baking.folder.ownership import remove_workspace
+from fftocean.baking.folder.ownership import engine_files_in, remove_workspace
 from fftocean.baking.folder.sealed import read_sealed
 from fftocean.cascade import tile_jobs
 from fftocean.cells import Band
@@ -75,7 +75,10 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
             "ocean.band_low": band[0],
             "ocean.band_high": band[1],
             "bake.pictures": pictures,
+            "bake.engine_files": False,  # those of the cascade play all tiles
         }
+        if index:
+            own["ocean.order"] = 1  # as in a `Cascade`
         jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
     return jobs
 
@@ -167,6 +170,10 @@ def require_same_cascade(folder: Path, header: Mapping[str, Any]) -> None:
         there = [layout.CASCADE_FILE] if os.path.lexists(folder / layout.CASCADE_FILE) else []
         there += [path.relative_to(folder).as_posix() for path in layout.bake_files(folder)]
         there += layout.tile_folders(folder)
+        there += [
+            path.name
+            for path in engine_files.existing(folder, engine_files.names_for(header["job"]))
+        ]
         if there:
             raise OutputError(f"{folder} contains {there[0]} but no {layout.CASCADE_JOB}; {other}")
         return
@@ -182,6 +189,8 @@ def remove_cascade(folder: Path) -> None:
     Raises:
         OutputError: one cannot be removed.
     """
+    for path in engine_files_in(folder):
+        remove(path)
     remove(folder / layout.CASCADE_FILE)
     for name in layout.tile_folders(folder):
         remove_bake(folder / name)
@@ -197,6 +206,8 @@ def remove_bake(folder: Path) -> None:
     Raises:
         OutputError: a file cannot be removed.
     """
+    for path in engine_files_in(folder):
+        remove(path)
     remove(folder / layout.MANIFEST_FILE)
     remove_workspace(folder)
     for path in layout.bake_files(folder):

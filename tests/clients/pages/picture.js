@@ -1,7 +1,8 @@
 // The live page's pictures: seas drawn by the renderer, as colours of the screen or as radiance.
 import { Camera } from '/live/camera.js';
 import { decodeSea } from '/live/container.js';
-import { drawFullscreen, FRAGMENT_HEAD, program, target, texture } from '/live/gl.js';
+import { drawFullscreen, program, target, texture } from '/live/gl.js';
+import { FRAGMENT_HEAD } from '/live/shaders/heads.js';
 import { FoamField } from '/live/foam.js';
 import { halfFloats } from '/live/half.js';
 import { Renderer } from '/live/renderer.js';
@@ -87,6 +88,7 @@ async function draw(picture) {
   const made = await prepare(picture);
   const { simulation, renderer } = made;
   const camera = new Camera(picture.camera);
+  await renderer.load(look);
   await simulation.step(tick, picture.choppiness);
   if (foam.steps) await foamUntil(made, camera, tick, foam);
   const answer = {};

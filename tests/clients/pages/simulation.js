@@ -48,8 +48,22 @@ function mapsOf(simulation, level) {
 }
 
 const sea = async (name) => decodeSea(await bytes(`/bakes/${name}`));
+const PHASOR = /vec2 phasor\(float turn\) \{[^]*?\n\}/;
+const TWIDDLE = /return texelFetch\(twiddles,[^;]*;/;
+
+/** Put the platform's cosine and sine into a shader, in place of the polynomials and the table. */
+function withPlatformSine(source) {
+  const turn = 'float(index & (samples - 1)) / float(samples)';
+  const angle = (turns) => `6.2831853 * (${turns})`;
+  const both = (turns) => `return vec2(cos(${angle(turns)}), sin(${angle(turns)}));`;
+  return source
+    .replace(PHASOR, `vec2 phasor(float turn) { ${both('turn')} }`)
+    .replace(TWIDDLE, both(turn));
+}
+
 /** Return a simulation; the page's own Worker is started if `workerSource` names a bundle of it. */
-async function make(decoded, { workerSource, ...options } = {}) {
+async function make(decoded, { workerSource, platformSine, ...options } = {}) {
+  if (platformSine) options.edited = withPlatformSine;
   if (workerSource) globalThis.WORKER_SOURCE = await (await fetch(`/bakes/${workerSource}`)).text();
   const own = workerSource ? {} : { makeWorker };
   return createSimulation(gl, decoded, { anisotropy: 1, ...own, ...options });
@@ -108,7 +122,7 @@ const tasks = {
     const simulation = await make(first, options);
     await simulation.step(tick);
     const seen = [{ weight: simulation.weight, fields: await fieldsOf(simulation) }];
-    simulation.replace(second, 0.3);
+    await simulation.replace(second, 0.3);
     for (const seconds of advances) {
       simulation.advance(seconds);
       await simulation.step(tick);
@@ -158,7 +172,7 @@ const tasks = {
     await simulation.step(tick + 1);
     const moved = await refusal(() => verifyTile(simulation, answer));
     await simulation.step(tick);
-    simulation.replace(await sea(other), 0.3);
+    await simulation.replace(await sea(other), 0.3);
     simulation.advance(0.1);
     await simulation.step(tick);
     const blending = await refusal(() => verifyTile(simulation, answer));

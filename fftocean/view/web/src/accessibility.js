@@ -1,4 +1,4 @@
-// The sea in words, for those who cannot see it; wishes of the reader that the page follows.
+// The sea in words, for those who cannot see it.
 
 /** Upper ends of the Beaufort numbers 0 to 11 [m/s] (WMO-No. 306, code table 1100). */
 const BEAUFORT_ENDS = [0.3, 1.6, 3.4, 5.5, 8.0, 10.8, 13.9, 17.2, 20.8, 24.5, 28.5, 32.7];
@@ -132,41 +132,6 @@ export function describeSea({ document: sea, look, paused, few, playback }) {
   ]
     .filter(Boolean)
     .join(' ');
-}
-
-/** Return true where the reader asks for less motion. */
-export function prefersReducedMotion(view = globalThis) {
-  return view.matchMedia?.('(prefers-reduced-motion: reduce)').matches ?? false;
-}
-
-/** A polite live region: a text is said once, after the changes have come to rest. */
-export class Announcer {
-  /** Keep the region; `rest` is the time without a change after which a text is said [s]. */
-  constructor(region, rest = 1.2) {
-    this.region = region;
-    this.rest = rest;
-    this.timer = null;
-    this.said = '';
-  }
-
-  /** Say a text soon, in place of one that still waits. */
-  say(text) {
-    clearTimeout(this.timer);
-    if (text === this.said) return;
-    this.timer = setTimeout(() => this.sayNow(text), 1000 * this.rest);
-  }
-
-  /** Say a text at once. */
-  sayNow(text) {
-    clearTimeout(this.timer);
-    this.said = text;
-    this.region.textContent = text;
-  }
-
-  /** Say nothing more. */
-  dispose() {
-    clearTimeout(this.timer);
-  }
 }
 
 /** Return the relative luminance of an sRGB colour, each channel 0 to 255 (WCAG 2.2). */

@@ -1,8 +1,5 @@
 // The amplitudes of a sea that changes into another: linear in time, without a jump.
 
-/** [s] in which a sea changes into another. */
-export const BLEND_SECONDS = 0.3;
-
 /**
  * The amplitudes to show: those of a sea, or a sum of two sets while one changes into the other.
  *
@@ -17,6 +14,11 @@ export class AmplitudeBlend {
     this.revision = 0; // counts changes of the tables
     this.lastTick = 0;
     this.show(sea);
+  }
+
+  /** Return a blend that goes on where one sea was shown alone. */
+  static after({ sea, revision, lastTick }) {
+    return Object.assign(new AmplitudeBlend(sea), { revision, lastTick });
   }
 
   /** Show a sea at once. */

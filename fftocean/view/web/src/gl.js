@@ -1,18 +1,5 @@
 // WebGL 2 programs, textures and render targets: set by name, checked, and disposable.
-
-/** A triangle that covers the viewport; it needs no buffer. */
-export const FULLSCREEN_VERTEX = `#version 300 es
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(corner * 4.0 - 1.0, 0.0, 1.0);
-}`;
-
-/** The first lines of every fragment shader. */
-export const FRAGMENT_HEAD = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
-`;
+import { FULLSCREEN_VERTEX } from './shaders/heads.js';
 
 /** The graphics context was lost while something was made; make it anew once it is restored. */
 export class ContextLost extends Error {

@@ -1,11 +1,14 @@
 // The figures: what was specified, what is realised, how fast the page is, what it computes.
 
+import { grouped } from './amounts.js';
 import { element } from './dom.js';
+import { drawSpectrum, plotFits } from './spectrum_plot.js';
+import { fixed, periodAndDirection, statisticsOf, wavesOf } from './statistics.js';
+
+const DASH = fixed(null);
 
 /** Largest relative error of a field that passes. */
 export const PASS = 5e-7;
-
-const DASH = '–';
 
 /** Space around an answer that is scrolled to [CSS pixels]. */
 const MARGIN = 12;
@@ -23,33 +26,11 @@ const FACTS = [
   'Made by',
 ];
 
-/** Return a number with a fixed number of decimals, or a dash. */
-function fixed(value, decimals) {
-  return typeof value === 'number' && Number.isFinite(value) ? value.toFixed(decimals) : DASH;
-}
-
 /** Return a direction in degrees, -180 < d <= 180, without a sign of zero. */
 function degrees(value) {
   if (typeof value !== 'number' || !Number.isFinite(value)) return DASH;
   const turned = ((((Math.round(value) + 180) % 360) + 360) % 360) - 180;
   return `${turned === -180 ? 180 : turned}°`;
-}
-
-/** Return the statistics of a document; a sea of given waves has none that are specified. */
-function statisticsOf(document_) {
-  const { specified, realised } = document_.statistics ?? {};
-  return { specified: specified ?? {}, realised: realised ?? {} };
-}
-
-/** Return true where statistics are those of water without waves: no period, no direction. */
-export function isFlat({ hs, tp }) {
-  return hs === 0 || tp === 0;
-}
-
-/** Return the peak period and the direction of statistics; flat water has neither. */
-function periodAndDirection(statistics) {
-  const { tp, direction } = isFlat(statistics) ? {} : statistics;
-  return { tp, direction };
 }
 
 /** Return the rows of the table of statistics: [label, specified, realised]. */
@@ -75,63 +56,17 @@ export function tilesText(tiles) {
   return [...found].map(([n, widths]) => `${n} on ${widths.join(', ')} m`).join('; ');
 }
 
-/** Return the number of waves on all tiles. */
-export function wavesOf({ tiles }) {
-  return tiles.reduce((sum, tile) => sum + (tile.waves ?? 0), 0);
-}
-
-/** Return a number with thin spaces between thousands. */
-export function grouped(value) {
-  return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009');
-}
-
-/** Return a number of waves as text. */
-export function wavesText(count) {
-  return `${grouped(count)} ${count === 1 ? 'wave' : 'waves'}`;
-}
-
 /** Return the relative error as text. */
 export function errorText(error) {
   return Number.isFinite(error) ? error.toExponential(1) : 'not a number';
 }
 
-/** Frames a second over the last second. */
-export class FrameRate {
-  constructor() {
-    this.times = [];
-  }
-
-  /** Note a frame at a time [s]; return the frames a second, or null for fewer than two. */
-  note(now) {
-    this.times.push(now);
-    while (this.times.length > 2 && now - this.times[0] > 1) this.times.shift();
-    const span = now - this.times[0];
-    return span > 0 ? (this.times.length - 1) / span : null;
-  }
-
-  /** Forget the frames: time stood still. */
-  clear() {
-    this.times = [];
-  }
-}
-
-/** The panel of figures, with a line of the main ones that opens and closes it. */
+/** The panel of figures. */
 export class HeadsUp {
-  /** Build the line and the panel. */
-  constructor({ chip, body }) {
-    this.cells = {};
-    this.body = body;
-    const cell = (name, properties = {}) => {
-      this.cells[name] = element('span', properties);
-      return this.cells[name];
-    };
-    chip.append(
-      cell('dot', { class: 'dot', 'aria-hidden': 'true' }),
-      cell('hs', { class: 'figure' }),
-      cell('tp', { class: 'figure' }),
-      cell('rate', { class: 'figure' }),
-      cell('quality', { class: 'badge' }),
-    );
+  /** Build the panel of an app, and fill it. */
+  constructor(app) {
+    this.app = app;
+    this.body = app.layout.figures;
     this.table = element('tbody');
     this.plot = element('canvas', {
       class: 'plot',
@@ -149,7 +84,7 @@ export class HeadsUp {
       element('summary', { text: 'In words' }),
       this.sentence,
     );
-    body.append(
+    this.body.append(
       this.source,
       element(
         'table',
@@ -177,8 +112,9 @@ export class HeadsUp {
     for (const label of FACTS) this.fact(label, '');
   }
 
-  /** Show what belongs to a sea: statistics, tiles, waves, loop. */
-  showSea(document_, { source, quality, sentence }) {
+  /** Show what belongs to a sea: statistics, tiles, waves, loop; and its spectrum. */
+  showSea(document_) {
+    const { source } = this.app;
     this.table.replaceChildren(
       ...statisticsRows(document_).map(([label, specified, realised]) =>
         element(
@@ -190,14 +126,9 @@ export class HeadsUp {
         ),
       ),
     );
-    const { specified, realised } = statisticsOf(document_);
-    this.text('hs', `Hs ${fixed(realised.hs ?? specified.hs, 2)} m`);
-    const { tp } = periodAndDirection(realised.hs === undefined ? specified : realised);
-    this.text('tp', `Tp ${fixed(tp, 1)} s`);
-    this.showQuality(quality);
-    this.source.textContent = source ?? '';
+    this.source.textContent = source;
     this.source.hidden = !source;
-    this.sentence.textContent = sentence;
+    this.sentence.textContent = this.app.sentence();
     const { tiles } = document_;
     const { frames } = document_; // of a bake
     const rate = frames && Number((frames / document_.loop).toPrecision(3));
@@ -206,12 +137,7 @@ export class HeadsUp {
     this.fact('Tiles', tilesText(tiles));
     this.fact('Loop', `${Number(document_.loop.toPrecision(6))} s`);
     if (Number.isFinite(tiles[0]?.seed)) this.fact('Seed', String(tiles[0].seed));
-  }
-
-  /** Show whether the amplitudes are exact or those of a moving slider. */
-  showQuality(quality) {
-    this.text('quality', quality ?? '');
-    this.cells.quality.dataset.quality = quality ?? '';
+    this.drawPlot();
   }
 
   /** Show what is worth knowing of the sea and of the picture. */
@@ -219,18 +145,40 @@ export class HeadsUp {
     this.notes.replaceChildren(...notes.map((text) => element('p', { class: 'note', text })));
   }
 
-  /** Show what changes with time. */
-  showTime({ rate, tick, ticks, paused, picture }) {
-    const speed = paused ? 'paused' : rate === null ? '' : `${fixed(rate, rate < 10 ? 1 : 0)} fps`;
-    this.text('rate', speed);
-    this.fact('Tick', `${grouped(tick)} of ${grouped(ticks)}`);
-    this.fact('Picture', picture);
+  /** Show what changes with time, the connection, and what made the page. */
+  showTime() {
+    const { app } = this;
+    const { canvas, clock, embedded, stage } = app;
+    const by = { gpu: 'GPU', worker: 'JavaScript', playback: 'bake' }[stage.kind] ?? 'none';
+    const software = stage.software ? ', drawn by software' : '';
+    this.fact('Tick', `${grouped(clock.tick)} of ${grouped(clock.ticks)}`);
+    this.fact('Picture', `${by}${software}, ${canvas.width} × ${canvas.height}`);
+    this.fact('Connection', app.connectionText);
+    const version = embedded?.about.version;
+    this.fact('Made by', version ? `fftocean ${version}` : '');
   }
 
-  /** Show the state of the connection as the colour of the dot, with a text. */
-  showConnection(phase, text) {
-    this.cells.dot.dataset.phase = phase;
-    this.fact('Connection', text);
+  /** Draw the spectrum where it can be seen. */
+  drawPlot() {
+    const { layout, root, sea } = this.app;
+    const { plot } = this;
+    plot.hidden = !sea;
+    if (!sea || layout.figures.hidden) return;
+    const style = getComputedStyle(root);
+    const colour = (name) => style.getPropertyValue(name).trim();
+    drawSpectrum(plot, sea, {
+      line: colour('--specified'),
+      second: colour('--realised'),
+      area: colour('--realised-area'),
+      grid: colour('--line'),
+      text: colour('--muted'),
+      font: `${0.72 * Number.parseFloat(style.fontSize)}px ${style.fontFamily}`,
+    });
+  }
+
+  /** Draw the spectrum anew where the panel has another size. */
+  resized() {
+    if (!plotFits(this.plot)) this.drawPlot();
   }
 
   /** Show the answer of a comparison: rows of {tile, field, error}. */
@@ -289,11 +237,6 @@ export class HeadsUp {
     const answer = this.verification.getBoundingClientRect();
     const below = answer.bottom - panel.bottom + MARGIN;
     if (below > 0) this.body.scrollTop += Math.min(below, answer.top - panel.top - MARGIN);
-  }
-
-  /** Set the text of a cell where it differs. */
-  text(name, text) {
-    if (this.cells[name].textContent !== text) this.cells[name].textContent = text;
   }
 
   /** Set a fact of the list; an empty one is not shown. */

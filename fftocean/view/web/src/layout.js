@@ -12,7 +12,6 @@ const ICONS = {
   screenshot: 'M4 8h3l2-3h6l2 3h3v11H4zM12 10a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z',
   controls: 'M4 7h9M17 7h3M4 17h3M11 17h9M15 5v4M9 15v4',
   help: 'M9 9.2a3 3 0 1 1 4.6 2.6c-1 .7-1.6 1.2-1.6 2.5M12 17.6v.4M12 2.5a9.5 9.5 0 1 0 0 19 9.5 9.5 0 0 0 0-19z',
-  close: 'M6 6l12 12M18 6L6 18',
 };
 
 /** Return a button with a drawing, a name and its key. */
@@ -43,36 +42,9 @@ function textButton(label, key, click) {
   );
 }
 
-/** Return a dialog with a title and a button that closes it. */
-function dialog(title, kind) {
-  const heading = uniqueId('title');
-  const content = element('div', { class: 'dialog-body' });
-  const node = element(
-    'dialog',
-    { class: `sheet ${kind}`, 'aria-labelledby': heading },
-    element(
-      'div',
-      { class: 'dialog-head' },
-      element('h2', { id: heading, text: title }),
-      element(
-        'button',
-        {
-          type: 'button',
-          class: 'tool close',
-          'aria-label': 'Close',
-          on: { click: () => node.close() },
-        },
-        icon(ICONS.close),
-      ),
-    ),
-    content,
-  );
-  return { node, content };
-}
-
 /** Build the page into `root`; `act(name)` does the action of a button. */
 export class Layout {
-  /** Build all parts; `canvas` is put behind them. */
+  /** Build all parts; `canvas` is put behind them. Dialogs are built when they are needed. */
   constructor(root, { canvas, act, title = 'fftocean' }) {
     this.root = root;
     this.act = act;
@@ -127,8 +99,6 @@ export class Layout {
     this.banner = element('div', { class: 'banner', role: 'alert', hidden: true });
     this.dropHint = element('div', { class: 'drop-hint', 'aria-hidden': 'true', hidden: true });
     this.dropHint.append(element('p', { text: 'Drop a job or a buoy file' }));
-    this.help = dialog('Keys', 'help');
-    this.text = dialog('Copy', 'copy');
     this.canvas = canvas;
     root.prepend(canvas);
     root.append(
@@ -144,8 +114,6 @@ export class Layout {
       this.banner,
       this.dropHint,
       this.spoken,
-      this.help.node,
-      this.text.node,
     );
   }
 
@@ -223,52 +191,6 @@ export class Layout {
   showBanner(text) {
     this.banner.replaceChildren(...(text ? [element('p', { text })] : []));
     this.banner.hidden = !text;
-  }
-
-  /** Show a text to copy by hand. */
-  showText(title, text) {
-    this.text.node.querySelector('h2').textContent = title;
-    const area = element('textarea', { readonly: true, rows: '14', 'aria-label': title });
-    area.value = text;
-    this.text.content.replaceChildren(area);
-    this.text.node.showModal();
-    area.focus();
-    area.select();
-  }
-
-  /** Build the list of keys: [[keys, meaning], ...], with a switch for keys of one letter. */
-  fillHelp(rows, { enabled, onEnabled }) {
-    const id = uniqueId('field');
-    const box = element('input', { id, type: 'checkbox', role: 'switch' });
-    box.checked = enabled;
-    box.addEventListener('change', () => onEnabled(box.checked));
-    this.help.content.replaceChildren(
-      element(
-        'dl',
-        { class: 'keys-list' },
-        ...rows.map(([keys, meaning]) =>
-          element(
-            'div',
-            {},
-            element('dt', {}, ...keys.map((key) => element('kbd', { text: keyName(key) }))),
-            element('dd', { text: meaning }),
-          ),
-        ),
-      ),
-      element('p', {
-        class: 'note',
-        text:
-          'Drag to look round, turn the wheel or pinch to move. Shift goes faster, or backward ' +
-          'through a list. Keys are left alone while a field has the focus; Escape leaves it.',
-      }),
-      element('div', { class: 'control-head' }, element('label', { for: id, text: 'Keys' }), box),
-    );
-  }
-
-  /** Show or hide the list of keys. */
-  toggleHelp() {
-    if (this.help.node.open) this.help.node.close();
-    else this.help.node.showModal();
   }
 
   /** Remove all parts. */

@@ -1,14 +1,13 @@
 // Entry of the page that the server sends: a socket brings the sea, the server keeps its state.
 
-import { startApp } from './app.js';
+import { startApp } from './sea_view.js';
 import { Connection, socketAddress } from './connection.js';
-import { readTable } from './table.js';
 
 /** Start the page in its main element. */
 async function start() {
   const root = document.getElementById('live-page');
   const answer = await fetch('parameters.json', { credentials: 'omit' });
-  const table = readTable(await answer.json());
+  const table = await answer.json();
   const token = decodeURIComponent(location.hash.slice(1));
   globalThis.fftocean = await startApp({
     root,

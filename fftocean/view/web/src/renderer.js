@@ -1,10 +1,10 @@
 // A picture of a sea: sky, foam, water and buoy, drawn from the maps of a simulation or of a bake.
-import { Buoy, FloatingPoints } from './buoy.js';
 import { stopsFactor } from './exposure.js';
+import { FloatingPoints } from './floating.js';
 import { FoamField } from './foam.js';
+import { part, parts } from './parts.js';
 import { Sky, sunDirection } from './sky.js';
 import { tileUniforms } from './tiles.js';
-import { PLAIN, viewNumber } from './views.js';
 import { Water } from './water.js';
 
 /**
@@ -101,7 +101,17 @@ export class Renderer {
   }
 
   /**
-   * Draw a picture.
+   * Have the parts that a look needs, before it is drawn for the first time.
+   *
+   * @throws {RangeError} no such view
+   */
+  async load({ view = 'sea', buoy = false }) {
+    if (view !== 'sea') (await part('views')).viewNumber(view);
+    if (buoy) await part('buoy');
+  }
+
+  /**
+   * Draw a picture; see `load` for views other than the sea, and for the buoy.
    *
    * @param {object} source a simulation or a playback, with `tiles` and `document`
    * @param {Camera} camera
@@ -115,14 +125,13 @@ export class Renderer {
   render(source, camera, look, width, height, { target = null, linear = false } = {}) {
     const { gl } = this;
     const full = { ...DEFAULT_LOOK, ...look };
-    viewNumber(full.view); // refuse a view that is not known before anything is drawn
     this.prepare();
     this.filter(source.tiles);
     const sun = sunDirection(full.sunElevation, full.sunAzimuth);
     const light = { sun, haze: full.haze, clouds: full.clouds };
     this.sky.update(light);
     const tiles = tileUniforms(source.tiles, camera.east, camera.north);
-    if (full.buoy) this.buoy ??= new Buoy(gl);
+    if (full.buoy) this.buoy ??= new parts.buoy.Buoy(gl);
     else this.buoy?.remove();
     const buoyPlace = full.buoy ? this.buoy.placeFrom(camera) : [0, 0];
     this.floating.update(tiles, source.tiles.length, buoyPlace);
@@ -152,7 +161,7 @@ export class Renderer {
     if (full.buoy && full.view === 'sea') this.buoy.draw(shared);
     this.water.draw(source, camera, width / height, full, shared);
     gl.depthFunc(gl.LEQUAL); // the background lies on the far plane
-    const plain = full.view === 'sea' ? null : PLAIN;
+    const plain = full.view === 'sea' ? null : parts.views.PLAIN;
     this.sky.drawBackground({ ...light, plain, exposureFactor, linearLight: linear }, matrices);
     gl.disable(gl.DEPTH_TEST);
   }

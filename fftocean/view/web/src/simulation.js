@@ -1,14 +1,12 @@
 // A sea that moves: its waves evolved and transformed on the GPU, or in a Worker.
-import { AmplitudeBlend, BLEND_SECONDS } from './blend.js';
 import { FIELDS, requirePowerOfTwo } from './container.js';
 import { drawFullscreen, program, target, texture } from './gl.js';
 import { makeMaps } from './maps.js';
-import { evolveShader } from './shaders/evolve.js';
+import { MovingSea } from './moving_sea.js';
+import { part } from './parts.js';
+import { EVOLVE_SHADER } from './shaders/evolve.js';
 import { MAPS_SHADER } from './shaders/maps.js';
 import { Transforms } from './transform.js';
-import { WorkerSimulation } from './worker_simulation.js';
-
-export { BLEND_SECONDS };
 
 /**
  * Make a simulation of a sea.
@@ -22,7 +20,7 @@ export { BLEND_SECONDS };
  *   32-bit floats, whatever is preferred
  * @param {number} [options.anisotropy] of the maps of slopes and moments; 1 for none
  * @param {function(): Worker} [options.makeWorker] start another Worker than the page's own
- * @param {'polynomial'|'platform'} [options.sine] see `phasorSource`; for tests
+ * @param {function(string): string} [options.edited] changes the source of a shader, for tests
  * @returns {Promise<GpuSimulation|WorkerSimulation>} with
  *   kind: 'gpu' or 'worker', and note: a sentence for the screen, empty for the GPU;
  *   document, sea: of the newest sea whose tiles are shown;
@@ -31,7 +29,8 @@ export { BLEND_SECONDS };
  *   tick, choppiness: what the maps show;
  *   step(tick, choppiness): bring the maps to a tick; a promise for when they are;
  *   readFields(tile): a promise of the eight fields of a tile at `tick`, each a Float32Array;
- *   replace(sea, seconds): change into another sea; advance(seconds): let a change go on;
+ *   replace(sea, seconds): change into another sea, a promise for the beginning of the change;
+ *   advance(seconds): let a change go on;
  *   dispose(): free everything.
  */
 export async function createSimulation(gl, sea, options = {}) {
@@ -40,7 +39,7 @@ export async function createSimulation(gl, sea, options = {}) {
     requirePowerOfTwo('n', ny);
   }
   if (options.prefer !== 'worker' && drawsFloats(gl)) return new GpuSimulation(gl, sea, options);
-  return WorkerSimulation.start(gl, sea, options);
+  return (await part('worker_simulation')).WorkerSimulation.start(gl, sea, options);
 }
 
 /** Return true if two textures of 32-bit floats can be drawn into at once. */
@@ -54,34 +53,20 @@ export function drawsFloats(gl) {
 }
 
 /** A simulation on the GPU; see `createSimulation`. */
-export class GpuSimulation {
+export class GpuSimulation extends MovingSea {
   /** Compile the shaders and upload a sea. */
-  constructor(gl, sea, { sine = 'polynomial', anisotropy = 8 } = {}) {
-    this.gl = gl;
+  constructor(gl, sea, { edited = (source) => source, anisotropy = 8 } = {}) {
+    super(gl, anisotropy);
+    this.begin(sea);
     this.kind = 'gpu';
     this.note = '';
-    this.anisotropy = anisotropy;
-    this.blend = new AmplitudeBlend(sea);
-    this.evolve = program(gl, evolveShader(sine));
-    this.transforms = new Transforms(gl, sine);
+    this.evolve = program(gl, edited(EVOLVE_SHADER));
+    this.transforms = new Transforms(gl, edited);
     this.shade = program(gl, MAPS_SHADER);
     this.revision = -1;
     this.tick = 0;
     this.choppiness = sea.document.choppiness ?? 1;
-    this.tiles = [];
     this.upload();
-  }
-
-  get document() {
-    return this.blend.document;
-  }
-
-  get sea() {
-    return this.blend.newest;
-  }
-
-  get weight() {
-    return this.blend.weight;
   }
 
   /** Bring the maps to a tick of the loop; the promise is there for the Worker's sake. */
@@ -120,16 +105,6 @@ export class GpuSimulation {
       fields[name] = values;
     });
     return fields;
-  }
-
-  /** Change into another sea. */
-  replace(sea, seconds = BLEND_SECONDS) {
-    this.blend.replace(sea, seconds);
-  }
-
-  /** Let a change into another sea go on. */
-  advance(seconds) {
-    this.blend.advance(seconds);
   }
 
   /** Return the target that holds the fields of a tile at the tick. */

@@ -1,6 +1,5 @@
 // Sun and sky: the map of the sky, the light that falls on the sea, and the background.
 import { drawFullscreen, program, target, texture } from './gl.js';
-import { TONE, withExposure } from './exposure.js';
 import {
   BACKGROUND_VERTEX,
   CLEAR_SHADER,
@@ -8,6 +7,8 @@ import {
   SKY_SHADER,
   backgroundShader,
 } from './shaders/air.js';
+
+import { TONE } from './shaders/tone.js';
 
 const DEGREE = Math.PI / 180;
 
@@ -24,7 +25,7 @@ export class Sky {
     this.gl = gl;
     this.clearProgram = program(gl, CLEAR_SHADER);
     this.mapProgram = program(gl, SKY_SHADER);
-    this.lightProgram = program(gl, withExposure(LIGHT_SHADER));
+    this.lightProgram = program(gl, LIGHT_SHADER);
     this.background = program(gl, backgroundShader(TONE), BACKGROUND_VERTEX);
     const size = { format: 'RGBA16F', width: samples, height: samples };
     this.map = texture(gl, { ...size, filter: 'linear', wrap: 'clamp', mips: true });

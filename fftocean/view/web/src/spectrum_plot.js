@@ -1,6 +1,6 @@
 // The spectrum by frequency and by direction: specified beside realised, on a 2D canvas.
 
-import { isFlat } from './heads_up.js';
+import { isFlat } from './statistics.js';
 
 /** Sectors and rings of the polar plot. */
 const SECTORS = 36;

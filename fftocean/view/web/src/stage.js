@@ -1,8 +1,6 @@
 // The graphics context with all that lives in it: made, lost, and made again from the same sea.
 
-import { FewWaves } from './few_waves.js';
-import { GpuTimer } from './gpu_timer.js';
-import { Playback } from './playback.js';
+import { part, parts } from './parts.js';
 import { Renderer } from './renderer.js';
 import { createSimulation } from './simulation.js';
 
@@ -78,6 +76,7 @@ export class Stage {
     this.timer = null;
     this.level = 0;
     this.building = null;
+    this.changes = 0; // that have not begun to show
     this.disposed = false;
     this.losses = 0;
     this.listen(canvas);
@@ -131,7 +130,8 @@ export class Stage {
     this.bake = null;
     if (!this.gl) return;
     if (this.simulation && !this.gl.isContextLost()) {
-      this.simulation.replace(sea, seconds);
+      this.changes += 1;
+      await this.simulation.replace(sea, seconds).finally(() => (this.changes -= 1));
       this.onChange();
       return;
     }
@@ -163,7 +163,9 @@ export class Stage {
     const { gl } = this;
     if (this.bake) {
       const { manifest, requestFrame } = this.bake;
-      this.playback = new Playback(gl, manifest, requestFrame, { onChange: this.onChange });
+      this.playback = new parts.bake.Playback(gl, manifest, requestFrame, {
+        onChange: this.onChange,
+      });
       this.source = this.playback;
     } else {
       const wanted = this.sea;
@@ -175,20 +177,25 @@ export class Stage {
       this.simulation = made;
       this.source = made;
       this.onNote(made.note ?? '');
-      if (this.sea !== wanted) made.replace(this.sea, 0);
+      if (this.sea !== wanted) await made.replace(this.sea, 0);
     }
     this.renderer = new Renderer(gl, { quality: LEVELS[this.level].quality });
-    this.timer = new GpuTimer(gl);
     this.foamIsNew = true;
     this.onTrouble('');
     this.onChange();
+  }
+
+  /** Do some drawing, and measure it while times are shown. */
+  measure(name, draw) {
+    if (this.timer) this.timer.measure(name, draw);
+    else draw();
   }
 
   /** Bring the maps to a tick. */
   async step(tick, choppiness) {
     let done = null;
     if (this.playback) this.playback.blend = this.blendFrames;
-    this.timer.measure('waves', () => {
+    this.measure('waves', () => {
       done = (this.simulation ?? this.playback)?.step(tick, choppiness);
     });
     await done;
@@ -221,21 +228,15 @@ export class Stage {
 
   /** Draw the picture. */
   render(camera, look, width, height) {
-    this.timer.measure('sea', () => {
+    this.measure('sea', () => {
       this.renderer.render(this.source, camera, look, width, height);
     });
   }
 
-  /** Draw few waves under the same sky over the right half of the picture. */
-  renderFew(model, tick, camera, look, width, height) {
-    this.few ??= new FewWaves(this.gl, this.renderer.quality);
-    const half = Math.floor(width / 2);
-    const viewport = [half, 0, width - half, height];
-    const { sky } = this.renderer;
-    this.timer.waits = true;
-    this.timer.measure('few', () => {
-      this.few.render(model, tick, camera, look, width, height, viewport, sky);
-    });
+  /** Have the parts that a look needs; see `Renderer.load`. */
+  async load(look, model) {
+    if (model) await part('comparison');
+    await this.renderer?.load(look);
   }
 
   /** Keep the page alive without a context, and ask for another where none comes back. */

@@ -1,8 +1,8 @@
 // Entry of the page that is one file: the sea is in it, and nothing is asked of a server.
 
-import { startApp } from './app.js';
+import { startApp } from './sea_view.js';
+import { EmbeddedSea } from './embedded.js';
 import { bytesOf, inflated, joined } from './planes.js';
-import { readTable } from './table.js';
 
 /** Return the text of an element that carries data. */
 function carried(id) {
@@ -19,12 +19,9 @@ async function carriedSea() {
 async function start() {
   globalThis.fftocean = await startApp({
     root: document.getElementById('live-page'),
-    table: readTable(JSON.parse(carried('parameters'))),
+    table: JSON.parse(carried('parameters')),
     keysOn: globalThis,
-    embedded: {
-      bytes: await carriedSea(),
-      about: JSON.parse(carried('about') ?? '{}'),
-    },
+    embedded: new EmbeddedSea(await carriedSea(), JSON.parse(carried('about') ?? '{}')),
   });
 }
 

@@ -5,10 +5,11 @@ import { twiddleTable } from './fft.js';
 
 /** Programs and tables of the transforms, and the targets between their steps, by size. */
 export class Transforms {
-  /** Compile the steps; see `stepShader` for `sine`. */
-  constructor(gl, sine) {
+  /** Compile the steps; see `createSimulation` for `edited`. */
+  constructor(gl, edited) {
     this.gl = gl;
-    this.steps = { 2: program(gl, stepShader(2, sine)), 4: program(gl, stepShader(4, sine)) };
+    const step = (radix) => program(gl, edited(stepShader(radix)));
+    this.steps = { 2: step(2), 4: step(4) };
     this.twiddles = new Map();
     this.targets = new Map();
   }

@@ -1,4 +1,7 @@
 // False colours of the fields: what each view shows, its range, and colour maps of even steps.
+import { waveHeight } from './statistics.js';
+
+export { falseColourShader } from './shaders/false_colours.js';
 
 const STEPS = 256;
 
@@ -129,12 +132,6 @@ export function viewNumber(name) {
     throw new RangeError(`view must be one of ${names}, got ${JSON.stringify(name)}`);
   }
   return found;
-}
-
-/** Return the significant wave height of a document [m]; 1 if it is not known. */
-export function waveHeight(document) {
-  const { realised, specified } = document?.statistics ?? {};
-  return Math.max(realised?.hs ?? specified?.hs ?? 1, 0.02);
 }
 
 /** Return the range of the view of roughness: up to what the whole sea has. */

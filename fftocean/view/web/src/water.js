@@ -2,11 +2,12 @@
 import { drawVertices, program, texture } from './gl.js';
 import { halfFloats } from './half.js';
 import { ringDistances, visibleSector } from './camera.js';
-import { TONE } from './exposure.js';
+import { TONE } from './shaders/tone.js';
 import { reflectance, waterOptics } from './optics.js';
-import { falseColourShader, meshVertex, waterShader } from './shaders/surface.js';
+import { parts } from './parts.js';
+import { meshVertex, waterShader } from './shaders/surface.js';
 import { visibleTable } from './visible_slopes.js';
-import { mapTexels, viewUniforms, waveHeight } from './views.js';
+import { waveHeight } from './statistics.js';
 
 // Slope variance of a sea that tells nothing of its own: capillary waves of a light air.
 const CALM = [0.002, 0.002, 0];
@@ -44,7 +45,7 @@ export class Water {
   programFor(count, falseColours) {
     const key = `${count} ${falseColours}`;
     if (!this.programs.has(key)) {
-      const source = falseColours ? falseColourShader(count) : waterShader(count, TONE);
+      const source = falseColours ? parts.views.falseColourShader(count) : waterShader(count, TONE);
       this.programs.set(key, program(this.gl, source, meshVertex(count)));
     }
     return this.programs.get(key);
@@ -88,12 +89,12 @@ export class Water {
   /** Return the uniforms of false colours. */
   falseColours(view, document) {
     this.colourMaps ??= texture(this.gl, {
-      ...mapTexels(),
+      ...parts.views.mapTexels(),
       format: 'RGBA8',
       filter: 'linear',
       wrap: 'clamp',
     });
-    return { ...viewUniforms(view, document), colour_maps: this.colourMaps };
+    return { ...parts.views.viewUniforms(view, document), colour_maps: this.colourMaps };
   }
 
   /** Free everything. */

@@ -1,7 +1,7 @@
 // Entry of the notebook widget: the page in an output cell, its messages over the kernel's own link.
 
-import { startApp } from './app.js';
-import { readTable } from './table.js';
+import { startApp } from './sea_view.js';
+import { EmbeddedSea } from './embedded.js';
 
 /** Views that may hold a graphics context at once; browsers keep 8 to 16 for a whole page. */
 export const LIMITS = { live: 4 };
@@ -61,8 +61,8 @@ class View {
     const plays = Boolean(about.bake);
     const app = await startApp({
       root: this.root,
-      table: readTable(about.table),
-      embedded: plays ? null : { bytes: bytesOf(model.get('sea')), about },
+      table: about.table,
+      embedded: plays ? null : new EmbeddedSea(bytesOf(model.get('sea')), about),
       connect: (listeners) => this.connect(listeners, about),
     });
     if (starts === this.starts && liveViews().includes(this)) this.app = app;

@@ -1,15 +1,14 @@
 // A sea that a Worker computes in JavaScript, for GPUs that cannot draw into 32-bit floats.
 /* global WORKER_SOURCE */
-import { AmplitudeBlend, BLEND_SECONDS } from './blend.js';
 import { disposeMaps, makeMaps } from './maps.js';
+import { MovingSea } from './moving_sea.js';
 
 /** Most samples a side that JavaScript computes fast enough to watch. */
 export const MOST_SAMPLES = 128;
 
 /** Start the page's own Worker: a file of the server, or the text in the page that is one file. */
 function startWorker() {
-  if (typeof WORKER_SOURCE === 'undefined' || WORKER_SOURCE === null)
-    return new Worker('worker.js');
+  if (typeof WORKER_SOURCE === 'undefined') return new Worker('worker.js');
   const address = URL.createObjectURL(new Blob([WORKER_SOURCE], { type: 'text/javascript' }));
   const worker = new Worker(address);
   URL.revokeObjectURL(address);
@@ -17,7 +16,7 @@ function startWorker() {
 }
 
 /** A simulation by a Worker; see `createSimulation`. */
-export class WorkerSimulation {
+export class WorkerSimulation extends MovingSea {
   /** Return a simulation that shows the first tick. */
   static async start(gl, sea, options) {
     const simulation = new WorkerSimulation(gl, sea, options);
@@ -32,16 +31,14 @@ export class WorkerSimulation {
 
   /** Start a Worker. */
   constructor(gl, sea, { prefer, anisotropy = 8, makeWorker = startWorker } = {}) {
-    this.gl = gl;
+    super(gl, anisotropy);
     this.kind = 'worker';
     this.reason =
       prefer === 'worker'
         ? 'As asked for'
         : 'This graphics card cannot draw into 32-bit floats (EXT_color_buffer_float)';
-    this.anisotropy = anisotropy;
-    this.blend = new AmplitudeBlend(this.fitted(sea));
+    this.begin(sea);
     this.shown = { tick: 0, choppiness: sea.document.choppiness ?? 1 };
-    this.tiles = [];
     this.wanted = null; // the newest step that has not been sent
     this.running = null; // a promise while steps are under way
     this.requests = new Map();
@@ -51,18 +48,6 @@ export class WorkerSimulation {
       event.preventDefault?.();
       this.fail(`the Worker that computes the sea failed: ${event.message || 'it did not load'}`);
     };
-  }
-
-  get document() {
-    return this.blend.document;
-  }
-
-  get sea() {
-    return this.blend.newest;
-  }
-
-  get weight() {
-    return this.blend.weight;
   }
 
   get tick() {
@@ -126,16 +111,6 @@ export class WorkerSimulation {
     await this.running;
     const { tick, scaleTo, scaleFrom } = this.shown;
     return (await this.request('read', { index, tick, scaleTo, scaleFrom })).fields;
-  }
-
-  /** Change into another sea. */
-  replace(sea, seconds = BLEND_SECONDS) {
-    this.blend.replace(this.fitted(sea), seconds);
-  }
-
-  /** Let a change into another sea go on. */
-  advance(seconds) {
-    this.blend.advance(seconds);
   }
 
   /** Upload maps; make the tiles anew if they are others. */

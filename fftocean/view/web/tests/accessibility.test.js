@@ -1,15 +1,8 @@
 // The sea in words, by the scales of the WMO; contrast by the formula of WCAG.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import {
-  Announcer,
-  beaufort,
-  compassName,
-  contrast,
-  describeSea,
-  prefersReducedMotion,
-  seaState,
-} from '../src/accessibility.js';
+import { beaufort, compassName, contrast, describeSea, seaState } from '../src/accessibility.js';
+import { Announcer } from '../src/announcer.js';
 
 const SEA = {
   depth: null,
@@ -92,13 +85,6 @@ test('a text is said once, and only the last of several', (t) => {
   announcer.say('two');
   t.mock.timers.tick(5000);
   assert.deepEqual(said, ['two']);
-});
-
-test('the wish for less motion is asked of the browser', () => {
-  const view = (matches) => ({ matchMedia: () => ({ matches }) });
-  assert.equal(prefersReducedMotion(view(true)), true);
-  assert.equal(prefersReducedMotion(view(false)), false);
-  assert.equal(prefersReducedMotion({}), false);
 });
 
 test('contrast of black and white is 21, of equal colours 1, of #767676 on white 4.54', () => {

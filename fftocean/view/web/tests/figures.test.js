@@ -1,20 +1,16 @@
 // Figures and spectrum of the page, from seas whose values are known.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import {
-  FrameRate,
-  grouped,
-  statisticsRows,
-  tilesText,
-  wavesOf,
-  wavesText,
-} from '../src/heads_up.js';
+import { grouped, wavesText } from '../src/amounts.js';
+import { FrameRate } from '../src/chip.js';
+import { statisticsRows, tilesText } from '../src/heads_up.js';
 import {
   densityOfEnergy,
   edgesOfLoop,
   energyOfWaves,
   geometricEdges,
 } from '../src/spectrum_plot.js';
+import { wavesOf } from '../src/statistics.js';
 
 /** Return a sea of one tile with waves [mx, my, cycles, amplitude]. */
 function seaOf(waves, { n = 16, size = 100, loop = 64 } = {}) {

@@ -1,5 +1,5 @@
 // Light of the sun and the sky: single scattering by air, haze and ozone, on a round earth.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD, VERTEX_HEAD } from './heads.js';
 
 /**
  * Where a direction lies in the map of the sky, and its radiance there.
@@ -220,12 +220,14 @@ void main() {
   float from_sun = luminance(SUN_IRRADIANCE * sunlight(vec3(0.0, 0.0, EARTH + 20.0)));
   float middle = luminance(irradiance) + (0.25 * max(sun.z, 0.0) + 0.02) * from_sun;
   float burnt = pow(bright / area, 0.125);
-  light = vec4(min(EXPOSURE_KEY / (middle + 0.25), EXPOSURE_CAP / (burnt + 0.15)), irradiance);
+  // Radiance times exposure that a picture aims at, and the level that the brightest tenth of the
+  // sky may reach: without the second a low sun, which gives little light to the sea but a bright
+  // sky around it, burns the sky out.
+  light = vec4(min(3.2 / (middle + 0.25), 1.5 / (burnt + 0.15)), irradiance);
 }`;
 
 /** The sky behind the water, with the sun's disc. */
-export const BACKGROUND_VERTEX = `#version 300 es
-precision highp float;
+export const BACKGROUND_VERTEX = `${VERTEX_HEAD}
 uniform mat3 rays;
 out vec3 ray;
 

@@ -1,5 +1,5 @@
 // Shader that blends two frames of a bake.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD } from './heads.js';
 
 /** The three maps of a tile between two frames; moments are those of the blended slopes. */
 export const BLEND_FRAMES_SHADER = `${FRAGMENT_HEAD}

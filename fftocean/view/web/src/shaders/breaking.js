@@ -1,5 +1,5 @@
 // Shaders of foam: what it remembers, and how it breaks up.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD } from './heads.js';
 import { eachTile, tilePlaces } from './tiles.js';
 
 /**

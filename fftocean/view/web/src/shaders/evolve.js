@@ -1,40 +1,26 @@
 // Shader that brings the waves of a tile to a tick and packs eight fields into four complex ones.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD } from './heads.js';
 
-// Phases in turns, reduced to an eighth of a turn about the nearest quarter; the coefficients are
-// those of the least largest error there. The platform's cos and sin promise no more than 2^-11.
-const POLYNOMIAL = `
+/**
+ * A function of GLSL, phasor(turn): the cosine and sine of a phase in turns.
+ *
+ * Phases are reduced to an eighth of a turn about the nearest quarter; the coefficients are those
+ * of the least largest error there. The platform's cos and sin promise no more than 2^-11.
+ */
+export const PHASOR = `
 vec2 phasor(float turn) {
   float quarter = floor(4.0 * turn + 0.5);
   float x = turn - 0.25 * quarter;
   float q = x * x;
-  float s = x * (SINE);
-  float c = 1.0 + q * (COSINE);
+  float s = x * (6.2831853 + q * (-41.341663 + q * (81.591983 + q * -75.369649)));
+  float c = 1.0 + q * (-19.739209 + q * (64.939363 + q * (-85.447456 + q * 59.362561)));
   int quadrant = int(quarter) & 3;
   vec2 turned = (quadrant & 1) == 0 ? vec2(c, s) : vec2(-s, c);
   return (quadrant & 2) == 0 ? turned : -turned;
-}`
-  .replace('SINE', '6.2831853 + q * (-41.341663 + q * (81.591983 + q * -75.369649))')
-  .replace('COSINE', '-19.739209 + q * (64.939363 + q * (-85.447456 + q * 59.362561))');
-
-const PLATFORM = `
-vec2 phasor(float turn) {
-  return vec2(cos(6.2831853 * turn), sin(6.2831853 * turn));
 }`;
 
-/**
- * Return the source of a function of GLSL, phasor(turn): the cosine and sine of a phase in turns.
- *
- * @param {'polynomial'|'platform'} sine the platform's own functions are for tests: they are too
- *   coarse
- */
-export function phasorSource(sine) {
-  return sine === 'platform' ? PLATFORM : POLYNOMIAL;
-}
-
-/** Return the source of the shader; see `phasorSource`. */
-export function evolveShader(sine = 'polynomial') {
-  return `${FRAGMENT_HEAD}${phasorSource(sine)}
+/** The source of the shader. */
+export const EVOLVE_SHADER = `${FRAGMENT_HEAD}${PHASOR}
 uniform sampler2D h0_to, h0_from, wave_to, wave_from;
 uniform ivec2 samples;
 uniform vec2 wavenumber_step;
@@ -81,4 +67,3 @@ void main() {
   first = vec4(displace_x + lifts.x * times_i(displace_y), height + lifts.y * times_i(stretch_xy));
   second = vec4(slope_x + lifts.z * times_i(slope_y), stretch_xx + lifts.w * times_i(stretch_yy));
 }`;
-}

@@ -1,8 +1,8 @@
 // Shaders of the few-wave models: waves summed at each vertex, lit as in the slides.
-import { FRAGMENT_HEAD } from '../gl.js';
-import { TONE } from '../exposure.js';
+import { FRAGMENT_HEAD, VERTEX_HEAD } from './heads.js';
+import { TONE } from './tone.js';
 import { SKY_LOOKUP } from './air.js';
-import { phasorSource } from './evolve.js';
+import { PHASOR } from './evolve.js';
 
 /** Most waves of a model; they fit the uniforms that every WebGL 2 context has. */
 export const MOST_WAVES = 64;
@@ -18,11 +18,8 @@ export const VERTEX_OUTPUTS = ['still', 'moved', 'normal'];
  * tick, reduced in double precision, and the products of wavenumber and position are exact where
  * they are large: each factor is split into its leading 12 bits and the rest.
  */
-export const FEW_WAVES_VERTEX = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
-${phasorSource('polynomial')}
+export const FEW_WAVES_VERTEX = `${VERTEX_HEAD}
+${PHASOR}
 const float EARTH_RADIUS = 6371e3;
 uniform mat4 view_projection;
 uniform sampler2D rings;
@@ -157,8 +154,9 @@ void main() {
   vec3 everywhere = albedo / PI * (sun_light * max(sunward.z, 0.0) + sky_light);
   vec3 radiance = ambient * (everywhere + mirrored_sky(n, to_eye, 2e-4 + rough + lost));
   radiance += diffuse * max(lit, 0.0) * albedo / PI * sun_light;
-  radiance += specular * glint * GLINT * sun_light;
+  // 1.2: radiance of a perfect mirror of the slides, over the irradiance
+  radiance += specular * glint * 1.2 * sun_light;
   vec3 haze = textureLod(sky, sky_place(normalize(vec3(-to_eye.xy, 0.02))), 1.0).rgb;
   radiance = mix(radiance, haze, 1.0 - exp(-far * air_extinction));
   pixel = shown(radiance, texelFetch(light, ivec2(3, 0), 0).x);
-}`.replace('GLINT', '1.2'); // radiance of a perfect mirror of the slides, over the irradiance
+}`;

@@ -1,5 +1,5 @@
 // Shaders of the buoy: a float with a staff, striped to be measured by.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD, VERTEX_HEAD } from './heads.js';
 
 /** Rings and columns of the buoy's mesh. */
 export const BUOY_RINGS = 40;
@@ -9,10 +9,7 @@ export const BUOY_COLUMNS = 28;
  * Vertex shader: a surface of revolution, 2 m above the water line, standing where the surface is
  * and leaning with its slope.
  */
-export const BUOY_VERTEX = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
+export const BUOY_VERTEX = `${VERTEX_HEAD}
 uniform mat4 view_projection;
 uniform sampler2D floating, floating_tilt;
 uniform float eye_height;

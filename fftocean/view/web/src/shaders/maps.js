@@ -1,5 +1,5 @@
 // Shader that makes the three maps of a tile for the renderer from its eight fields.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD } from './heads.js';
 
 /** The source of the shader. */
 export const MAPS_SHADER = `${FRAGMENT_HEAD}

@@ -1,18 +1,12 @@
 // Shaders of the water: the mesh, and the light of its surface.
-import { FRAGMENT_HEAD } from '../gl.js';
+import { FRAGMENT_HEAD, VERTEX_HEAD } from './heads.js';
 import { SKY_LOOKUP } from './air.js';
 import { FOAM_LOOKUP } from './breaking.js';
 import { displacementSum, rippleSum, slopeSum, tilePlaces } from './tiles.js';
 import { HIGHEST, LOWEST } from '../visible_slopes.js';
 
-const VERTEX_HEAD = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp sampler2D;
-`;
-
 /** The height of the eye, lifted out of the crests that pass it. */
-const LIFTED_EYE = `
+export const LIFTED_EYE = `
 uniform sampler2D floating; // heights of the surface where something floats; the eye is the first
 uniform float eye_height;
 
@@ -110,7 +104,7 @@ float fresnel(float cosine) {
 `;
 
 /** Slopes of the displaced surface at a pixel. */
-const SURFACE = `
+export const SURFACE = `
 struct Surface {
   vec2 slope;
   vec3 variance;
@@ -134,7 +128,7 @@ Surface displaced_surface(Sums sums, vec3 beyond) {
 }
 `;
 
-const INPUTS = `
+export const INPUTS = `
 uniform vec3 beyond;
 in vec3 place;
 in vec2 rest;
@@ -256,59 +250,6 @@ void main() {
   vec3 haze_light = textureLod(sky, sky_place(normalize(vec3(-to_eye.xy, 0.02))), 1.0).rgb;
   radiance = mix(radiance, haze_light, 1.0 - exp(-distance_ * air_extinction));
   colour = shown(radiance, texelFetch(light, ivec2(3, 0), 0).x);
-}`;
-}
-
-/** Return the source of the fragment shader of false colours; \`view\` as numbered in views.js. */
-export function falseColourShader(count) {
-  return `${FRAGMENT_HEAD}${tilePlaces(count)}${slopeSum(count)}${SURFACE}${FOAM_LOOKUP}${LIFTED_EYE}${INPUTS}
-uniform sampler2D colour_maps; // one map a row
-uniform int view;
-uniform vec4 shown_range; // lowest and highest value, row of the map, rows
-uniform float tile_counts[${count}];
-
-vec3 mapped(float value) {
-  float at = clamp((value - shown_range.x) / (shown_range.y - shown_range.x), 0.0, 1.0);
-  return textureLod(colour_maps, vec2((at * 255.0 + 0.5) / 256.0, (shown_range.z + 0.5) / shown_range.w), 0.0).rgb;
-}
-
-float line(vec2 at, float width) {
-  vec2 near = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-6);
-  return 1.0 - smoothstep(width - 0.5, width + 0.5, min(near.x, near.y));
-}
-
-// Dense lines turn into a grey of their own instead of noise.
-float fading(vec2 at) {
-  vec2 rate = fwidth(at);
-  return 1.0 - smoothstep(0.25, 0.6, max(rate.x, rate.y));
-}
-
-void main() {
-  Sums sums = summed(rest);
-  Surface surface = displaced_surface(sums, beyond);
-  vec3 facet = normalize(vec3(-surface.slope, 1.0));
-  float height = place.z + lifted_eye() + dot(rest, rest) / (2.0 * 6371e3);
-  vec3 found;
-  if (view == 1) found = mapped(height);
-  else if (view == 2) found = mapped(length(surface.slope));
-  else if (view == 3) found = 0.5 + 0.5 * facet;
-  else if (view == 4) found = mapped(surface.jacobian);
-  else if (view == 5) found = mapped(foam_at(rest).x);
-  else if (view == 6) found = mapped(sqrt(surface.variance.x + surface.variance.y));
-  else if (view == 7) {
-    // The borders of the tiles, one hue a tile, over the heights.
-    found = mix(vec3(dot(mapped(height), vec3(0.33))), vec3(0.35), 0.3);
-    const vec3 HUES[4] = vec3[4](vec3(0.95, 0.75, 0.2), vec3(0.3, 0.75, 0.95), vec3(0.95, 0.45, 0.55), vec3(0.55, 0.85, 0.45));
-    for (int i = 0; i < ${count}; i++) {
-      vec2 at = tile_place(i, rest);
-      found = mix(found, HUES[i & 3], line(at, 1.0) * fading(at));
-    }
-  } else {
-    float edges = max(line(cell, 0.6), line(vec2(cell.x + cell.y), 0.6));
-    vec3 plain = mapped(height) * (0.55 + 0.45 * facet.z);
-    found = mix(plain, vec3(0.05), 0.8 * edges * fading(cell));
-  }
-  colour = vec4(found, 1.0);
 }`;
 }
 

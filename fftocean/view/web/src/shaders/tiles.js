@@ -71,15 +71,15 @@ vec3 displaced(vec2 rest, float spacing) {
  */
 export function slopeSum(count, { spaced = false } = {}) {
   const look = (map) =>
-    spaced ? `textureLod(${map}_maps[TILE], at, level)` : `texture(${map}_maps[TILE], at)`;
+    spaced ? `textureLod(${map}[TILE], at, level)` : `texture(${map}[TILE], at)`;
   const line = `
   at = tile_place(TILE, rest);
-  ${spaced ? 'level = max(log2(spacing * tile_frames[TILE].z * float(textureSize(slope_maps[TILE], 0).x)), 0.0);' : ''}
-  slopes = ${look('slope')};
-  moments = ${look('moment')}.xyz;
+  ${spaced ? `level = max(log2(spacing * tile_frames[TILE].z * float(textureSize(slope_maps[TILE], 0).x)), 0.0);` : ''}
+  slopes = ${look(`slope_maps`)};
+  moments = ${look(`moment_maps`)}.xyz;
   turn_slopes(TILE, rest, slopes.xy, moments);
   sums.slope += slopes.xy;
-  sums.stretch += vec3(slopes.zw, ${spaced ? '0.0' : `${look('displacement')}.w`});
+  sums.stretch += vec3(slopes.zw, ${spaced ? '0.0' : `${look(`displacement_maps`)}.w`});
   // Half floats leave a negative difference now and then.
   sums.variance.xy += max(moments.xy - slopes.xy * slopes.xy, 0.0);
   sums.variance.z += moments.z - slopes.x * slopes.y;`;
@@ -90,12 +90,12 @@ struct Sums {
   vec3 variance; // of slopes: xx, yy, xy
 };
 
-Sums summed(vec2 rest${spaced ? ', float spacing' : ''}) {
+Sums summed(vec2 rest ${spaced ? `, float spacing` : ''}) {
   Sums sums = Sums(vec2(0.0), vec3(0.0), vec3(0.0));
   vec2 at;
   vec4 slopes;
   vec3 moments;
-  ${spaced ? 'float level;' : ''}
+  ${spaced ? `float level;` : ''}
   ${eachTile(count, line)}
   return sums;
 }

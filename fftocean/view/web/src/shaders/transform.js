@@ -1,25 +1,14 @@
 // Shaders of one Stockham step of an inverse Fourier transform, on four complex fields at once.
-import { FRAGMENT_HEAD } from '../gl.js';
-import { phasorSource } from './evolve.js';
+import { FRAGMENT_HEAD } from './heads.js';
 
-/**
- * Return the source of a step that combines `radix` parts of the input along an axis.
- *
- * @param {2|4} radix
- * @param {'polynomial'|'platform'} sine 'platform' puts the platform's functions in place of the
- *   table of twiddle factors, for tests
- */
-export function stepShader(radix, sine = 'polynomial') {
-  const platform = sine === 'platform';
-  const factor = platform
-    ? 'return phasor(float(index & (samples - 1)) / float(samples));'
-    : 'return texelFetch(twiddles, ivec2(index & (samples - 1), 0), 0).xy;';
+/** Return the source of a step that combines `radix` (2 or 4) parts of the input along an axis. */
+export function stepShader(radix) {
   const terms = Array.from(
     { length: radix - 1 },
     (_, i) => `add(at + ${i + 1} * apart, ${i + 1});`,
   );
-  return `${FRAGMENT_HEAD}${platform ? phasorSource(sine) : ''}
-uniform sampler2D input_first, input_second${platform ? '' : ', twiddles'};
+  return `${FRAGMENT_HEAD}
+uniform sampler2D input_first, input_second, twiddles;
 uniform int samples, block, axis;
 layout(location = 0) out vec4 first;
 layout(location = 1) out vec4 second;
@@ -27,7 +16,7 @@ layout(location = 1) out vec4 second;
 int turn;
 
 vec2 twiddle(int index) {
-  ${factor}
+  return texelFetch(twiddles, ivec2(index & (samples - 1), 0), 0).xy;
 }
 
 vec4 multiply(vec2 w, vec4 v) {

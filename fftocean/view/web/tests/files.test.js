@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { LONGEST_MESSAGE } from '../src/connection.js';
-import { base64, fileMessage, LARGEST_FILE } from '../src/drop.js';
+import { base64, fileMessage, LARGEST_FILE } from '../src/files.js';
 
 test('a job goes as text, every other file as base64', () => {
   const text = '[sea.wind]\nspeed = 12.0 # m/s, ° and µ\n';
