@@ -9,6 +9,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fftocean import export as export
     from fftocean import foam as foam
     from fftocean import gerstner as gerstner
     from fftocean import kinematics as kinematics
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from fftocean.baking.finished.load import load as load
     from fftocean.baking.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
+    from fftocean.constraints import constrained as constrained
+    from fftocean.constraints import crest_height as crest_height
     from fftocean.errors import CacheWarning as CacheWarning
     from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import FieldError as FieldError
@@ -35,6 +38,9 @@ if TYPE_CHECKING:
     from fftocean.errors import ReaderError as ReaderError
     from fftocean.errors import SeaWarning as SeaWarning
     from fftocean.eulerian import Eulerian as Eulerian
+    from fftocean.fixed_values import Crest as Crest
+    from fftocean.fixed_values import Fix as Fix
+    from fftocean.fixed_values import Rarity as Rarity
     from fftocean.foam import Foam as Foam
     from fftocean.frame import EulerianFrame as EulerianFrame
     from fftocean.frame import Frame as Frame
@@ -69,6 +75,8 @@ if TYPE_CHECKING:
     from fftocean.physics.spreading import Mitsuyasu as Mitsuyasu
     from fftocean.physics.spreading import SwellElongation as SwellElongation
     from fftocean.physics.spreading import WrappedNormal as WrappedNormal
+    from fftocean.probe_series import Series as Series
+    from fftocean.probe_series import series as series
     from fftocean.products import Folding as Folding
     from fftocean.products import folding as folding
     from fftocean.products import jacobian as jacobian
@@ -94,6 +102,7 @@ _NAMES_BY_MODULE = {
     "fftocean.baking.finished.load": ("Bake", "BakedCascade", "load"),
     "fftocean.baking.repair": ("repair",),
     "fftocean.cascade": ("Cascade",),
+    "fftocean.constraints": ("constrained", "crest_height"),
     "fftocean.errors": (
         "CacheWarning",
         "FFTOceanError",
@@ -107,6 +116,7 @@ _NAMES_BY_MODULE = {
         "SeaWarning",
     ),
     "fftocean.eulerian": ("Eulerian",),
+    "fftocean.fixed_values": ("Crest", "Fix", "Rarity"),
     "fftocean.foam": ("Foam",),
     "fftocean.frame": ("EulerianFrame", "Frame"),
     "fftocean.ocean": ("Ocean",),
@@ -137,6 +147,7 @@ _NAMES_BY_MODULE = {
         "SwellElongation",
         "WrappedNormal",
     ),
+    "fftocean.probe_series": ("Series", "series"),
     "fftocean.products": ("Folding", "folding", "jacobian", "minimum_eigenvalue", "normals"),
     "fftocean.proof": ("Check", "verify"),
     "fftocean.query": ("Answer", "Query"),
@@ -147,6 +158,7 @@ _NAMES_BY_MODULE = {
 }
 _PUBLIC_MODULES = {
     "dispersion": "fftocean.physics.dispersion",
+    "export": "fftocean.export",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
     "kinematics": "fftocean.kinematics",

@@ -11,6 +11,7 @@ from fftocean import noise
 from fftocean.arrays import Complex, Integer, Real, brief_repr
 from fftocean.cells import QUADRANTS, WHOLE, Band, Cells, Part
 from fftocean.errors import ParameterError
+from fftocean.fixed_values import Fix, Rarity
 from fftocean.grid import Grid
 from fftocean.limits import ANGLE, DEPTH, LENGTH, LOOP, SEED
 from fftocean.physics import dispersion
@@ -54,10 +55,13 @@ class Amplitudes:
     backward: Complex  # the same
     variance_forward: Real  # E_k, the expected a^2/2 of the wave at +k [m^2]
     variance_backward: Real  # of the wave at -k [m^2]
-    draw: Literal["gaussian", "fixed", "given"]
+    draw: Literal["gaussian", "fixed", "given", "constrained"]
     band: Band = (
         WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     )
+    # values that these waves were made to have, and the rarity of those of all tiles together
+    fixed: tuple[Fix, ...] = ()
+    rarity: Rarity | None = None
     cycles: Integer | None = field(init=False)  # whole cycles in a loop
 
     __repr__ = brief_repr
@@ -348,3 +352,17 @@ def refined(
         variance_forward=spread(amplitudes.variance_forward, divisor**2),
         variance_backward=spread(amplitudes.variance_backward, divisor**2),
     )
+
+
+def refined_gain(
+    grid: Grid, fine: Grid, kept: npt.NDArray[np.bool_], response: Callable[[Real], Real]
+) -> Real:
+    """
+    Return the factor that `refined` gives to each cell of the finer grid, (ny, nx // 2 + 1).
+    """
+    rows, columns = np.nonzero(kept)
+    gain = np.zeros(fine.half_shape)
+    gain[grid.my[rows], columns] = 1.0 / (
+        response(grid.mx[columns] / fine.nx) * response(grid.my[rows] / fine.ny)
+    )
+    return gain

@@ -14,18 +14,22 @@ from fftocean.cells import WHOLE, Band, parts_of_sea
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, POINTWISE
+from fftocean.fixed_values import Rarity
 from fftocean.grid import Grid
 from fftocean.host import require_memory
 from fftocean.limits import BAND_EDGE, LOOP, SEED
 from fftocean.noise import philox
 from fftocean.ocean import (
+    BOUND,
     Frame,
     Ocean,
+    bound_by_order,
     check_fields,
     from_amplitudes,
     longest_period,
     memory_needed,
 )
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
 
 Tile = tuple[int | tuple[int, int], float | tuple[float, float]]
@@ -59,12 +63,14 @@ class Cascade:
         loop: period after which all tiles repeat [s], or one for each; None for water that never
             repeats.
         choppiness, dtype, amplitudes, backend, planning, threads: as in `Ocean`.
+        order, bound: as in `Ocean`. Only the largest tile has waves of second order, of pairs of
+            its own waves: a sum over waves of two tiles belongs to no tile's grid.
 
     Threads can share a cascade as they can share an `Ocean`.
 
     Raises:
-        ParameterError: a value out of range, tiles out of order, or bands that leave wavenumbers
-            out or are beyond their tile.
+        ParameterError: a value out of range, tiles out of order, bands that leave wavenumbers out
+            or are beyond their tile, or a sea whose troughs would bare the bed.
     """
 
     def __init__(
@@ -81,6 +87,8 @@ class Cascade:
         backend: str = "auto",
         planning: str = "estimate",
         threads: int = 1,
+        order: int = 1,
+        bound: int = BOUND,
     ) -> None:
         if not isinstance(sea, Sea):
             raise ParameterError(f"sea must be a Sea, got {described(sea)}")
@@ -94,14 +102,19 @@ class Cascade:
             sum(memory_needed(grid, computation.dtype) for grid in grids),
         )
         _warn_of_short_loops(sea, shared, loops)
-        oceans, parts = [], parts_of_sea(sea)
+        oceans: list[Ocean] = []
+        parts = parts_of_sea(sea)
         for grid, own, band, period in zip(
             grids, tile_seeds(seed, grids), shared, loops, strict=True
         ):
             waves = seed_amplitudes(
                 sea, grid, seed=own, loop=period, draw=amplitudes, band=band, parts=parts
             )
-            oceans.append(from_amplitudes(sea, own, waves, choppiness, computation))
+            second = bound_by_order(
+                order if not oceans else 1, bound, waves, choppiness, computation
+            )
+            oceans.append(from_amplitudes(sea, own, waves, choppiness, computation, second))
+        require_plausible(sea, stacklevel=2)
         self._set_up(sea, seed, tuple(oceans))
 
     def _set_up(self, sea: Sea | None, seed: int | None, oceans: tuple[Ocean, ...]) -> None:
@@ -153,9 +166,30 @@ class Cascade:
         return self.loops[0] if len(set(self.loops)) == 1 else None
 
     @property
+    def rarity(self) -> Rarity | None:
+        """Rarity of the values that `fo.constrained` made the sum of tiles have, or None."""
+        return self.oceans[0].rarity
+
+    @property
     def variance(self) -> float:
         """m0 of all tiles together, the mean over seeds [m^2]."""
         return sum(ocean.amplitudes.variance for ocean in self.oceans)
+
+    @property
+    def order(self) -> int:
+        """1 for linear waves, 2 if the largest tile has waves of second order."""
+        return self.oceans[0].order
+
+    @property
+    def bound(self) -> int:
+        """Largest number of waves whose pairs have bound waves; 0 at order 1."""
+        return self.oceans[0].bound
+
+    def linear(self) -> "Cascade":
+        """Return the cascade of the same waves without second order; this one if it has none."""
+        if self.order == 1:
+            return self
+        return from_oceans(self.sea, self.seed, tuple(ocean.linear() for ocean in self.oceans))
 
     def modes(self) -> Modes:
         """Return every wave of every tile, as `Ocean.modes`, the largest tile's first."""

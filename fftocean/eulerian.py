@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from fftocean.amplitudes import refined
+from fftocean.amplitudes import refined, refined_gain
 from fftocean.arrays import Real
 from fftocean.errors import ParameterError, described
 from fftocean.fields import EIGHT, GEOMETRY
@@ -275,7 +275,11 @@ def _spline_ocean(ocean: Ocean, finer: Grid) -> Ocean:
     """
     Return an ocean whose frames are the quintic spline coefficients of another's fields.
     """
-    return ocean.with_amplitudes(refined(ocean.amplitudes, finer, ocean.grid.active, _response))
+    grid = ocean.grid
+    return ocean.spectrally_scaled(
+        refined(ocean.amplitudes, finer, grid.active, _response),
+        refined_gain(grid, finer, grid.active, _response),
+    )
 
 
 def _response(cycles: Real) -> Real:

@@ -10,6 +10,7 @@ import hashlib
 import json
 import os
 import stat
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,19 @@ def write_whole(path: Path, data: bytes | memoryview) -> str:
     Raises:
         OutputError: the file could not be written; no temporary file is left.
     """
+    return write_parts(path, (data,))
+
+
+def write_parts(path: Path, parts: Iterable[bytes | memoryview]) -> str:
+    """
+    Write a file that is made part by part, so that it is either complete or absent; return its
+    SHA-256.
+
+    Raises:
+        OutputError: the file could not be written; no temporary file is left, nor if making a part
+            raises.
+    """
+    sha256 = hashlib.sha256()
     temporary = path.with_name(
         f".{path.name}.{os.getpid()}-{os.urandom(4).hex()}.tmp"
     )  # two hosts may have one process number
@@ -51,9 +65,11 @@ def write_whole(path: Path, data: bytes | memoryview) -> str:
                 0o666,
             )
             with os.fdopen(descriptor, "wb", buffering=0) as file:
-                view = memoryview(data)
-                while view:
-                    view = view[file.write(view) :]
+                for part in parts:
+                    sha256.update(part)
+                    view = memoryview(part).cast("B")
+                    while view:
+                        view = view[file.write(view) :]
                 os.fsync(file.fileno())
             temporary.replace(path)
         except BaseException:
@@ -62,7 +78,7 @@ def write_whole(path: Path, data: bytes | memoryview) -> str:
             raise
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
-    return digest(data)
+    return sha256.hexdigest()
 
 
 def digest(data: bytes | memoryview) -> str:

@@ -27,7 +27,7 @@ from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
 from fftocean.fields import DISPLACEMENT_GRADIENT, potential_factor
-from fftocean.foam_coverage import threshold_for
+from fftocean.foam_coverage import COVERAGE, threshold_for, threshold_of_coverage
 from fftocean.frame import Frame
 from fftocean.kernels import foam as kernel
 from fftocean.kernels import surface
@@ -48,7 +48,8 @@ class Foam:
     waves of a 10 m/s wind cover about 1 % of the sea (Monahan & O'Muircheartaigh 1980), at
     choppiness 1 and samples 0.8 m apart. The eigenvalues of linear waves hardly depend on the wind,
     but they do on choppiness and on the shortest wave: with finer samples or more choppiness use a
-    lower threshold, for storms a higher one. `from_wind` finds it.
+    lower threshold, for storms a higher one. `whitecaps` finds it for a wind, and `covering` for a
+    share of the water, whatever the samples and the choppiness.
     """
 
     tau: float = 3.5  # time in which foam decays to 1/e [s]
@@ -61,7 +62,38 @@ class Foam:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
 
     @classmethod
-    def from_wind(
+    def covering(
+        cls,
+        source: Cascade | Ocean,
+        fraction: float,
+        *,
+        tau: float = 3.5,
+        strength: float = 60.0,
+        shortest: float = 0.0,
+    ) -> "Foam":
+        """
+        Return the foam that covers a share of some water, on average over space and time.
+
+        The threshold follows from the covariance of the stretches, a sum over the waves; no frame
+        is computed. The foam of frames covers the share within a tenth or so.
+
+        Args:
+            source: the water; its choppiness and its shortest waves matter, its samples do not.
+            fraction: share of the water, 0 to 0.95; with 0 there is no foam.
+            tau, strength: as of `Foam`.
+            shortest: waves shorter than this are left out [m], as by `Window`.
+
+        Raises:
+            ParameterError: no cascade or ocean, or a value out of range.
+        """
+        COVERAGE.check("fraction", fraction)
+        threshold = threshold_of_coverage(
+            source, fraction, tau=tau, strength=strength, shortest=shortest
+        )
+        return cls(tau=tau, threshold=threshold, strength=strength)
+
+    @classmethod
+    def whitecaps(
         cls,
         source: Cascade | Ocean,
         wind_speed: float,
@@ -73,8 +105,7 @@ class Foam:
         """
         Return the foam that covers as much of some water as whitecaps cover in a wind, on average.
 
-        The share is 2.95e-6 U^3.52 (Monahan & O'Muircheartaigh 1980), within a tenth or so for
-        winds from 7 to 20 m/s.
+        The share is 3.84e-6 U^3.41 (Monahan & O'Muircheartaigh 1980), at most 0.95.
 
         Args:
             source: the water; its choppiness and its shortest waves matter, its samples do not.
@@ -87,6 +118,19 @@ class Foam:
         """
         threshold = threshold_for(source, wind_speed, tau=tau, strength=strength, shortest=shortest)
         return cls(tau=tau, threshold=threshold, strength=strength)
+
+    @classmethod
+    def from_wind(
+        cls,
+        source: Cascade | Ocean,
+        wind_speed: float,
+        *,
+        tau: float = 3.5,
+        strength: float = 60.0,
+        shortest: float = 0.0,
+    ) -> "Foam":
+        """Return `whitecaps`: the earlier name."""
+        return cls.whitecaps(source, wind_speed, tau=tau, strength=strength, shortest=shortest)
 
     def loop(self, ocean: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
         """

@@ -77,6 +77,19 @@ class _Arrays:
             other._arrays,
         )
 
+    def _repr_html_(self) -> str:
+        """Return the fields and an image of the height for notebooks."""
+        from fftocean import notebook_html
+
+        rows = [
+            ("samples", f"{self.grid.nx} x {self.grid.ny}"),
+            ("fields", ", ".join(self._arrays)),
+        ]
+        shown = notebook_html.table(f"{type(self).__name__} at t = {self.t:g} s", rows)
+        if "height" not in self._arrays:
+            return shown
+        return shown + notebook_html.image(self._arrays["height"], "height, north up")
+
     def __repr__(self) -> str:
         size = f"{self.grid.nx} x {self.grid.ny}"
         return f"{type(self).__name__}(t={self.t}, {size}, {', '.join(self._arrays)})"
@@ -106,7 +119,8 @@ class Frame(_Arrays):
     Sample [iy, ix] is the water whose rest position is (x, y) of the grid. Fields that were not
     asked for raise `FieldError`. Displacements, stretches and horizontal velocities are
     those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height),
-    where c is `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
+    where c is `choppiness`, and itself moves with (c velocity_x, c velocity_y, velocity_z), while
+    velocity_* is that of the water there, whatever c.
     """
 
     __slots__ = ()
@@ -144,8 +158,8 @@ class EulerianFrame(_Arrays):
 
     Sample [iy, ix] is the water that is at (x, y) of the grid at time t. The surface is at (x, y,
     height): height, slope_x, slope_y and normal are those of a height field over world x and y.
-    jacobian and velocity_* belong to the water particle at that position; horizontal velocities are
-    before `choppiness`. There are no displacements and no stretches.
+    jacobian and velocity_* belong to the water at that position; the velocities are those of the
+    water, before `choppiness`. There are no displacements and no stretches.
     """
 
     __slots__ = ()

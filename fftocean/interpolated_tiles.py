@@ -41,7 +41,7 @@ class InterpolatedTiles:
         self._spline, self._shortest, self._threads = spline, shortest, threads
         self._plain = used
         self._oceans = (
-            [self._filtered(ocean, 1.0) for ocean in used] if spline or shortest > 0.0 else used
+            [self._filtered(ocean) for ocean in used] if spline or shortest > 0.0 else used
         )
         self._accelerated: list[Ocean] | None = None
         self._choppiness = oceans[0].choppiness
@@ -63,19 +63,20 @@ class InterpolatedTiles:
         self._lock, self._process = threading.Lock(), Process()
         self._last = _TexelGroups(math.nan)
 
-    def _filtered(self, ocean: Ocean, gain: "float | Real") -> Ocean:
+    def _filtered(self, ocean: Ocean, rate: int = 0) -> Ocean:
         """
-        Return an ocean without short waves, whose texels are spline coefficients times a gain.
+        Return an ocean without short waves, whose texels are spline coefficients.
 
         Args:
             ocean: the tile.
-            gain: factor on the waves, (ny, nx // 2 + 1) or one number.
+            rate: time derivatives, 0 or 2.
         """
         a, grid = ocean.amplitudes, ocean.grid
-        factor = gain * _kept(ocean, self._shortest)
+        gain = 1.0 * _kept(ocean, self._shortest)
         if self._spline:
-            factor = factor / interpolate.spline_response(grid.mx / grid.nx)[None, :]
-            factor = factor / interpolate.spline_response(grid.my / grid.ny)[:, None]
+            gain = gain / interpolate.spline_response(grid.mx / grid.nx)[None, :]
+            gain = gain / interpolate.spline_response(grid.my / grid.ny)[:, None]
+        factor = gain if rate == 0 else -(a.running_omega**2) * gain
         forward, backward = (np.asfortranarray(h * factor) for h in (a.forward, a.backward))
         energies = a.variance_forward * factor**2, a.variance_backward * factor**2
         changed = replace(
@@ -85,13 +86,22 @@ class InterpolatedTiles:
             variance_forward=energies[0],
             variance_backward=energies[1],
         )
-        return ocean.with_amplitudes(changed, planning="estimate", threads=self._threads)
+        return ocean.spectrally_scaled(
+            changed, gain, rate, planning="estimate", threads=self._threads
+        )
+
+    def growth(self, _t: float) -> float:
+        """Return the factor on all waves at a time: 1."""
+        return 1.0
 
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
         if not self._process.is_current:
             self._lock, self._process = threading.Lock(), Process()
-        groups = ["motion", *(group for group, name in _GROUPS.items() if name in fields)]
+        groups = [
+            "motion",
+            *(group for group, names in _GROUPS.items() if set(names) & set(fields)),
+        ]
         with self._lock:
             if self._last.t != t:
                 self._last = _TexelGroups(t)
@@ -142,9 +152,12 @@ class InterpolatedTiles:
                             interpolate.bilinear(channels, u, v, total)
             if "geometry" in sums:
                 write_normals(sums["geometry"], c, out.arrays["normals"])
-            for group, name in (("velocity", "velocities"), ("acceleration", "accelerations")):
-                if group in sums:
-                    out.arrays[name][:] = sums[group] * (c, c, 1.0)
+            for group in ("velocity", "acceleration"):
+                of_water, of_surface = _GROUPS[group]
+                if of_water in fields:
+                    out.arrays[of_water][:] = sums[group]
+                if of_surface in fields:
+                    out.arrays[of_surface][:] = sums[group] * (c, c, 1.0)
 
         return find
 
@@ -166,10 +179,7 @@ class InterpolatedTiles:
                 )
             elif group == "acceleration":
                 if self._accelerated is None:
-                    self._accelerated = [
-                        self._filtered(ocean, -(ocean.amplitudes.running_omega**2))
-                        for ocean in self._plain
-                    ]
+                    self._accelerated = [self._filtered(ocean, rate=2) for ocean in self._plain]
                 texels.groups[group] = [
                     _side_by_side(ocean.frame(texels.t, MOTION), MOTION)
                     for ocean in self._accelerated
@@ -203,7 +213,12 @@ def _workspace(tiles: int) -> tuple[npt.NDArray[Any], ...]:
     )
 
 
-_GROUPS = {"geometry": "normals", "velocity": "velocities", "acceleration": "accelerations"}
+_GROUPS = {
+    "geometry": ("normals",),
+    "velocity": ("velocities", "surface_velocities"),
+    "acceleration": ("accelerations", "surface_accelerations"),
+}
+"""The fields of an answer that each group of texels gives: of the water, then of the surface."""
 _CHANNELS = {
     "motion": MOTION,
     "geometry": GEOMETRY,

@@ -3,25 +3,28 @@
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from fftocean import mean_motion
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, brief_repr
+from fftocean.bound_waves import ELEVATION, POTENTIAL
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
 from fftocean.errors import ParameterError
 from fftocean.gerstner.waves import Waves
+from fftocean.kernels import bound
 from fftocean.kernels import query as kernels
-from fftocean.limits import THREADS, TIME
+from fftocean.limits import ORDER, THREADS, TIME
 from fftocean.ocean import Ocean
 from fftocean.points import as_coordinates, group_by_time
 from fftocean.wave_list import WaveList, as_tiles, list_waves
 
-STRETCHINGS = ("none", "vertical", "wheeler")
+STRETCHINGS = ("none", "vertical", "extrapolation", "wheeler")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,6 +56,7 @@ def at(
     shortest: float = 0.0,
     depth: float | None = None,
     threads: int = 1,
+    order: int | None = None,
 ) -> Kinematics:
     """
     Return velocity, acceleration and dynamic pressure of the water at points (x, y, z) and times t.
@@ -69,32 +73,44 @@ def at(
 
     The theory ends at z = 0. Stretching extends it to the crests above:
 
-        none        water fills all below z = 0, and nothing above
-        vertical    above z = 0 all values are those at z = 0
-        wheeler     the profile between bed and z = 0 is stretched to that between bed and surface:
-                    it is evaluated at h (z - height)/(h + height), in deep water z - height
+        none            water fills all below z = 0, and nothing above
+        vertical        above z = 0 all values are those at z = 0
+        extrapolation   above z = 0 every profile goes on along its tangent at z = 0
+        wheeler         the profile between bed and z = 0 is stretched to that between bed and
+                        surface: it is evaluated at h (z - height)/(h + height), in deep water
+                        z - height
 
-    With Wheeler's stretching the pressure at the surface itself is rho g height, as it should be;
-    with vertical, in the crests. (Exactly so for waves that obey the dispersion relation without
-    surface tension; on a loop, omega is rounded, and the pressure is that of the rounded waves.)
+    The pressure at the surface should be rho g height, which with the hydrostatic part is that of
+    the air. It is so everywhere with Wheeler's stretching, and in the crests with vertical: in the
+    troughs, where the surface lies below z = 0, vertical and extrapolation leave linear theory as
+    it is, and the pressure differs by the square of the steepness; so does that of extrapolation
+    in the crests. (Exactly so for waves that obey the dispersion relation without surface tension;
+    on a loop, omega is rounded, and the pressure is that of the rounded waves.) Velocities at
+    crests rise from Wheeler's over vertical to extrapolation.
 
     Args:
         source: an `Ocean`; a `Cascade`; `Modes`, as `ocean.modes()`; or a few-wave model, read as
             deep water linear waves.
         x, y, z: points [m], z up from the mean level; any shapes that broadcast.
         t: times [s]; they broadcast with the points.
-        stretching: "none", "vertical" or "wheeler".
+        stretching: "none", "vertical", "extrapolation" or "wheeler".
         shortest: wavelength below which waves are left out [m].
         depth: still-water depth of `Modes` [m], None is deep water; the other sources have their
             own.
         threads: number of threads that share the points.
+        order: 1 or 2; None for that of the source. An ocean of order 2 adds, below the surface, the
+            potential of its waves of second order: to velocities, to accelerations (which remain
+            those at a fixed point), and to the pressure, which then has -rho u^2/2 too.
+            The expansion is about z = 0: "none" and "extrapolation" keep it in order.
 
     Raises:
-        ParameterError: a source without waves, or one that starts from rest; an unknown stretching;
-            values that are not numbers; shapes that do not broadcast.
+        ParameterError: order 2 of a source of order 1; a source without waves, or one that starts
+            from rest; an unknown stretching; values that are not numbers; shapes that do not
+            broadcast.
 
     Source: Dean & Dalrymple, Water Wave Mechanics (1991), ch. 3 and 4; Wheeler 1970 (Journal of
-    Petroleum Technology 22).
+    Petroleum Technology 22); extrapolation: Forristall 1981 (J. Waterway, Port, Coastal and Ocean
+    Div. 107), DNV-RP-C205, 3.3.3.
     Pinned by tests/test_kinematics.py: Laplace, Euler and Bernoulli, the two boundary conditions,
     Stokes drift.
     """
@@ -103,11 +119,14 @@ def at(
             f"stretching must be one of {', '.join(STRETCHINGS)}, got {stretching!r}"
         )
     waves = list_waves(source, depth=depth, shortest=shortest)
-    if waves.model is not None and waves.model.tau > 0.0:
-        raise ParameterError(
-            "waves that start from rest do not obey linear theory: "
-            f"tau must be 0, got {waves.model.tau}"
-        )
+    _require_steady(waves)
+    if order is not None:
+        if ORDER.check("order", order) == 2 and waves.bound is None:
+            raise ParameterError(
+                "order 2 needs an ocean or a cascade that has it: Ocean(..., order=2), "
+                f"got {source!r:.80}"
+            )
+        waves = waves if order == 2 else replace(waves, bound=None)
     points = [
         as_coordinates(name, values) for name, values in (("x", x), ("y", y), ("z", z), ("t", t))
     ]
@@ -160,6 +179,7 @@ _BLOCK = 256  # points at a time
 def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Real, Real], Real]:
     """Return the function of points at one time, to velocity ... height, (points, 8)."""
     tiles = as_tiles(waves, t)
+    second = None if waves.bound is None else _SecondOrder(waves, t)
 
     def work(x: Real, y: Real, z: Real) -> Real:
         out = np.empty((x.size, 8))
@@ -169,6 +189,8 @@ def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Re
             np.empty((x.size, 7)),
         )
         kernels.sum_heights(tiles, x, y, origin, height)
+        if second is not None:
+            height += second.heights(x, y)
         level = np.clip(_read_at(z, height, waves.depth, stretching), -waves.depth, 0.0)
         kernels.sum_below(
             tiles,
@@ -180,10 +202,45 @@ def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Re
             origin,
             moved,
         )
+        if stretching == "extrapolation":
+            _extrapolate(waves, tiles, x, y, z, moved)
+        if second is not None:
+            second.add(x, y, level, moved)
         out[:, :7], out[:, 7] = moved, height
         return out
 
     return work
+
+
+class _SecondOrder:
+    """Elevation and potential of the waves of second order at one time."""
+
+    def __init__(self, waves: WaveList, t: float) -> None:
+        assert waves.bound is not None  # asked by the caller
+        elevation = waves.bound.cells(ELEVATION, t, beyond=True)
+        kept = np.hypot(elevation.kx, elevation.ky) * waves.shortest <= 2.0 * np.pi
+        potential = waves.bound.cells(POTENTIAL, t, (0, 1), beyond=True)
+        self._elevation, self._potential = elevation.kept(kept), potential.kept(kept)
+        self._size, self._depth = waves.sizes[0], waves.depth
+
+    def heights(self, x: Real, y: Real) -> Real:
+        """Return the elevation at points [m]."""
+        out = np.empty((x.size, 1))
+        cells = self._elevation
+        bound.sum_cells(cells.kx, cells.ky, cells.parts(), *self._within(x, y), out)
+        return out[:, 0]
+
+    def add(self, x: Real, y: Real, z: Real, moved: Real) -> None:
+        """Add to velocity, acceleration and -d potential/dt - |velocity|^2/2, (points, 7)."""
+        out, cells = np.empty((x.size, 7)), self._potential
+        place = (*self._within(x, y), z)
+        bound.sum_below(cells.kx, cells.ky, cells.parts(), self._depth, *place, out)
+        out[:, 6] -= 0.5 * np.sum(moved[:, :3] ** 2, axis=1)
+        moved += out
+
+    def _within(self, x: Real, y: Real) -> tuple[Real, Real]:
+        """Return the points within the tile."""
+        return np.remainder(x, self._size[0]), np.remainder(y, self._size[1])
 
 
 def _read_at(z: Real, height: Real, depth: float, stretching: str) -> Real:
@@ -196,3 +253,69 @@ def _read_at(z: Real, height: Real, depth: float, stretching: str) -> Real:
     # A trough that bares the bed has no water above it.
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(column > 0.0, depth * (z - height) / column, -depth)
+
+
+def _extrapolate(
+    waves: WaveList, tiles: tuple[Any, ...], x: Real, y: Real, z: Real, moved: Real
+) -> None:
+    """Add the rise along the tangent at z = 0 to points above it, in place; (points, 7)."""
+    above = np.flatnonzero(z > 0.0)
+    rises = np.empty((above.size, 7))
+    origin = np.empty(waves.sizes.shape)
+    kernels.sum_rises(tiles, waves.omega, waves.depth, x[above], y[above], origin, rises)
+    moved[above] += z[above, None] * rises
+
+
+def stokes_drift(
+    source: Ocean | Cascade | Waves | Modes | Any,
+    z: RealLike = 0.0,
+    *,
+    shortest: float = 0.0,
+    depth: float | None = None,
+) -> Real:
+    """
+    Return the Stokes drift at levels z: the mean velocity of the water particles there, to the
+    second power of the steepness.
+
+    Each wave of amplitude a carries the water along its own direction, h being the depth, by
+
+        a^2 omega k cosh 2k(z + h) / (2 sinh^2 kh),     in deep water a^2 omega k e^{2kz},
+
+    and those of all waves add up in the mean over place and time. This is the drift of the waves
+    that the source has, of this seed; waves too short for its tiles, or below `shortest`, carry a
+    large part of the drift at the surface itself. The mean flow at fixed points is 0 in this
+    theory: a current, or the return flow of a closed basin, is to be added.
+
+    Args:
+        source: as in `at`.
+        z: levels [m], any shape, up from the still water. Above 0 the drift is that at 0, below
+            the bed it is 0.
+        shortest: wavelength below which waves are left out [m].
+        depth: of `Modes` [m], as in `at`.
+
+    Returns:
+        (..., 3): x, y and z of the drift, the last always 0 [m/s]; NaN where z is not a number.
+
+    Raises:
+        ParameterError: as `at`.
+
+    Source: Stokes 1847; finite depth: Dean & Dalrymple (1991), sec. 10.2.
+    Pinned by tests/test_kinematics.py: the closed form on one wave, and particles that follow
+    `at` through the water.
+    """
+    waves = list_waves(source, depth=depth, shortest=shortest)
+    _require_steady(waves)
+    levels = as_coordinates("z", z)
+    out = np.zeros((*levels.shape, 3))
+    out[..., :2] = mean_motion.stokes_drift(waves, levels.reshape(-1)).reshape((*levels.shape, 2))
+    out[np.isnan(levels)] = np.nan
+    return out
+
+
+def _require_steady(waves: WaveList) -> None:
+    """Raise if a model starts from rest."""
+    if waves.model is not None and waves.model.tau > 0.0:
+        raise ParameterError(
+            "waves that start from rest do not obey linear theory: "
+            f"tau must be 0, got {waves.model.tau}"
+        )

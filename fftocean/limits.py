@@ -284,3 +284,5 @@ BAND_START = Quantity("rad/m", 0.0, 1e9)
 THREADS = Count("", 1, 1024)
 FRAMES = Count("", 1, 10**6)
 MOMENTS = Count("", 1, 2**32)  # of a loop: at 60 a second, two years
+ORDER = Count("", 1, 2)
+BOUND_WAVES = Count("", 0, 8192)  # 8192 have 67 million pairs, 270 MB in single precision

@@ -12,24 +12,39 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike
+from fftocean.bound_waves import BoundWaves, PhaseFunction, Shown, bound_waves
 from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
+from fftocean.fixed_values import Rarity
 from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
 from fftocean.kernels import passes
-from fftocean.limits import BAND_EDGE, BAND_START, CHOPPINESS, LOOP, MOMENTS, TIME
+from fftocean.limits import (
+    BAND_EDGE,
+    BAND_START,
+    BOUND_WAVES,
+    CHOPPINESS,
+    LOOP,
+    MOMENTS,
+    ORDER,
+    TIME,
+)
 from fftocean.lookahead import run_in_order
 from fftocean.physics import dispersion
+from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
-from fftocean.synthesis import PhaseFunction, Synthesis
+from fftocean.synthesis import Synthesis
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
+
+BOUND = 1000
+"""Waves whose pairs have bound waves, unless another number is given."""
 
 _after_fork = threading.Lock()
 
@@ -65,6 +80,10 @@ class Ocean:
         backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
         planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
         threads: number of threads that share the work on one frame; the bytes do not depend on it.
+        order: 1 for linear waves; 2 adds the waves of second order that are bound to them, which
+            make crests higher and sharper, and troughs flatter: see docs/second_order.md.
+        bound: number of waves whose pairs have bound waves, the strongest by a^2 k. With 1000 they
+            hold about 0.93 of the skewness of a sea whose peak is a fifth of the tile.
 
     An ocean owns plans and buffers, and locks them while it computes. Threads can share an ocean,
     but only one of them computes at a time; give each its own to work in parallel. A fork waits
@@ -72,8 +91,8 @@ class Ocean:
     it inherits and make new ones.
 
     Raises:
-        ParameterError: a value out of range, a spectrum that is not finite and >= 0, or too little
-            memory.
+        ParameterError: a value out of range, a spectrum that is not finite and >= 0, a sea whose
+            troughs would bare the bed, or too little memory.
     """
 
     def __init__(
@@ -91,6 +110,8 @@ class Ocean:
         backend: str = "auto",
         planning: str = "estimate",
         threads: int = 1,
+        order: int = 1,
+        bound: int = BOUND,
     ) -> None:
         if not isinstance(sea, Sea):
             raise ParameterError(f"sea must be a Sea, got {described(sea)}")
@@ -111,7 +132,9 @@ class Ocean:
         self.seed: int | None = seed  # checked where it is used, next
         with no_fork():
             realised = seed_amplitudes(sea, grid, seed=seed, loop=loop, draw=amplitudes, band=band)
-        self._set_up(sea, realised, choppiness, computation)
+            second = bound_by_order(order, bound, realised, choppiness, computation)
+        self._set_up(sea, realised, choppiness, computation, second)
+        require_plausible(sea, stacklevel=2)
 
     @classmethod
     def from_modes(
@@ -128,6 +151,8 @@ class Ocean:
         backend: str = "auto",
         planning: str = "estimate",
         threads: int = 1,
+        order: int = 1,
+        bound: int = BOUND,
     ) -> "Ocean":
         """
         Return an ocean of given waves.
@@ -139,7 +164,8 @@ class Ocean:
                 up.
             depth: still-water depth [m].
             surface_tension: [N/m].
-            n, size, loop, choppiness, dtype, backend, planning, threads: as in `Ocean`.
+            n, size, loop, choppiness, dtype, backend, planning, threads, order, bound: as in
+                `Ocean`.
 
         Raises:
             ParameterError: a wave that the grid cannot hold, or a value out of range.
@@ -155,7 +181,8 @@ class Ocean:
         )
         ocean = cls.__new__(cls)
         ocean.seed = None  # nothing is random
-        ocean._set_up(None, amplitudes, choppiness, computation)
+        second = bound_by_order(order, bound, amplitudes, choppiness, computation)
+        ocean._set_up(None, amplitudes, choppiness, computation, second)
         return ocean
 
     def with_amplitudes(
@@ -166,6 +193,8 @@ class Ocean:
         choppiness: float | None = None,
         planning: str | None = None,
         threads: int | None = None,
+        order: int | None = None,
+        bound: int | None = None,
     ) -> "Ocean":
         """
         Return an ocean of other waves, with the seed and computation of this one.
@@ -177,7 +206,8 @@ class Ocean:
             amplitudes: the waves at t = 0, (ny, nx // 2 + 1) each [m]; see `Amplitudes`. Its
                 arrays become read-only.
             sea: the sea that they realise; None for that of this ocean.
-            choppiness, planning, threads: as in `Ocean`; None for those of this ocean.
+            choppiness, planning, threads, order, bound: as in `Ocean`; None for those of this
+                ocean.
 
         Raises:
             ParameterError: `amplitudes` or `sea` is of another type, fields overflow `dtype`, too
@@ -195,24 +225,65 @@ class Ocean:
         _require_memory(amplitudes.grid, self.dtype)
         sea = self.sea if sea is None else sea
         choppiness = self.choppiness if choppiness is None else choppiness
-        return from_amplitudes(sea, self.seed, amplitudes, choppiness, computation)
+        second = bound_by_order(
+            self.order if order is None else order,
+            (BOUND if self._bound is None else self.bound) if bound is None else bound,
+            amplitudes,
+            choppiness,
+            computation,
+        )
+        return from_amplitudes(sea, self.seed, amplitudes, choppiness, computation, second)
+
+    def spectrally_scaled(
+        self,
+        amplitudes: Amplitudes,
+        gain: Real,
+        rate: int = 0,
+        *,
+        planning: str | None = None,
+        threads: int | None = None,
+    ) -> "Ocean":
+        """
+        Return the same water with a factor on each of its cells, such as spline coefficients.
+
+        Args:
+            amplitudes: the scaled waves, on their own grid.
+            gain: factor on the waves of second order, (ny, nx // 2 + 1) of that grid.
+            rate: time derivatives of the waves of second order.
+            planning, threads: as in `Ocean`; None for those of this ocean.
+        """
+        scaled = self.with_amplitudes(amplitudes, planning=planning, threads=threads, order=1)
+        if self._bound is None:
+            return scaled
+        shown = Shown(self._bound.waves, gain, rate)
+        return from_amplitudes(
+            self.sea, self.seed, amplitudes, self.choppiness, scaled._computation, shown
+        )
+
+    def linear(self) -> "Ocean":
+        """Return the ocean of the same waves without second order; this one if it has none."""
+        return self if self._bound is None else self.with_amplitudes(self.amplitudes, order=1)
 
     def _set_up(
-        self, sea: Sea | None, amplitudes: Amplitudes, choppiness: float, computation: Computation
+        self,
+        sea: Sea | None,
+        amplitudes: Amplitudes,
+        choppiness: float,
+        computation: Computation,
+        bound: Shown | None = None,
     ) -> None:
         self.sea = sea
         self.amplitudes = amplitudes
         self.grid = amplitudes.grid
         self.choppiness = CHOPPINESS.check("choppiness", choppiness)
         self.dtype = computation.dtype
-        self._computation = computation
+        self._computation, self._bound = computation, bound
         self._require_range()
         with no_fork():
-            self._synthesis = Synthesis(amplitudes, computation)
-        self._frequency = _frequencies(amplitudes, self._synthesis.columns)
-        self._few_cycles = bool(np.max(self._frequency, initial=0.0) < 2.0**50)
+            self._synthesis = Synthesis(amplitudes, computation, bound)
+        self._few_cycles = bool(np.max(self._synthesis.frequency, initial=0.0) < 2.0**50)
         self._lock, self._process = threading.Lock(), Process()
-        self._recipe = (sea, self.seed, amplitudes, choppiness, computation)
+        self._recipe = (sea, self.seed, amplitudes, choppiness, computation, bound)
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Set an attribute once: a change would not reach the plans and tables."""
@@ -273,6 +344,39 @@ class Ocean:
         return self.amplitudes.loop
 
     @property
+    def rarity(self) -> Rarity | None:
+        """Rarity of the values that `fo.constrained` made these waves have, or None."""
+        return self.amplitudes.rarity
+
+    @property
+    def order(self) -> int:
+        """1 for linear waves, 2 with the waves of second order that are bound to them."""
+        return 1 if self._bound is None else 2
+
+    @property
+    def bound(self) -> int:
+        """Largest number of waves whose pairs have bound waves; 0 at order 1."""
+        return 0 if self._bound is None else self._bound.waves.most
+
+    @property
+    def bound_waves(self) -> BoundWaves | None:
+        """The waves of second order, or None."""
+        return None if self._bound is None else self._bound.waves
+
+    def parents(self) -> Modes:
+        """Return the waves whose pairs have bound waves, each (m,), float64; see `modes`."""
+        if self._bound is None:
+            return Modes(*np.zeros((5, 0)))
+        p, grid = self._bound.waves.parents, self.grid
+        return Modes(
+            kx=p.mx * grid.dkx,
+            ky=p.my * grid.dky,
+            amplitude=2.0 * np.abs(p.h0),
+            phase=-np.angle(p.h0),
+            omega=p.running,
+        )
+
+    @property
     def backend(self) -> str:
         """FFT library in use: "mkl", "pyfftw" or "scipy"."""
         return self._synthesis.backend
@@ -319,8 +423,8 @@ class Ocean:
         t = TIME.check("t", t)
         moment = t if self.loop is None else math.fmod(t, self.loop) / self.loop
 
-        def phase(columns: slice, out: Real) -> None:
-            passes.phases_at(self._frequency[columns], moment, out)
+        def phase(frequency: Real, out: Real) -> None:
+            passes.phases_at(frequency, moment, out)
 
         return self._render(t, fields, out, phase)
 
@@ -349,11 +453,11 @@ class Ocean:
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
 
-        def phase(columns: slice, out: Real) -> None:
+        def phase(frequency: Real, out: Real) -> None:
             if count <= 2**26 and self._few_cycles:
-                passes.phases_in_loop(self._frequency[columns], float(step), float(count), out)
+                passes.phases_in_loop(frequency, float(step), float(count), out)
             else:
-                passes.phases_in_fine_loop(self._frequency[columns], step, count, out)
+                passes.phases_in_fine_loop(frequency, step, count, out)
 
         return self._render(self.loop * step / count, fields, out, phase)
 
@@ -468,6 +572,27 @@ class Ocean:
                     self._process = Process()
         return self._lock
 
+    def _repr_html_(self) -> str:
+        """Return a table of the ocean and its surface at t = 0 for notebooks."""
+        from fftocean import notebook_html
+
+        g = self.grid
+        rows = [
+            ("samples", f"{g.nx} x {g.ny}"),
+            ("size", f"{g.lx:g} x {g.ly:g} m"),
+            ("depth", f"{self.depth:g} m"),
+            ("loop", "none" if self.loop is None else f"{self.loop:g} s"),
+            ("choppiness", f"{self.choppiness:g}"),
+            ("seed", "none: given waves" if self.seed is None else f"{self.seed}"),
+            ("dtype", self.dtype),
+        ]
+        shown = notebook_html.table("Ocean", rows)
+        if g.nx * g.ny > 2**20:  # an image is not worth a frame of a second
+            return shown
+        return shown + notebook_html.image(
+            self.frame(0.0, ["height"]).height, "height at t = 0, north up"
+        )
+
     def __repr__(self) -> str:
         g = self.grid
         return (
@@ -507,13 +632,30 @@ def from_amplitudes(
     amplitudes: Amplitudes,
     choppiness: float,
     computation: Computation,
+    bound: Shown | None = None,
 ) -> Ocean:
     """Return the ocean of given amplitudes, which `sea` and `seed` describe."""
     ocean = Ocean.__new__(Ocean)
     ocean.seed = seed
-    ocean._set_up(sea, amplitudes, choppiness, computation)
+    ocean._set_up(sea, amplitudes, choppiness, computation, bound)
     ocean.amplitudes.freeze()  # unpickled arrays are writeable again
     return ocean
+
+
+def bound_by_order(
+    order: Any, most: Any, amplitudes: Amplitudes, choppiness: float, computation: Computation
+) -> Shown | None:
+    """
+    Return the second-order waves of a tile, or None at order 1.
+
+    Raises:
+        ParameterError: an order or a number of waves out of range, and as `bound_waves`.
+    """
+    order, most = ORDER.check("order", order), BOUND_WAVES.check("bound", most)
+    if order == 1:
+        return None
+    choppiness = CHOPPINESS.check("choppiness", choppiness)
+    return Shown(bound_waves(amplitudes, choppiness, most, computation.dtype))
 
 
 def memory_needed(grid: Grid, dtype: str) -> float:
@@ -559,18 +701,3 @@ def _checked_band(band: Any) -> Band:
     if not low < high:
         raise ParameterError(f"band must rise, got {low:g} to {high:g} rad/m")
     return low, high
-
-
-def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
-    """
-    Return the frequency of each wave in cycles a second or, on a loop, a period; (columns, ny).
-
-    On a loop they are whole numbers. Their rounding to float64 is the only error of a phase.
-    """
-    if amplitudes.cycles is not None:
-        return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
-    frequency = np.empty((columns, amplitudes.grid.ny))
-    # The Nyquist column is left over.
-    for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
-        column[:] = dispersion.turns_per_second(omega)
-    return frequency

@@ -13,8 +13,10 @@ import numpy as np
 
 from fftocean import gerstner
 from fftocean.arrays import Integer, Real
+from fftocean.bound_waves import POTENTIAL
+from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, described
-from fftocean.fields import EIGHT, FIELDS
+from fftocean.fields import EIGHT, FIELDS, multiplier
 from fftocean.gerstner import Surface
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import Statistics, measure
@@ -53,7 +55,8 @@ class Check:
 
 def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
     """
-    Verify an ocean: all fields against the direct sum, seam, loop, Parseval, and energy.
+    Verify an ocean: all fields against the direct sum, seam, loop, Parseval, and energy; the fixed
+    values of a constrained one, whose energy is compared with that of seas that have them.
 
     Errors of fields are relative to the largest value of their kind in the frame (all
     displacements are one kind, all slopes another); errors of energies are relative to the
@@ -78,7 +81,9 @@ def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
         *_seam(ocean, t),
         *_loop(ocean),
         *_parseval(ocean, t),
+        *_fixed_values(ocean),
         *_energy(ocean, measure(ocean)),
+        *_free_surface(ocean),
     ]
 
 
@@ -221,6 +226,7 @@ def _loop(ocean: Ocean) -> Iterator[Check]:
 
 def _parseval(ocean: Ocean, t: float) -> Iterator[Check]:
     """Compare the variance of the height in space with the energies of its waves, with beats."""
+    ocean = ocean.linear()  # whose waves are independent of each other
     height = ocean.frame(t, fields=("height",)).height.astype(np.float64)
     waves = ocean.modes()
     mx = np.rint(waves.kx / ocean.grid.dkx).astype(int)
@@ -241,6 +247,68 @@ def _parseval(ocean: Ocean, t: float) -> Iterator[Check]:
     )
     level = abs(float(np.mean(height))) / max(float(np.max(np.abs(height))), _least(ocean))
     yield Check("mean level", "0", level, _tolerance(ocean, t), "k = 0 carries nothing")
+
+
+def _fixed_values(ocean: Ocean) -> Iterator[Check]:
+    """Compare the values that the waves were made to have with the direct sum at their places."""
+    fixes = ocean.amplitudes.fixed
+    if not fixes:
+        return
+    ocean = ocean.linear()  # the values are those of these waves
+    worst, omega = 0.0, float(np.max(ocean.modes().omega, initial=0.0))
+    for fix in fixes:
+        kind = [name for name in FIELDS if name.partition("_")[0] == fix.field.partition("_")[0]]
+        frame = ocean.frame(fix.t, kind)
+        largest = max(float(np.max(np.abs(frame[name]))) for name in kind)
+        found = getattr(gerstner.surface(ocean, fix.x, fix.y, fix.t), fix.field)
+        scale = max(largest, abs(fix.value), _least(ocean))
+        worst = max(worst, abs(float(found) - fix.value) / scale)
+    grid = ocean.grid
+    far = max(max(abs(f.x) / grid.lx * grid.nx, abs(f.y) / grid.ly * grid.ny) for f in fixes)
+    late = omega * max(abs(fix.t) for fix in fixes)
+    yield Check(
+        "fixed values",
+        "direct sum at their places",
+        worst,
+        1e-12 + 4.0 * np.finfo(np.float64).eps * (far + late),
+        "the rounding of k.x and omega t",
+    )
+
+
+def _conditional_energy(ocean: Ocean) -> tuple[float, float]:
+    """
+    Return the expected m0 of waves that have fixed values, and the tolerance of one realisation,
+    relative to it.
+
+    Conditioned on the values b, the amplitudes z of the waves have the mean E c* Lambda^-1 b and
+    the covariance that remains; half of the squares of both is the energy. To the tolerance of
+    `_likely` comes that of the products of the mean with the rest, Gaussian with the variance sum
+    of E |mean|^2.
+    """
+    a = ocean.amplitudes
+    kx, ky = np.broadcast_arrays(ocean.grid.kx[None, :], ocean.grid.ky[:, None])
+    ahead, against = a.variance_forward > 0.0, a.variance_backward > 0.0
+    against[:, 0] = False
+    energy = np.concatenate([a.variance_forward[ahead], a.variance_backward[against]])
+    kx, ky = (np.concatenate([k[ahead], -k[against]]) for k in (kx, ky))
+    omega = np.concatenate([a.running_omega[ahead], a.running_omega[against]])
+    rows = []
+    for fix in a.fixed:
+        field = FIELDS[fix.field]
+        phase = np.exp(1j * (kx * fix.x + ky * fix.y - omega * fix.t))
+        rows.append(multiplier(field, kx, ky, a.depth) * (-1j * omega) ** field.dt * phase)
+    c, b = np.array(rows), np.array([fix.value for fix in a.fixed])
+    covariance = np.real((c * energy) @ np.conj(c.T))
+    scale = np.sqrt(np.maximum(np.diagonal(covariance), np.finfo(np.float64).tiny))
+    inverse = np.linalg.pinv(covariance / np.outer(scale, scale), 1e-12, hermitian=True)
+    inverse /= np.outer(scale, scale)
+    mean = energy * (np.conj(c.T) @ (inverse @ b))
+    lost = np.real(np.sum((inverse @ c) * np.conj(c), axis=0)) * energy**2
+    expected = float(np.sum(energy) + 0.5 * np.sum(np.abs(mean) ** 2 - lost))
+    spread = math.sqrt(float(np.sum(energy**2))) + math.sqrt(
+        float(np.sum(energy * np.abs(mean) ** 2))
+    )
+    return expected, (4.0 * spread + 8.0 * float(np.max(energy))) / expected
 
 
 def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
@@ -267,7 +335,16 @@ def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
         1e-3,
         "the sum over cells against integrals along rays",
     )
-    if statistics.resolved > 0.0:
+    if statistics.resolved > 0.0 and ocean.amplitudes.fixed:
+        expected, tolerance = _conditional_energy(ocean)
+        yield Check(
+            "m0 of this realisation",
+            "m0 given the fixed values, averaged over seeds",
+            _relative(realised, expected),
+            tolerance,
+            "at most 1 seed in 1500 is further off",
+        )
+    elif statistics.resolved > 0.0:
         tolerance, reason = _likely(ocean)
         yield Check(
             "m0 of this realisation",
@@ -276,6 +353,100 @@ def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
             tolerance,
             reason,
         )
+
+
+_STEEPNESS = (0.02, 0.01)
+"""Sums of a k of the waves for which the conditions at the free surface are verified."""
+
+
+def _free_surface(ocean: Ocean) -> Iterator[Check]:
+    """
+    Verify that an ocean of order 2 obeys the exact conditions at the free surface to second order.
+
+    The strongest six of its waves, at the same choppiness and depth, are made ever less steep:
+    what the two conditions leave over falls as the third power of steepness. The pairs of linear
+    waves alone would leave the second.
+    """
+    if ocean.bound_waves is None or len(ocean.bound_waves) == 0:
+        return
+    # Stokes' expansion is one in steepness over (kh)^3, too.
+    waves = ocean.parents()
+    k = np.hypot(waves.kx, waves.ky)
+    chosen = np.argsort(-(waves.amplitude**2) * k, kind="stable")[:6]
+    small = min(1.0, float(np.min(k[chosen])) * ocean.depth) ** 3
+    left = [_residuals(ocean, chosen, small * steepness) for steepness in _STEEPNESS]
+    for name, large, less in zip(("kinematic", "dynamic"), *left, strict=True):
+        # waves of some symmetries leave over still less
+        falls = large / less if less > 0.0 else math.inf
+        exponent = math.log(falls) / math.log(_STEEPNESS[0] / _STEEPNESS[1])
+        yield Check(
+            f"{name} condition",
+            "residual as steepness^3",
+            max(3.0 - exponent, 0.0),
+            0.02,
+            "the exponent, at steepness 0.02 and 0.01; linear waves have 2",
+        )
+
+
+def _residuals(ocean: Ocean, chosen: Integer, steepness: float) -> tuple[float, float]:
+    """
+    Return what the kinematic [m/s] and the dynamic condition [m^2/s^2] leave over: the standard
+    deviation over the surface.
+
+    Args:
+        ocean: an ocean of order 2.
+        chosen: numbers of some of its `parents`.
+        steepness: sum of a k to which their amplitudes are scaled.
+    """
+    kx, ky, amplitude, phase, _ = (column[chosen] for column in ocean.parents())
+    k, h, grid, t = np.hypot(kx, ky), ocean.depth, ocean.grid, 0.37
+    amplitude = amplitude * (steepness / float(np.sum(amplitude * k)))
+    mx, my = np.rint(kx / grid.dkx).astype(int), np.rint(ky / grid.dky).astype(int)
+    water = Ocean.from_modes(
+        zip(mx.tolist(), my.tolist(), amplitude.tolist(), phase.tolist(), strict=True),
+        n=(4 * int(np.max(np.abs(mx))) + 16, 4 * int(np.max(np.abs(my))) + 16),
+        size=(grid.lx, grid.ly),
+        depth=h,
+        choppiness=ocean.choppiness,
+        dtype="float64",
+        order=2,
+    )
+    frame, c = water.frame(t, tuple(FIELDS)), water.choppiness
+    here = _points(water)[::-1]
+    value = {name: frame[name][here] for name in FIELDS}
+    x0, y0 = water.grid.x[here[1]], water.grid.y[here[0]]
+    x, y, z = x0 + c * value["displace_x"], y0 + c * value["displace_y"], value["height"]
+
+    # the potential: of the waves, phi = a g/omega sin(k.x - omega t - phase), and of the pairs
+    omega = np.sqrt(GRAVITY * k * (1.0 if math.isinf(h) else np.tanh(k * h)))
+    free = -1j * amplitude * GRAVITY / omega * np.exp(-1j * (omega * t + phase))
+    assert water.bound_waves is not None  # it is of order 2
+    pairs = water.bound_waves.cells(POTENTIAL, t, (0, 1))
+    kx, ky = np.append(kx, pairs.kx), np.append(ky, pairs.ky)
+    potential = np.append(free, pairs.values[0])
+    rate = np.append(-1j * omega * free, pairs.values[1])
+    k = np.hypot(kx, ky)
+    wave = np.exp(1j * (np.outer(x, kx) + np.outer(y, ky)))
+    if math.isinf(h):
+        level = slope = np.exp(np.outer(z, k))
+    else:
+        # cosh k(z + h)/cosh kh and sinh k(z + h)/cosh kh, without large numbers
+        rise, fall = np.exp(np.outer(z, k)), np.exp(-np.outer(z + 2.0 * h, k))
+        level, slope = ((rise + s * fall) / (1.0 + np.exp(-2.0 * k * h)) for s in (1.0, -1.0))
+    u, v = ((1j * m * potential * wave * level).sum(axis=1).real for m in (kx, ky))
+    w = (k * potential * wave * slope).sum(axis=1).real
+    phi_t = (rate * wave * level).sum(axis=1).real
+
+    # the surface moves along its normal as the water does
+    xx, xy, yy = (c * value[name] for name in ("stretch_xx", "stretch_xy", "stretch_yy"))
+    sx, sy = value["slope_x"], value["slope_y"]
+    normal = (xy * sy - (1.0 + yy) * sx, xy * sx - (1.0 + xx) * sy, (1.0 + xx) * (1.0 + yy) - xy**2)
+    moving = (c * value["velocity_x"] - u, c * value["velocity_y"] - v, value["velocity_z"] - w)
+    kinematic = sum(a * b for a, b in zip(normal, moving, strict=True))
+    dynamic = phi_t + 0.5 * (u * u + v * v + w * w) + GRAVITY * z
+    # less their means: k = 0 carries nothing, neither the level of a choppy surface (which opposite
+    # waves raise and lower) nor a pressure that is the same everywhere
+    return float(np.std(kinematic)), float(np.std(dynamic))
 
 
 def _likely(ocean: Ocean) -> tuple[float, str]:

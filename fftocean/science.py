@@ -392,6 +392,8 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "surface_tension": amplitudes.surface_tension,
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
+        "order": tiles[0].order if tiles[0].order > 1 else None,
+        "bound": tiles[0].bound if tiles[0].order > 1 else None,
         "amplitudes": amplitudes.draw,
         "seed": None
         if seed is None
@@ -399,20 +401,23 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "dtype": ocean.dtype,
         "backend": tiles[0].backend,
     }
+    if tiles[0].rarity is not None:
+        found["constrained"] = str(tiles[0].rarity)
     if len(tiles) > 1:
         found["tiles"] = "; ".join(
             f"{t.grid.nx} x {t.grid.ny} over {t.grid.lx:g} x {t.grid.ly:g} m" for t in tiles
         )
     for i, system in enumerate(ocean.sea.systems if ocean.sea is not None else (), 1):
         found[f"sea_system_{i}"] = repr(system)
-    specified, loop, folding = (
-        statistics.pop(name) or {} for name in ("specified", "loop", "folding")
+    specified, loop, folding, skewness = (
+        statistics.pop(name) or {} for name in ("specified", "loop", "folding", "skewness")
     )
     for prefix, numbers in (
         ("ordered", specified),  # the attributes' name in files of all versions
         ("measured", statistics),
         ("loop", loop),
         ("folding", folding),
+        ("skewness", skewness),
     ):
         found |= {f"{prefix}_{name}": value for name, value in numbers.items()}
     return {

@@ -19,8 +19,8 @@ from fftocean.fields import DISPLACEMENT_GRADIENT
 from fftocean.grid import Grid
 from fftocean.kernels import interpolate
 from fftocean.limits import FRAMES, LOOP
-from fftocean.ocean import Ocean
-from fftocean.physics import dispersion, moments
+from fftocean.ocean import Frame, Ocean
+from fftocean.physics import dispersion, moments, second_order
 from fftocean.physics.panels import (
     direction_panels,
     energetic_frequencies,
@@ -29,6 +29,7 @@ from fftocean.physics.panels import (
     parts_of,
 )
 from fftocean.physics.sea import Sea
+from fftocean.physics.second_order import Components
 from fftocean.physics.spreading import LongCrested
 from fftocean.products import Folding, folding_of
 
@@ -61,6 +62,23 @@ class LoopError:
 
 
 @dataclass(frozen=True, slots=True)
+class Skewness:
+    """
+    Skewness of the elevation over places, <eta^3>/<eta^2>^1.5, which linear waves have not.
+    """
+
+    specified: float | None  # of the sea, whose waves all interact; None for given waves [-]
+    resolved: float  # of the waves that have bound waves, averaged over seeds [-]
+    expected: float  # of the waves of this seed, averaged over time [-]
+    realised: float  # in the frames that were measured; one has few waves, and scatters [-]
+
+    @property
+    def share(self) -> float:
+        """Share of the specified skewness that the waves with bound waves have [-]."""
+        return self.resolved / self.specified if self.specified else 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Statistics:
     """
     Statistics of one realisation, beside those of the specified sea.
@@ -83,6 +101,7 @@ class Statistics:
     snapshot_error: float  # relative standard deviation of the variance of one frame [-]
     loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
     folding: Folding  # of the water at its choppiness, in the frames that were measured
+    skewness: Skewness | None = None  # of a sea of order 2 on one tile
 
     @property
     def ordered(self) -> SeaState | None:
@@ -119,7 +138,30 @@ class Statistics:
         }
         if math.isinf(self.folding.largest_choppiness):
             plain["folding"]["largest_choppiness"] = None
+        if self.skewness is None:
+            del plain["skewness"]
         return plain
+
+    def _repr_html_(self) -> str:
+        """Return a table of specified and realised statistics for notebooks."""
+        from fftocean import notebook_html
+
+        rows = []
+        for name, key, unit, digits in (
+            ("Hs", "hs", "m", 3),
+            ("Tp", "tp", "s", 3),
+            ("mean direction", "mean_direction", "degrees", 4),
+            ("spread", "spread", "degrees", 3),
+        ):
+            values = [
+                "" if state is None else f"{getattr(state, key):.{digits}g} {unit}"
+                for state in (self.specified, self)
+            ]
+            scatter = f"{self.hs_scatter:.2g} m" if key == "hs" else ""
+            rows.append((name, *values, scatter))
+        heads = ("", "specified", "realised", "expected scatter")
+        shown = notebook_html.table("Statistics", rows, heads=heads)
+        return shown + notebook_html.line(str(self.folding))
 
     def __repr__(self) -> str:
         specified = "" if self.specified is None else f" of {self.specified.hs:.3g} m specified"
@@ -155,6 +197,7 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
     """
     if not isinstance(ocean, (Ocean, Cascade)):
         raise ParameterError(f"ocean must be an Ocean or a Cascade, got {described(ocean)}")
+    given, ocean = ocean, ocean.linear()
     tiles = ocean.oceans if isinstance(ocean, Cascade) else (ocean,)
     forward, backward, omega, theta = (
         np.concatenate(column) for column in zip(*map(_measured_waves, tiles), strict=True)
@@ -185,7 +228,57 @@ def measure(ocean: Ocean | Cascade, *, frames: int = 1) -> Statistics:
         if len(tiles) > 1 or ocean.loop is None
         else loop_error(first.amplitudes, ocean.loop),
         folding=folding_over(tiles, FRAMES.check("frames", frames), 10.0 * tp),
+        skewness=_skewness(given, frames, 10.0 * tp) if isinstance(given, Ocean) else None,
     )
+
+
+def _skewness(ocean: Ocean, frames: int, span: float) -> Skewness | None:
+    """Return the skewness of an ocean of order 2; frames as in `folding_over`."""
+    if ocean.bound_waves is None:
+        return None
+    report = ocean.bound_waves.report
+    period = span if ocean.loop is None else ocean.loop
+    moments = np.zeros(4)
+    for j in range(frames):
+        moments += _area_moments(ocean.frame(j * period / frames, ("height", "jacobian")))
+    first, second, third = (moments[1:] / moments[0]).tolist()
+    variance = second - first**2
+    central = third - 3.0 * first * second + 2.0 * first**3
+    return Skewness(
+        specified=None if ocean.sea is None else sea_skewness(ocean.sea),
+        resolved=report.skewness,
+        expected=report.realised,
+        realised=central / variance**1.5 if variance > 0.0 else 0.0,
+    )
+
+
+def _area_moments(frame: Frame) -> Real:
+    """
+    Return the sums of 1, height, its square and its cube, over equal areas of the still level.
+
+    A sample of the displaced surface stands for an area in proportion to its Jacobian. The lower
+    sheet of a fold counts negative, so that of three sheets one is left.
+    """
+    height, area = frame.height.astype(np.float64), frame.jacobian.astype(np.float64)
+    return np.array([float(np.sum(area * height**power)) for power in range(4)])
+
+
+def sea_skewness(sea: Sea) -> float:
+    """
+    Return the skewness of the surface elevation of a sea at second order [-].
+
+    Frequencies and directions are taken together in classes of equal ratio and of equal angle, of
+    their mean wavenumber each; more and finer ones change it by 0.3 %.
+
+    Source: Longuet-Higgins 1963.
+    """
+    variance, omega, theta = _classes(sea)
+    if variance.size == 0:
+        return 0.0
+    # kernels are those of gravity waves
+    k = dispersion.wavenumber(omega, sea.depth)
+    waves = Components(k * np.cos(theta), k * np.sin(theta), omega)
+    return second_order.skewness(waves, variance, sea.depth)
 
 
 _WIDTHS = 1000.0
@@ -288,6 +381,55 @@ def outside_band(sea: Sea, grid: Grid, band: Band = WHOLE) -> tuple[float, float
     return below, max(sea.variance - cells.inside(*outer, (0.0, band[1])), 0.0)
 
 
+_RATIO, _ANGLES = 1.1, 32
+"""Frequencies of a class, the last over the first; classes of direction."""
+_NEGLIGIBLE = 1e-6
+"""Share of the variance of the largest class, below which a class is left out."""
+
+
+def _classes(sea: Sea) -> tuple[Real, Real, Real]:
+    """
+    Return variance [m^2], frequency [rad/s] and direction [rad] of classes of a sea's waves.
+    """
+    columns: list[tuple[Real, Real, Real]] = []
+    for whole in sea.systems:
+        for share, system in parts_of(whole):
+            edges = frequency_panels(system).edges
+            omega, d_omega = (a.ravel() for a in gauss(edges[:-1], edges[1:]))
+            energy = share * system.spectrum(omega) * d_omega
+            some = energy > 1e-12 * np.max(energy, initial=0.0)
+            if not np.any(some):
+                continue
+            omega, energy = omega[some], energy[some]
+            theta: Real
+            if isinstance(system.spreading, LongCrested):
+                theta, spread = np.zeros(1), np.ones((omega.size, 1))
+            else:
+                panels = direction_panels(system, energetic_frequencies(system, edges)[0]).edges
+                theta, weight = (a.ravel() for a in gauss(panels[:-1], panels[1:]))
+                peak = float(system.spectrum.peak)
+                spread = weight * system.spreading(omega[:, None], theta, peak)
+            variance = energy[:, None] * spread
+            columns.append(
+                (
+                    variance.ravel(),
+                    np.repeat(omega, theta.size),
+                    np.tile(theta + math.radians(system.direction % 360.0), omega.size),
+                )
+            )
+    if not columns:
+        return np.zeros(0), np.zeros(0), np.zeros(0)
+    variance, omega, angle = (np.concatenate(column) for column in zip(*columns, strict=True))
+    along = np.floor(np.log(omega / np.min(omega)) / math.log(_RATIO)).astype(np.int64)
+    around = np.floor(angle / (2.0 * np.pi / _ANGLES)).astype(np.int64) % _ANGLES
+    number = along * _ANGLES + around
+    total = np.bincount(number, variance).astype(np.float64)
+    some = total > _NEGLIGIBLE * np.max(total, initial=0.0)
+    mean: Real = np.bincount(number, variance * omega)[some] / total[some]
+    east, north = (np.bincount(number, variance * f(angle))[some] for f in (np.cos, np.sin))
+    return total[some], mean, np.arctan2(north, east)
+
+
 def _polar(sea: Sea) -> tuple[Real, Real]:
     """
     Return the sea's variance by direction, with the directions [rad]; two arrays of one shape.
@@ -372,7 +514,7 @@ def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     total = float(np.sum(forward) + np.sum(backward))
     if not total > 0.0:
         return 0.0, 0.0
-    if tiles[0].draw != "gaussian":
+    if tiles[0].draw in ("fixed", "given"):
         return 0.0, math.sqrt(2.0 * float(np.sum(forward * backward))) / total
     sampling = math.sqrt(float(np.sum(forward**2) + np.sum(backward**2))) / total
     snapshot = math.sqrt(float(np.sum((forward + backward) ** 2))) / total

@@ -35,13 +35,12 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes
 from fftocean.arrays import COMPLEX_OF, Complex, Real
+from fftocean.bound_waves import BoundSpectrum, PhaseFunction, Shown
 from fftocean.computation import Computation
 from fftocean.fields import FIELDS, POINTWISE, Field, potential_factor
 from fftocean.kernels import passes, surface
+from fftocean.physics import dispersion
 from fftocean.transforms import aligned, inverse_rows
-
-PhaseFunction = Callable[[slice, Real], None]
-"""Writes the phases of the waves of some columns kx, in cycles, (columns, ny)."""
 
 Source = tuple[str, int]
 """"height" or "potential", and the number of time derivatives, 0 or 1."""
@@ -96,6 +95,12 @@ class Plan:
     linear: tuple[str, ...]  # that are computed, some of them for their partner's sake
     half_spectra: tuple[HalfSpectrum, ...]
     rows: tuple[PackedRow, ...]
+
+    @property
+    def sources(self) -> tuple[Source, ...]:
+        """Sources of the half-spectra, potentials first."""
+        used = {source for one in self.half_spectra for source in (one.source, one.other) if source}
+        return tuple(sorted(used, reverse=True))
 
 
 def row_pairs() -> tuple[tuple[str, ...], ...]:
@@ -231,12 +236,15 @@ class Synthesis:
     Args:
         amplitudes: the waves at t = 0.
         computation: precision, FFT library, planning effort and threads.
+        bound: second-order waves to add to the height, if any.
 
     Raises:
         ParameterError: a backend or planning effort that is unknown or not installed.
     """
 
-    def __init__(self, amplitudes: Amplitudes, computation: Computation) -> None:
+    def __init__(
+        self, amplitudes: Amplitudes, computation: Computation, bound: Shown | None = None
+    ) -> None:
         self._amplitudes, self._grid = amplitudes, amplitudes.grid
         dtype = computation.dtype
         self._dtype = np.dtype(dtype)
@@ -246,6 +254,12 @@ class Synthesis:
         self.columns = (grid.nx + 1) // 2
         self._unit = largest_wave(amplitudes)
         self._waves = self._wave_table(amplitudes)
+        self.frequency = _frequencies(amplitudes, self.columns)
+        self._bound = (
+            BoundSpectrum(bound, self._unit, self.columns, computation.threads)
+            if bound is not None and len(bound.waves)
+            else None
+        )
         k = grid.k.T[: self.columns]
         self._potential = np.ascontiguousarray(potential_factor(k, amplitudes.depth), dtype=dtype)
         self._omega: Real | None = None
@@ -296,6 +310,8 @@ class Synthesis:
             self._omega = np.ascontiguousarray(
                 self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype
             )
+        if self._bound is not None:
+            self._sum_bound_waves(self._bound, plan, phase)
         intermediate = self._intermediate(len(plan.half_spectra))
         transposed = _transposable(intermediate)
         c = self._dtype.type(choppiness)
@@ -343,6 +359,14 @@ class Synthesis:
         finally:  # after an interrupt, too, no workspace may be reused while a thread still writes
             wait(tasks)
 
+    def _sum_bound_waves(self, bound: BoundSpectrum, plan: Plan, phase: PhaseFunction) -> None:
+        """Compute the second-order height spectra that a plan needs."""
+        rates = [dt for of, dt in plan.sources if of == "height"]
+        if not rates:
+            return
+        bound.advance(phase, rates)
+        self._run_blocks(bound.parts, 1, lambda _, part: bound.sum(part.start, rates))
+
     def _first_pass(
         self,
         plan: Plan,
@@ -354,7 +378,7 @@ class Synthesis:
         """Advance the waves of some columns kx, derive and transform along y, and transpose."""
         n = block.stop - block.start
         cycles, cosine, sine = workspace.cycles[:n], workspace.cosine[:n], workspace.sine[:n]
-        phase(block, cycles)
+        phase(self.frequency[block], cycles)
         (passes.phasors_single if self._dtype == np.float32 else passes.phasors)(
             cycles, cosine, sine
         )
@@ -378,6 +402,11 @@ class Synthesis:
                     )
             return parts
 
+        if self._bound is not None:
+            for of, dt in plan.sources:  # potentials before heights: those have no second order
+                real, imag = parts_of((of, dt))
+                if of == "height":
+                    self._bound.add(dt, block.start, real[:n], imag[:n])
         for s, spectrum in enumerate(plan.half_spectra):
             power, other_power, first, second = self._ky_factors[spectrum]
             parts = _swapped(parts_of(spectrum.source), spectrum.quarters)
@@ -523,6 +552,21 @@ class _Workspace:
         self.second_source = _parts(self.second.source)
         self.second_result = _parts(self.second.result)
         self.scratch = {name: np.empty((rows, nx), dtype=dtype) for name in FIELDS}
+
+
+def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
+    """
+    Return the frequency of each wave in cycles a second or, on a loop, a period; (columns, ny).
+
+    On a loop they are whole numbers. Their rounding to float64 is the only error of a phase.
+    """
+    if amplitudes.cycles is not None:
+        return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
+    frequency = np.empty((columns, amplitudes.grid.ny))
+    # The Nyquist column is left over.
+    for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
+        column[:] = dispersion.turns_per_second(omega)
+    return frequency
 
 
 def _swapped(parts: tuple[Real, Real], quarters: int) -> tuple[Real, Real]:

@@ -1,13 +1,14 @@
 """The wave list of any source: an ocean, a cascade, a few-wave model, or `Modes`."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Integer, Real, brief_repr
+from fftocean.bound_waves import BoundWaves
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError, described
 from fftocean.fields import potential_factor
@@ -44,6 +45,8 @@ class WaveList:
     depth: float  # [m]
     choppiness: float  # [-]
     model: Waves | None = None  # the few-wave model, which can start from rest
+    bound: BoundWaves | None = None  # waves of second order, of the first tile
+    shortest: float = 0.0  # wavelength below which waves were left out [m]
 
     __repr__ = brief_repr
 
@@ -128,7 +131,8 @@ def list_waves(
                 np.hypot(modes.kx, modes.ky), ocean.depth
             )
             parts.append((modes, potential, (ocean.grid.lx, ocean.grid.ly), ocean.loop))
-        return _joined(parts, oceans[0].depth, oceans[0].choppiness, shortest)
+        linear = _joined(parts, oceans[0].depth, oceans[0].choppiness, shortest)
+        return replace(linear, bound=oceans[0].bound_waves, shortest=shortest)
     if isinstance(model, Waves):
         modes = Modes(model.kx, model.ky, model.amplitude, model.phase, model.omega)
         potential = model.sharpness * model.amplitude / model.wavenumber
@@ -139,6 +143,21 @@ def list_waves(
         "waves must come from an Ocean, a Cascade, a few-wave model or Modes, "
         f"got {described(source)}"
     )
+
+
+def require_linear(source: Any, user: str) -> None:
+    """
+    Raise if a source has waves of second order, which `user` cannot hold.
+
+    Raises:
+        ParameterError: an ocean or a cascade of order 2.
+    """
+    if any(ocean.order > 1 for ocean in oceans_of(source)):
+        given = "ocean" if isinstance(source, Ocean) else "cascade"
+        raise ParameterError(
+            f"{user} holds linear waves, and those of second order change with every pair of "
+            f"waves: give {given}.linear(), or a job whose ocean.order is 1; got order 2"
+        )
 
 
 def _joined(

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fftocean.amplitudes import refined
+from fftocean.amplitudes import refined, refined_gain
 from fftocean.arrays import Real
 from fftocean.cascade import Cascade
 from fftocean.errors import ParameterError
@@ -233,4 +233,7 @@ def _spline_ocean(ocean: Ocean, fine: Grid, shortest: float) -> Ocean:
     """
     a, grid = ocean.amplitudes, ocean.grid
     kept = grid.active & (grid.k * shortest <= 2.0 * np.pi)
-    return ocean.with_amplitudes(refined(a, fine, kept, interpolate.spline_response))
+    response = interpolate.spline_response
+    return ocean.spectrally_scaled(
+        refined(a, fine, kept, response), refined_gain(grid, fine, kept, response)
+    )

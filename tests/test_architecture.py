@@ -16,21 +16,34 @@ from imports import imports_in, modules_in, packages_in, reach
 PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 
 FLOORS = {
-    0: ["constants", "errors", "host", "forks", "arrays", "limits", "files", "example_projects"],
+    0: [
+        *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
+        *("example_projects", "engine_projects", "notebook_html"),
+    ],
     1: ["physics", "grid", "noise"],
-    2: ["cells", "amplitudes", "readers", "fields"],
+    2: ["cells", "amplitudes", "readers", "fields", "fixed_values"],
     3: ["kernels", "wisdom", "transforms", "export"],
-    4: ["computation", "synthesis", "frame", "lookahead", "ocean", "gerstner", "cell_lattice"],
+    4: [
+        "computation",
+        "bound_waves",
+        "synthesis",
+        "frame",
+        "lookahead",
+        "ocean",
+        "gerstner",
+        "cell_lattice",
+    ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
-        *("kinematics", "statistics", "blend_loss"),
+        *("kinematics", "statistics", "blend_loss", "constraints", "mean_motion"),
         *("summed_waves", "interpolated_tiles", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
+        *("wave_files", "probe_series"),
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
-    9: ["view", "plots", "science", "bench"],
+    9: ["view", "plots", "science", "bench", "report"],
     10: ["cli", "__main__"],
 }
 FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
@@ -38,26 +51,40 @@ FLOOR = {part: floor for floor, parts in FLOORS.items() for part in parts}
 # The stairs within a floor, lowest step first. Elsewhere the parts of a floor do not import each
 # other, and the modules of one part may.
 STAIRS = [
-    [["constants", "errors"], ["arrays", "host", "files", "example_projects"], ["limits"]],
     [
-        ["physics", "physics.units", "physics.dispersion", "physics.moments", "physics.water"],
+        ["constants", "errors"],
+        [*("arrays", "host", "files"), *("example_projects", "engine_projects")],
+        ["limits", "notebook_html"],
+    ],
+    [
+        [
+            *("physics", "physics.units", "physics.dispersion", "physics.moments"),
+            *("physics.water", "physics.second_order"),
+        ],
         ["physics.kinds"],
         ["physics.spreading"],
         ["physics.spectra"],
         ["physics.presets"],
         ["physics.sea"],
         ["physics.panels"],
+        ["physics.plausibility"],
     ],
-    [["cells"], ["amplitudes"]],
+    [["cells", "fields"], ["fixed_values"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["computation", "frame"], ["synthesis", "lookahead"], ["ocean"]],
+    [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
+    [["products"], ["statistics", "polar_spectrum"]],
+    [
+        ["mean_motion", "summed_waves", "interpolated_tiles"],
+        ["kinematics", "query"],
+        ["constraints"],
+    ],
     [["products"], ["statistics", "polar_spectrum"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
-    [["plots.theme"], ["plots"], ["bench.charts"]],
+    [["plots.theme"], ["plots"], ["bench.charts", "report"]],
     [["cli"], ["__main__"]],
 ]
 STEP = {
@@ -69,7 +96,12 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "job_text"]],
+    "job": [
+        ["parameters"],
+        ["wave_systems", "fixed_tables"],
+        ["job"],
+        ["frame_rate", "job_text", "reference", "sources"],
+    ],
     "baking": [
         ["folder"],
         ["scene"],
@@ -81,8 +113,8 @@ INNER = {
         ["dry_run", "repair"],
     ],
     "runtime": [
-        ["layout"],
-        ["contents", "planes", "source"],
+        ["layout", "shaders"],
+        ["contents", "planes", "source", "engines", "textures", "project"],
         ["records"],
         ["describe", "reference"],
         ["document"],

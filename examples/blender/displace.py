@@ -2,7 +2,8 @@
 Animated sea in Blender from a bake, with a check of its vertices.
 
 Blender's Displace modifier moves a grid by the displacement maps, as an image sequence that loops.
-The scene has a lit, smooth-shaded material, a sun, a sky and a camera. Blender is a Python module
+The scene has lit water, smooth by the bake's normals and with its foam if these maps are there, a
+sky with its sun, and a camera; `render_sea.py` renders it. Blender is a Python module
 of its own version and with its own numpy, so it has an environment to itself:
 
     python3.11 -m venv blender-env && blender-env/bin/pip install bpy==5.0.1 "numpy<2"
@@ -16,11 +17,13 @@ an error, which names the flag to change.
 
 import argparse
 import json
-import math
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # Blender does not
+
 FORMATS = ("exr", "exr-float")
+PACKED = {"normal_X": "(2 * R - 1)", "normal_Y": "(2 * G - 1)", "normal_Z": "(2 * B - 1)"}
 SAMPLES = "u = X / size_x + 0.5 / nx, v = Y / size_y + 0.5 / ny, repeated"  # what `sea_mesh` does
 
 
@@ -77,124 +80,143 @@ def read_bake(folder):
     return manifest
 
 
-def sea_mesh(n, size):
-    """Return a grid of nx times ny vertices, each with the middle of its texel as UV."""
-    import bpy
-    import numpy as np
+def sea_mesh(n, size, counts=None):
+    """
+    Return a grid of vertices on texels, each with the middle of its texel as UV.
 
-    (nx, ny), (lx, ly) = n, size
-    i, j = np.meshgrid(np.arange(nx), np.arange(ny))
-    still = np.stack([i * lx / nx, j * ly / ny, np.zeros_like(i, float)], axis=-1).reshape(-1, 3)
-    corner = (j[:-1, :-1] * nx + i[:-1, :-1]).reshape(-1, 1)
-    mesh = bpy.data.meshes.new("sea")
-    mesh.from_pydata(still.tolist(), [], (corner + np.array([0, 1, nx + 1, nx])).tolist())
+    Args:
+        n, size: texels and metres of a tile, (x, y).
+        counts: vertices along x and y; those of one tile if None. More repeat it.
+    """
+    import numpy as np
+    from meshes import grid_mesh
+
+    (nx, ny), (lx, ly), (across, along) = n, size, counts or n
+    i, j = np.meshgrid(np.arange(across), np.arange(along))
+    still = np.stack([i * lx / nx, j * ly / ny, np.zeros_like(i, float)], axis=-1)
+    mesh = grid_mesh(along, across)
+    mesh.vertices.foreach_set("co", still.astype(np.float32).ravel())
     uv = np.stack([(i + 0.5) / nx, (j + 0.5) / ny], axis=-1).reshape(-1, 2)
     corners = np.empty(len(mesh.loops), dtype=np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
-    mesh.uv_layers.new(name="texels").data.foreach_set(
-        "uv", uv[corners].astype(np.float32).reshape(-1)
-    )
-    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    mesh.uv_layers.new(name="texels").data.foreach_set("uv", uv[corners].astype(np.float32).ravel())
     return mesh
+
+
+def sequence_image(files):
+    """Return the image of a sequence of maps, read as numbers."""
+    import bpy
+
+    image = bpy.data.images.load(str(files[0].resolve()), check_existing=False)
+    image.source = "SEQUENCE"
+    image.colorspace_settings.name = "Non-Color"
+    image.use_half_precision = False
+    return image
+
+
+def play(user, files):
+    """Let an image's user play the files of a loop for ever."""
+    user.frame_start, user.frame_duration = 1, len(files)
+    user.use_cyclic, user.use_auto_refresh = True, True
+    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, a bake's 0
 
 
 def sequence_texture(files):
     """Return a texture of the maps: no colour space, no clamping, repeated in space and in time."""
     import bpy
 
-    image = bpy.data.images.load(str(files[0].resolve()))
-    image.source = "SEQUENCE"
-    image.colorspace_settings.name = "Non-Color"
-    image.use_half_precision = False
     texture = bpy.data.textures.new("displacement", "IMAGE")
-    texture.image = image
+    texture.image = sequence_image(files)
     texture.use_clamp = False  # clamping would set values below 0 to 0
     # Vertices lie at the centres of texels; a finer grid needs interpolation.
     texture.use_interpolation = False
     texture.extension = "REPEAT"
-    user = texture.image_user
-    user.frame_start, user.frame_duration, user.use_cyclic, user.use_auto_refresh = (
-        1,
-        len(files),
-        True,
-        True,
-    )
-    user.frame_offset = int(files[0].stem) - 1  # Blender's first frame is 1, a bake's 0
+    play(texture.image_user, files)
     return texture
 
 
-def water_material():
-    """Return a dark, shiny dielectric, lit by the scene."""
-    import bpy
-
-    material = bpy.data.materials.new("water")
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
-    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Base Color"].default_value = (0.01, 0.05, 0.08, 1.0)
-    shader.inputs["Roughness"].default_value = 0.08
-    shader.inputs["IOR"].default_value = 1.333
-    return material
+def map_files(folder, manifest, name):
+    """Return the files of a map in the sequence of frames, or None if there is none to show."""
+    if name not in manifest["maps"] or manifest["maps"][name]["format"] not in FORMATS:
+        return None
+    return [folder / row["files"][name]["path"] for row in manifest["frames"]]
 
 
-def light_and_camera(size, height):
-    """Add a sun, a sky and a camera around a tile [m]; `height` is that of its highest wave."""
-    import bpy
-    from mathutils import Vector
-
-    scene, (lx, ly) = bpy.context.scene, size
-    middle = Vector((0.5 * lx, 0.5 * ly, 0.0))
-    sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-    sun.data.energy, sun.rotation_euler = 3.0, (math.radians(65.0), 0.0, math.radians(20.0))
-    world = bpy.data.worlds.new("sky")
-    if bpy.app.version < (5, 0, 0):
-        world.use_nodes = True
-    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
-    background.inputs["Color"].default_value = (0.45, 0.6, 0.8, 1.0)
-    scene.world = world
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.location = middle + Vector((0.0, -0.9 * ly, 0.35 * ly + 2.0 * height))
-    camera.rotation_euler = (middle - camera.location).to_track_quat("-Z", "Y").to_euler()
-    camera.data.clip_end = 10.0 * (lx + ly)
-    for thing in (sun, camera):
-        scene.collection.objects.link(thing)
-    scene.camera = camera
+def map_colour(nodes, files):
+    """Return the socket of a map's colour at the texels of the mesh."""
+    place = nodes.new("ShaderNodeUVMap", uv_map="texels").outputs[0]
+    node = nodes.new("ShaderNodeTexImage", {"Vector": place}, image=sequence_image(files))
+    play(node.image_user, files)
+    return node.outputs["Color"]
 
 
-def animated_sea(folder):
-    """Return the object with its modifier, in a new scene, and the manifest of its bake."""
+def bake_material(folder, manifest):
+    """Return water with the bake's own foam and normals, where it has these maps."""
+    import look
+
+    foam, normal = (map_files(folder, manifest, name) for name in ("foam", "normal"))
+
+    def exact(nodes):
+        """Return the normals of the map: those of the displaced surface, in its object's axes."""
+        colour = map_colour(nodes, normal)
+        return nodes.new("ShaderNodeNormalMap", {"Color": colour}, space="OBJECT").outputs[0]
+
+    return look.water_material(
+        (lambda nodes: map_colour(nodes, foam)) if foam else None,
+        place=look.attribute("rest", 1),
+        roughness=0.25,
+        normal=exact if normal and manifest["maps"]["normal"]["world"] == PACKED else None,
+    )
+
+
+def animated_sea(folder, counts=None):
+    """
+    Return the object with its modifier, in a new scene, and the manifest of its bake.
+
+    Args:
+        folder: of a bake.
+        counts: of vertices, as in `sea_mesh`.
+    """
     manifest = read_bake(folder)
     import bpy
+    import look
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     size = manifest["ocean"]["size"]
-    sea = bpy.data.objects.new("sea", sea_mesh(manifest["ocean"]["n"], size))
-    sea.data.materials.append(water_material())
-    scene = bpy.context.scene
-    scene.collection.objects.link(sea)
+    mesh = sea_mesh(manifest["ocean"]["n"], size, counts)
+    sea = bpy.data.objects.new("sea", mesh)
+    rest = mesh.attributes.new("rest", "FLOAT_VECTOR", "POINT").data
+    rest.foreach_set("vector", positions(mesh))
+    sea.data.materials.append(bake_material(folder, manifest))
+    bpy.context.scene.collection.objects.link(sea)
     modifier = sea.modifiers.new("waves", "DISPLACE")
-    modifier.texture = sequence_texture(
-        [folder / row["files"]["displacement"]["path"] for row in manifest["frames"]]
-    )
+    modifier.texture = sequence_texture(map_files(folder, manifest, "displacement"))
     modifier.texture_coords, modifier.uv_layer = "UV", "texels"
     modifier.direction, modifier.mid_level, modifier.strength = "RGB_TO_XYZ", 0.0, 1.0
-    light_and_camera(size, manifest["extremes"]["max_height"])
-    scene.frame_start, scene.frame_end = 1, len(manifest["frames"])
-    frames_per_second = len(manifest["frames"]) / manifest["ocean"]["loop"]
-    scene.render.fps = max(1, round(frames_per_second))
-    scene.render.fps_base = scene.render.fps / frames_per_second
+    middle = 0.5 * size[0], 0.5 * size[1], 0.0
+    high = manifest["extremes"]["max_height"]
+    look.sky(elevation=25.0, azimuth=60.0, exposure=-4.5)
+    look.camera((middle[0], -0.4 * size[1], 0.35 * size[1] + 2.0 * high), middle)
+    look.quality(960, 540, 64, len(manifest["frames"]), manifest["ocean"]["loop"])
     return sea, manifest
+
+
+def positions(mesh):
+    """Return the places of a mesh's vertices, flat, single precision."""
+    import numpy as np
+
+    out = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", out)
+    return out
 
 
 def vertices(sea, frame):
     """Return the vertices at a frame, counted from 0, (vertices, 3)."""
     import bpy
-    import numpy as np
 
     bpy.context.scene.frame_set(frame + 1)
     mesh = sea.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    out = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", out)
+    out = positions(mesh)
     sea.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh_clear()
     return out.reshape(-1, 3)
 
@@ -203,8 +225,7 @@ def report_distances(sea, manifest, path):
     """Print the distance of the vertices from displacements in a file."""
     import numpy as np
 
-    still = np.empty(3 * len(sea.data.vertices), dtype=np.float32)
-    sea.data.vertices.foreach_get("co", still)
+    still = positions(sea.data)
     expected = np.load(path).reshape(len(manifest["frames"]), -1, 3).astype(np.float64)
     apart = [
         np.abs(vertices(sea, j) - still.reshape(-1, 3).astype(np.float64) - e)

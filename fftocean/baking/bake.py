@@ -17,7 +17,7 @@ from fftocean import foam
 from fftocean.baking.finished.containers import assemble, intact, unpack
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import compose, read_manifest
-from fftocean.baking.folder import layout
+from fftocean.baking.folder import engine_files, layout
 from fftocean.baking.folder.identity import header_of
 from fftocean.baking.folder.journal import (
     Entry,
@@ -219,7 +219,7 @@ def _earlier_entries(folder: Path, plan: Plan, scene: Scene, overwrite: bool) ->
         OutputError: the folder holds another bake, and `overwrite` is False.
     """
     if overwrite:
-        require_replaceable(folder)
+        require_replaceable(folder, plan.header)
         remove_workspace(folder)
         return []
     require_same_bake(folder, plan.header)
@@ -313,7 +313,7 @@ def _finish(
     containers: dict[str, Any],
     log: RunLog,
 ) -> dict[str, Any]:
-    """Write containers, previews, and the manifest; return the manifest."""
+    """Write containers, previews, files for the engine, and the manifest; return the manifest."""
     containers = containers or assemble(log.folder, plan, scene, rows)
     statistics = measure(scene.ocean)
     manifest = compose(
@@ -324,6 +324,9 @@ def _finish(
         blend=blend.describe(scene.ocean, max(1, round(scene.job.frames / plan.step))),
         containers=containers,
         pictures=previews.write_previews(log.folder, scene, statistics),
+        engine_files=engine_files.write_player(
+            log.folder, plan.header["job"], layout.MANIFEST_FILE
+        ),
     )
     write_whole(log.folder / layout.MANIFEST_FILE, as_json(manifest))
     return manifest

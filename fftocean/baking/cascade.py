@@ -8,10 +8,11 @@ from typing import Any
 from fftocean.baking.bake import bake
 from fftocean.baking.cascade_setup import TileSet, outside, prepare, tile_in_words
 from fftocean.baking.estimate import Estimate, estimate
-from fftocean.baking.folder import layout, listing
+from fftocean.baking.folder import engine_files, layout, listing
 from fftocean.baking.folder.journal import Listen, Progress
 from fftocean.baking.folder.layout import CASCADE_FILE, CASCADE_JOB, MANIFEST_FILE
 from fftocean.baking.folder.lock import locked, require_free
+from fftocean.baking.folder.ownership import engine_files_in
 from fftocean.baking.folder.sealed import sealed
 from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile
@@ -94,7 +95,12 @@ def bake_tiles(
             )
             rows.append(tile.row(read_whole(place / MANIFEST_FILE) or b"", manifest))
             manifests.append(manifest)
-        listed = tile_set.listed(rows, manifests, tile_set.write_previews(folder))
+        listed = tile_set.listed(
+            rows,
+            manifests,
+            tile_set.write_previews(folder),
+            engine_files.write_player(folder, tile_set.header["job"], CASCADE_FILE),
+        )
         write_whole(folder / CASCADE_FILE, as_json(listed))
     if listen:
         listen(
@@ -154,12 +160,16 @@ def estimate_prepared(
     most = max(parts, key=lambda part: part.workers)
     return replace(
         most,
-        files=sum(part.files for part in parts) + previews + 2,
+        files=sum(part.files for part in parts)
+        + previews
+        + len(engine_files.names_for(tile_set.header["job"]))
+        + 2,
         bytes=sum(part.bytes for part in parts) + 700_000 * previews,
         seconds=sum(part.seconds for part in parts),
         memory=(sum if most.executor == "serial" else max)(
             part.memory for part in parts
         ),  # one process holds all tiles
+        video=sum(part.video for part in parts),
     )
 
 
@@ -182,7 +192,7 @@ def _remove_earlier(folder: Path) -> None:
     if layout.is_cascade(folder):
         listing.remove_cascade(folder)
     if (folder / layout.JOB_FILE).is_file() or (folder / MANIFEST_FILE).is_file():
-        for path in layout.bake_files(folder):
+        for path in (*layout.bake_files(folder), *engine_files_in(folder)):
             remove(path)
         remove(folder / MANIFEST_FILE)
         remove(folder / layout.JOB_FILE)

@@ -28,6 +28,8 @@ from fftocean.export import rules
 from fftocean.files import write_whole
 from fftocean.job.job import Job, finite_or_word
 from fftocean.job.parameters import BY_KEY
+from fftocean.physics.plausibility import plausibility
+from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics, measure
 
 INGREDIENTS = ("displacement", "derivative", "stretch")
@@ -68,7 +70,9 @@ class TileSet:
         oceans = tuple(scene.ocean for scene in scenes)
         sea = oceans[0].sea
         assert sea is not None  # a job has a sea
+        self.sea: Sea = sea
         self.cascade: Cascade = from_oceans(sea, job.settings["ocean.seed"], oceans)
+        self.rarity = tile_jobs[0].rarity
         self.statistics: Statistics = measure(self.cascade)
 
     def listed(
@@ -76,6 +80,7 @@ class TileSet:
         rows: Sequence[Mapping[str, Any]],
         manifests: Sequence[Mapping[str, Any]],
         pictures: Mapping[str, Any],
+        players: Sequence[Mapping[str, Any]] = (),
     ) -> dict[str, Any]:
         """
         Return the list of a cascade's tiles as plain data.
@@ -84,6 +89,7 @@ class TileSet:
             rows: of the tiles, in order.
             manifests: of the tiles, in order.
             pictures: entries of the previews of the summed tiles, by name.
+            players: entries of the files that play the tiles in their engine.
         """
         profile, cascade = self.scenes[0].profile, self.cascade
         step = self.chosen[1] - self.chosen[0] if len(self.chosen) > 1 else 1
@@ -102,10 +108,12 @@ class TileSet:
                     "frames": len(self.chosen),
                 },
                 "statistics": self.statistics.as_plain(),
+                **({} if self.rarity is None else {"constrained": self.rarity.as_plain()}),
+                "plausibility": plausibility(self.sea).as_plain(),
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
                 "sampling": rules.cascade(profile),
-                "foam": self.job.foam,
+                "foam": self.job.describe_foam(cascade),
                 "blend": blend.describe(cascade, max(1, round(self.job.frames / step))),
                 "extremes": {
                     "unit": {
@@ -120,7 +128,12 @@ class TileSet:
                 },
                 "tiles": list(rows),
                 "tile_units": {"size": "m", "band": "rad/m", "m0": "m^2"},
+                "video_memory": {
+                    key: sum(m["video_memory"][key] for m in manifests)
+                    for key in ("bytes", "bytes_a_frame", "bytes_with_all_levels")
+                },
                 **pictures,
+                **({"engine_files": list(players)} if players else {}),
             }
         )
 
@@ -143,7 +156,7 @@ class TileSet:
         Raises:
             OutputError: one cannot be written.
         """
-        frames, images, foam = self.job.frames, {}, previews.foam_of(self.job)
+        frames, images, foam = self.job.frames, {}, previews.foam_of(self.job, self.cascade)
         if "sheet" in self.job.pictures:
             sizes = ", ".join(f"{ocean.grid.lx:g}" for ocean in self.cascade.oceans)
             text = previews.caption(self.job, self.statistics, f"tiles {sizes} m")
@@ -175,7 +188,12 @@ class TileSet:
         )
         yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
+        yield "wave height and steepness", str(plausibility(self.sea))
+        if (second := self.cascade.oceans[0].bound_waves) is not None:
+            yield "second order", f"of the largest tile alone, {second.report}"
         yield "folds", str(s.folding)
+        if self.rarity is not None:
+            yield "fixed values", str(self.rarity)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

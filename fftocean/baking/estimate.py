@@ -6,10 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from fftocean.baking.bake import choose_workers, scene_for
+from fftocean.baking.folder import engine_files
 from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
-from fftocean.export import formats
+from fftocean.baking.scene.video_memory import texels, video_memory
+from fftocean.export import formats, recipes
 from fftocean.export.profiles import range_of_normals
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
@@ -59,14 +61,19 @@ def estimate(
         + (scene.job.frames if "foam" in scene.job.maps else 0.0)
     )
     containers = len(scene.job.maps) * (len(chosen) if scene.form.scope == "frame" else 2)
+    if scene.form.scope == "frame" and recipes.files_beside_frames(scene.profile, ["0.exr"]):
+        containers *= 2
     return Estimate(
         frames=len(chosen),
-        files=containers + len(scene.job.pictures) + 2,
+        files=containers
+        + len(scene.job.pictures)
+        + len(engine_files.names_for(job.describe()))
+        + 2,
         bytes=round(float(np.mean(sizes)) * len(chosen))
         + 700_000 * len(scene.job.pictures)
         + 1200 * len(chosen),
         seconds=3.0 + each * rounds / count + (1.5 if name != "serial" else 0.0),
-        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
+        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype) + tables_of(scene),
         container=_container(scene, len(chosen)),
         video=video_memory(scene, len(chosen)),
         executor=name,
@@ -74,27 +81,17 @@ def estimate(
     )
 
 
-def video_memory(scene: Scene, frames: int) -> float:
-    """Return the bytes that the maps of some frames take as textures, three channels as four."""
-    return sum(_texels(scene, frames, {3: 4}.get(n, n)) for n in _channels(scene))
+def tables_of(scene: Scene) -> float:
+    """Return the memory of the tables of second-order waves [bytes]."""
+    bound = scene.ocean.bound_waves
+    return 0.0 if bound is None else float(bound.nbytes)
 
 
 def _container(scene: Scene, frames: int) -> float:
     """Return the bytes to hold the largest map's sequence twice, as parts and as a container."""
     if scene.form.scope == "frame":
         return 0.0
-    return 2.0 * max(_texels(scene, frames, n) for n in _channels(scene))
-
-
-def _channels(scene: Scene) -> list[int]:
-    return [len(MAPS[name].names) for name in scene.job.maps]
-
-
-def _texels(scene: Scene, frames: int, channels: int) -> float:
-    """Return the bytes of some frames of a map, uncompressed, with its mip levels."""
-    each = np.dtype(scene.form.stored).itemsize * channels
-    levels = sum(4.0**-level for level in range(scene.levels))
-    return float(frames * scene.ocean.grid.nx * scene.ocean.grid.ny * each) * levels
+    return 2.0 * max(texels(scene, frames, len(MAPS[name].names)) for name in scene.job.maps)
 
 
 def _bytes_of(scene: Scene, j: int) -> int:

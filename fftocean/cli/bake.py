@@ -205,6 +205,7 @@ def _summarise(folder: Path, manifest: Mapping[str, Any], seconds: float, kept: 
         print(f"{maps} in {seconds:.1f} s{before}: {plain(folder)}")
     notes.note_folds(manifest["extremes"])
     notes.print_blending(manifest["blend"])
+    notes.print_video_memory(manifest, len(frames))
     if "preview" in manifest:
         print(f"preview: {plain(folder / SHEET)}")
 
@@ -241,6 +242,7 @@ def _bake_cascade(
         print(line)
     notes.note_folds(listed["extremes"])
     notes.print_blending(listed["blend"])
+    notes.print_video_memory(listed, listed["ocean"]["frames"])
     if "preview" in listed:
         print(f"preview: {plain(options.output / listed['preview']['path'])}")
     notes.print_loading(job)

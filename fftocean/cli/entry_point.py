@@ -6,7 +6,7 @@ import signal
 import sys
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NoReturn
 
 from fftocean.cli.console import note, plain
@@ -34,9 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with _sigterm_as_exit(), warnings.catch_warnings():
             warnings.simplefilter("always", SeaWarning)
-            warnings.showwarning = _show_warning
+            warnings.showwarning = _note_printer()
             given = sys.argv[1:] if arguments is None else arguments
-            if not given:
+            if not given and "_ARGCOMPLETE" not in os.environ:  # which a shell sets that completes
                 print(FIRST_STEPS, end="", file=sys.stderr)
                 return 2
             options = build_parser().parse_args(given)
@@ -97,6 +97,13 @@ def _fail(message: str, code: int) -> int:
     return code
 
 
-def _show_warning(message: Warning | str, *_: Any, **__: Any) -> None:
-    """Print a warning as a note."""
-    note(message)
+def _note_printer() -> Callable[..., None]:
+    """Return a function that prints warnings as notes, each text once in a command."""
+    printed: set[str] = set()
+
+    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+        if str(message) not in printed:
+            printed.add(str(message))
+            note(message)
+
+    return show

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 from fftocean.cli.arguments import add_tiles_flag, path
 from fftocean.cli.command import Command
 from fftocean.cli.console import plain, size_in_words
-from fftocean.cli.job_flags import add_job_flags, job_of
+from fftocean.cli.job_flags import add_job_flags, job_of, water_of
 from fftocean.cli.progress import json_events
 
 if TYPE_CHECKING:
-    from fftocean.cascade import Cascade
     from fftocean.job.job import Job
-    from fftocean.ocean import Ocean
 
 
 def add_flags(parser: argparse.ArgumentParser) -> None:
     """Add the flags of `fftocean export-sea`."""
+    from fftocean.engine_projects import ENGINES, TEXTURES
+
     parser.add_argument(
         "-o",
         "--output",
@@ -32,8 +32,15 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--textures",
-        action="store_true",
-        help="add the waves as float32 textures, ready for a graphics processor",
+        nargs="?",
+        const="bin",
+        metavar="FORMAT",
+        help=f"add the waves as float32 textures: {', '.join(TEXTURES)} (without a value: bin)",
+    )
+    parser.add_argument(
+        "--engine",
+        choices=tuple(ENGINES),
+        help="add the kernels and a project that opens in this engine, beside the package",
     )
     parser.add_argument(
         "--ticks",
@@ -46,26 +53,31 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
         "--json", action="store_true", help="print events as lines of JSON: done, error"
     )
     parser.add_argument("--quiet", action="store_true", help="no summary")
-    add_job_flags(parser)
+    add_job_flags(parser, own=("engine",))
 
 
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
-    from fftocean.foam import Foam
+    from fftocean.engine_projects import TEXTURES
     from fftocean.runtime.folder import export_sea
 
+    if options.textures not in (None, *TEXTURES) and options.job is None:
+        # `--textures JOB.toml`: a bare flag before the job
+        options.job, options.textures = path(options.textures), "bin"
     with json_events(options.json) as print_json:
         job = job_of(options)
         wind = None
         if job.wind:
             wind = job.settings["sea.wind.speed"], job.settings["sea.wind.direction"]
+        water = water_of(job, options.tiles)
         document = export_sea(
-            _water(job, options.tiles),
+            water,
             options.output,
-            textures=options.textures,
+            textures=options.textures or False,
+            engine=options.engine,
             job=_job_text(job, options.tiles),
             ticks=options.ticks,
-            foam=None if Foam(**job.foam) == Foam() else Foam(**job.foam),
+            foam=job.foam_on(water),
             wind=wind,
             overwrite=options.overwrite,
         )
@@ -73,42 +85,8 @@ def run(options: argparse.Namespace) -> int:
             print_json({"event": "done", "folder": str(options.output), **_sizes(document)})
         elif not options.quiet:
             _summarise(options.output, document)
+            _next_step(options.output, document)
     return 0
-
-
-def _water(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Cascade":
-    """
-    Return the ocean of a job, or the cascade of its sea on some tiles.
-
-    Raises:
-        JobError: tiles that cannot share the sea, or a band beside tiles.
-    """
-    if not tiles:
-        return job.ocean()
-    from fftocean.cascade import Cascade
-    from fftocean.errors import JobError, ParameterError
-    from fftocean.job.parameters import BY_KEY
-
-    s = job.settings
-    for key in ("ocean.band_low", "ocean.band_high"):
-        if s[key] != BY_KEY[key].default:
-            raise JobError(
-                f"{job.source}: {key} must be left out where there are tiles, "
-                "whose bands follow from their sizes"
-            )
-    try:
-        return Cascade(
-            job.sea(),
-            tiles,
-            seed=s["ocean.seed"],
-            loop=s["ocean.loop"],
-            choppiness=s["ocean.choppiness"],
-            amplitudes=s["ocean.amplitudes"],
-        )
-    except JobError:
-        raise
-    except ParameterError as error:
-        raise JobError(f"{job.source}: {error}") from None
 
 
 def _job_text(job: "Job", tiles: list[tuple[int, float]] | None) -> str:
@@ -144,13 +122,27 @@ def _summarise(folder: Path, document: Mapping[str, Any]) -> None:
     )
 
 
+def _next_step(folder: Path, document: Mapping[str, Any]) -> None:
+    """Print what to do with the project of an engine, and which of its files were kept."""
+    from fftocean.engine_projects import ENGINES
+    from fftocean.runtime.folder import edited_files
+
+    if "project" not in document:
+        return
+    engine = ENGINES[document["project"]["engine"]]
+    if edited := edited_files(folder, document):
+        print(f"kept as edited: {', '.join(map(plain, edited))}")
+    print(f"{engine.caption}: {engine.first_step}")
+
+
 COMMAND = Command(
     name="export-sea",
     arguments="[JOB.toml] [-o DIR]",
     summary="write the waves of a sea for programs that evolve them: pages, engines",
     examples=(
         "fftocean export-sea -o sea --n 256",
-        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures",
+        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures ktx2",
+        "fftocean export-sea gale.toml -o gale --n 256 --engine godot",
     ),
     run=run,
     add_flags=add_flags,

@@ -54,7 +54,11 @@ def run(options: argparse.Namespace) -> int:
             console.print(Text(f"{key}: {plain(remark)}"))
     console.print(_sea(statistics))
     table = key_value_table("\nTile")
-    rows = (*_tile(scene.ocean, statistics), *_cost(estimate(job, scene=scene), job, scene.ocean))
+    rows = (
+        *_tile(scene.ocean, statistics),
+        *_foam(job, scene.ocean),
+        *_cost(estimate(job, scene=scene), job, scene.ocean),
+    )
     for name, text in rows:
         table.add_row(name, Text(text))
     console.print(table)
@@ -69,14 +73,15 @@ def _keys(job: "Job") -> "Table":
     """Return the table of a job's keys."""
     from rich.text import Text
 
+    from fftocean.job.fixed_tables import CREST, FIX
     from fftocean.job.parameters import PARAMETERS
 
     units = {p.key: p.unit for p in PARAMETERS}
     table = key_value_table(f"Job: {plain(job.source)}")
     for key, value in job.describe().items():
-        if key == "sea.systems":
-            for i, system in enumerate(value):
-                table.add_row(f"sea.systems[{i}]", Text(shortened(system)))
+        if key in ("sea.systems", CREST, FIX):
+            for i, row in enumerate(value):
+                table.add_row(f"{key}[{i}]", Text(shortened(row)))
         else:
             table.add_row(key, f"{value_in_words(value)} {units[key]}".rstrip())
     return table
@@ -105,13 +110,22 @@ def _sea(statistics: "Statistics") -> "Table":
             f"{realised.mean_direction:.1f} deg",
         ),
         ("directional spread", f"{specified.spread:.1f} deg", f"{realised.spread:.1f} deg"),
+        *_skewness(statistics),
     ):
         table.add_row(name, one, other, *scatter)
     return table
 
 
+def _skewness(statistics: "Statistics") -> Iterator[tuple[str, str, str]]:
+    """Yield the row of a sea of order 2: specified, and of the waves of this seed."""
+    if (found := statistics.skewness) is not None:
+        expected = f"{found.expected:.3f}, {100 * found.share:.0f} % resolved"
+        yield "skewness of the elevation", f"{found.specified or 0.0:.3f}", expected
+
+
 def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]:
     """Yield what a tile holds of the sea: a name and a text each."""
+    from fftocean.physics.plausibility import plausibility
     from fftocean.statistics import peak_wavelength, shortest_wavelength
 
     if (length := peak_wavelength(ocean)) > 0.0:
@@ -131,12 +145,29 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
             "loop frequency error",
             f"{100 * error.rms:.1f} % rms, {100 * error.bias:+.1f} % bias{better}",
         )
+    if ocean.bound_waves is not None:
+        yield "second order", str(ocean.bound_waves.report)
     yield "folds", str(statistics.folding)
+    if ocean.rarity is not None:
+        yield "fixed values", str(ocean.rarity)
+        yield "", "they come back on every tile, and with every loop"
     assert ocean.sea is not None  # a job has a sea
+    yield "wave height and steepness", str(plausibility(ocean.sea))
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
         if part:
             yield "water properties from", part
     yield "FFT library", ocean.backend
+
+
+def _foam(job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:
+    """Yield the foam of a job that bakes it: a name and a text."""
+    if "foam" in job.maps:
+        foam = job.describe_foam(ocean)
+        yield (
+            "foam",
+            f"covers {100.0 * foam['coverage']:.2g} % of the water on average; threshold "
+            f"{foam['threshold']:.4g}, {foam['threshold_from']}",
+        )
 
 
 def _cost(cost: "Estimate", job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:
@@ -164,6 +195,7 @@ def _describe_cascade(options: argparse.Namespace, job: "Job") -> int:
         *water.rows(),
         ("files", f"{cost.files} files, about {cost.bytes / 1e6:.0f} MB"),
         ("memory", f"{notes.memory(cost)}, for the largest tile"),
+        ("video memory", f"{notes.video_memory(cost)}, as textures in an engine"),
         ("time to bake", f"about {cost.seconds:.0f} s here"),
     ):
         table.add_row(name, Text(text))

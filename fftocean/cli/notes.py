@@ -50,11 +50,24 @@ def note_folds(extremes: Mapping[str, Any]) -> None:
 
 
 def print_loading(job: "Job") -> None:
-    """Print how files of the format are loaded into the engine, if the job names one."""
+    """
+    Print how files of the format get into the engine, and what plays them, if the job names one.
+    """
+    from fftocean.baking.folder import engine_files
     from fftocean.export.engines import profile_for
 
     if job.engine != "canonical":
         print(f"{job.format} in {job.engine}: {profile_for(job.engine, job.format).note}")
+        print(engine_files.in_words(job.describe()))
+
+
+def print_video_memory(listed: Mapping[str, Any], frames: int) -> None:
+    """Print the video memory of the maps of a bake or of all tiles of a cascade."""
+    held = listed["video_memory"]
+    print(
+        f"video memory of the maps in an engine: {size_in_words(held['bytes'])} for {frames} "
+        f"frames; with mip levels {size_in_words(held['bytes_with_all_levels'])}"
+    )
 
 
 def print_blending(blend: Mapping[str, Any]) -> None:

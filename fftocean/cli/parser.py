@@ -2,24 +2,43 @@
 
 import argparse
 import difflib
+import os
 import re
 import sys
 from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
-from fftocean.cli import bake, bench, check, export_sea, info, plot, presets, verify, view
+from fftocean.cli import (
+    bake,
+    bench,
+    check,
+    export,
+    export_sea,
+    info,
+    keys,
+    plot,
+    presets,
+    report,
+    series,
+    verify,
+    view,
+)
 from fftocean.cli.console import plain
 
 COMMANDS = (
     bake.COMMAND,
     export_sea.COMMAND,
+    export.COMMAND,
+    series.COMMAND,
     check.COMMAND,
     info.COMMAND,
+    keys.COMMAND,
     verify.COMMAND,
     bench.COMMAND,
     plot.COMMAND,
     presets.COMMAND,
+    report.COMMAND,
     view.COMMAND,
 )
 
@@ -91,4 +110,13 @@ def build_parser() -> argparse.ArgumentParser:
         )
         one.set_defaults(run=command.run)
         command.add_flags(one)
+    _complete(parser)
     return parser
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer a shell that asks for completions, and exit; do nothing otherwise."""
+    if "_ARGCOMPLETE" in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser)

@@ -2,7 +2,7 @@
 KTX 2.0: the frames of a loop as one texture array of half-float RGBA, with optional mip levels.
 
 The file holds the levels from the smallest to the largest, and in each level all frames; a frame's
-own bytes are its levels, largest first.
+own bytes are its levels, largest first. `encode_float` writes one picture of single precision.
 """
 
 import struct
@@ -10,7 +10,10 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
 import fftocean
+from fftocean.arrays import Real
 from fftocean.errors import IntegrityError
 from fftocean.export import bare
 from fftocean.export.bare import TEXEL, level_sizes
@@ -18,6 +21,7 @@ from fftocean.export.form import Container, Format, Layout, enumerate_payloads
 
 IDENTIFIER = b"\xabKTX 20\xbb\r\n\x1a\n"
 RGBA16F = 97  # VK_FORMAT_R16G16B16A16_SFLOAT
+FLOATS = {2: 103, 4: 109}  # by channels: VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT
 # format, type size, width, height, depth, layers, faces, levels, scheme; where DFD, key/values,
 # global data are
 HEADER = "<9I4I2Q"
@@ -132,8 +136,53 @@ def unpack(
     ]
 
 
-def _descriptor() -> bytes:
-    """Return the description of a texel: four signed half floats, R, G, B, A, linear."""
+def encode_float(pixels: Real) -> bytes:
+    """
+    Return one 2-D picture of single precision, row 0 first, without mip levels.
+
+    Args:
+        pixels: (rows, columns, 2 or 4) float32.
+
+    Pinned by tests/export/test_ktx2_float.py, against a reader written from the specifications.
+    """
+    return _float_head(pixels.shape) + np.ascontiguousarray(pixels, "<f4").tobytes()
+
+
+def decode_float(data: bytes, shape: tuple[int, ...]) -> Real:
+    """
+    Return the pixels of a file of `encode_float`.
+
+    Raises:
+        IntegrityError: the file is cut or damaged, or holds another texture.
+    """
+    head, size = _float_head(shape), 4 * int(np.prod(shape))
+    written_by = head.index(b"KTXwriter")
+    if len(data) != len(head) + size or data[:written_by] != head[:written_by]:
+        raise IntegrityError(
+            f"a KTX2 file must hold one picture of {shape[1]} x {shape[0]} texels of {shape[2]} "
+            f"floats, in {len(head) + size} bytes"
+        )
+    return np.frombuffer(data, "<f4", offset=len(head)).reshape(shape)
+
+
+def _float_head(shape: tuple[int, ...]) -> bytes:
+    """Return all of a file of `encode_float` before the texels."""
+    rows, columns, channels = shape
+    texel = 4 * channels
+    descriptor = _descriptor(channels, 32)
+    values = _entries((b"KTXorientation", b"rd\0"), _WRITER)
+    first = 12 + struct.calcsize(HEADER) + 24
+    places = (first, len(descriptor), first + len(descriptor), len(values), 0, 0)
+    head = IDENTIFIER
+    head += struct.pack(HEADER, FLOATS[channels], 4, columns, rows, 0, 0, 1, 1, 0, *places)
+    at = -(-(first + len(descriptor) + len(values)) // texel) * texel
+    size = rows * columns * texel
+    head += struct.pack("<3Q", at, size, size) + descriptor + values
+    return head + bytes(at - len(head))
+
+
+def _descriptor(channels: int = 4, bits: int = 16) -> bytes:
+    """Return the description of a texel: signed floats, R, G (, B, A), linear."""
     model, primaries, linear, straight_alpha = (
         1,
         0,
@@ -143,7 +192,7 @@ def _descriptor() -> bytes:
     block = struct.pack(
         "<2I4B4B8B",
         0,
-        (24 + 16 * 4) << 16 | 2,
+        (24 + 16 * channels) << 16 | 2,
         model,
         primaries,
         linear,
@@ -152,16 +201,16 @@ def _descriptor() -> bytes:
         0,
         0,
         0,
-        TEXEL,
+        channels * bits // 8,
         *[0] * 7,
     )
-    for i, channel in enumerate((0, 1, 2, 15)):  # R, G, B, A
+    for i, channel in enumerate((0, 1, 2, 15)[:channels]):  # R, G, B, A
         lower, upper = (
             0xBF800000,
             0x3F800000,
         )  # -1.0 and 1.0: the values that a viewer shows as black and as full intensity
         block += struct.pack(
-            "<HBB4BII", 16 * i, 15, 0xC0 | channel, 0, 0, 0, 0, lower, upper
+            "<HBB4BII", bits * i, bits - 1, 0xC0 | channel, 0, 0, 0, 0, lower, upper
         )  # 0xC0: float, signed
     return struct.pack("<I", 4 + len(block)) + block
 
@@ -171,11 +220,15 @@ def _key_values(count: int, loop: float, row0_on_top: bool) -> bytes:
     exact = Fraction(loop).limit_denominator(1000)
     # Frame time, its unit as 1 / timescale, and the number of repetitions (0: endless).
     animation = struct.pack("<3I", exact.numerator, exact.denominator * count, 0)
-    entries = (
-        (b"KTXanimData", animation),
-        (b"KTXorientation", b"rd\0" if row0_on_top else b"ru\0"),
-        (b"KTXwriter", f"fftocean {fftocean.__version__}".encode() + b"\0"),
-    )
+    orientation = b"rd\0" if row0_on_top else b"ru\0"
+    return _entries((b"KTXanimData", animation), (b"KTXorientation", orientation), _WRITER)
+
+
+_WRITER = (b"KTXwriter", f"fftocean {fftocean.__version__}".encode() + b"\0")
+
+
+def _entries(*entries: tuple[bytes, bytes]) -> bytes:
+    """Return keys and values, each padded to a multiple of 4 bytes."""
     out = b""
     for key, value in entries:
         entry = key + b"\0" + value

@@ -10,6 +10,7 @@ import numba as nb
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
+from fftocean.errors import ParameterError
 from fftocean.gerstner.direct import HasWaves
 
 NAMES = (
@@ -31,7 +32,15 @@ def eight_fields(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> dict[
 
     Returns:
         The fields by name, each of the broadcast shape of x0 and y0.
+
+    Raises:
+        ParameterError: an ocean with waves of second order, which are not linear in the waves.
     """
+    if getattr(ocean, "order", 1) > 1:
+        raise ParameterError(
+            "eight_fields sums linear waves: give ocean.linear(), or take gerstner.surface, "
+            f"got an ocean of order {getattr(ocean, 'order', 1)}"
+        )
     px, py = np.broadcast_arrays(np.asarray(x0, dtype=np.float64), np.asarray(y0, dtype=np.float64))
     waves = ocean.modes()
     k = np.hypot(waves.kx, waves.ky)

@@ -7,12 +7,13 @@ from the fast path: no transform, no table of signs, no shared formula.
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.errors import ParameterError, described
+from fftocean.gerstner import bound
 
 
 class WaveColumns(Protocol):
@@ -75,7 +76,8 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
 
     With phase angle f = kx x0 + ky y0 - omega t - phase, each wave of amplitude a gives height a
     cos f, and displaces the water by -a (k/|k|) coth(|k| depth) sin f: the linear Lagrangian
-    solution (Gerstner 1802 in deep water; Lamb 1932, art. 229).
+    solution (Gerstner 1802 in deep water; Lamb 1932, art. 229). An ocean of order 2 has the waves
+    that are bound to pairs of them as well (`gerstner.bound`), as far as its grid holds them.
 
     Args:
         ocean: an `Ocean`, or any object with waves, depth and choppiness.
@@ -131,6 +133,13 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
         sines[:, part] = np.einsum("fm,pm->fp", on_sine, np.sin(angle))
     height, velocity_x, velocity_y, xx, xy, yy = (f.reshape(px.shape) for f in cosines)
     displace_x, displace_y, slope_x, slope_y, velocity_z = (f.reshape(px.shape) for f in sines)
+    for tile in getattr(ocean, "oceans", (ocean,)):
+        if getattr(tile, "order", 1) > 1:
+            second = _second_order(tile, flat_x, flat_y, t).reshape(4, *px.shape)
+            height, slope_x, slope_y, velocity_z = (
+                first + more
+                for first, more in zip((height, slope_x, slope_y, velocity_z), second, strict=True)
+            )
 
     c = ocean.choppiness
     along_x = np.stack([1.0 + c * xx, c * xy, slope_x], axis=-1)
@@ -156,6 +165,36 @@ def surface(ocean: HasWaves, x0: RealLike, y0: RealLike, t: float) -> Surface:
         normal=normal,
         jacobian=cross[..., 2],
     )
+
+
+def _second_order(ocean: Any, x: Real, y: Real, t: float) -> Real:
+    """Return height, slopes and vertical velocity of the bound waves at points, (4, points)."""
+    waves, grid = bound.pairs(ocean.parents(), ocean.depth, ocean.choppiness), ocean.grid
+    mx, my = np.rint(waves.kx / grid.dkx), np.rint(waves.ky / grid.dky)
+    held = (2 * np.abs(mx) < grid.nx) & (2 * np.abs(my) < grid.ny)
+    # The waves of one wavenumber are one wave, at one time.
+    flip = np.where((mx < 0) | ((mx == 0) & (my < 0)), -1.0, 1.0)[held]
+    mx, my = flip * mx[held], flip * my[held]
+    phase = (waves.omega * t + waves.phase)[held]
+    phasor = waves.amplitude[held] * np.exp(-1j * flip * phase)
+    rate = -1j * flip * waves.omega[held] * phasor
+    key = (mx * grid.ny + my + grid.ny // 2).astype(np.int64)
+    some = np.unique(key)
+    summed = [
+        (np.bincount(key, part.real) + 1j * np.bincount(key, part.imag))[some]
+        for part in (phasor, rate)
+    ]
+    kx = some // grid.ny * grid.dkx
+    ky = (some % grid.ny - grid.ny // 2) * grid.dky
+    spectra = np.stack([summed[0], 1j * kx * summed[0], 1j * ky * summed[0], summed[1]])
+    out = np.zeros((4, x.size))
+    points = max(1, _CHUNK // max(kx.size, 1))
+    for i in range(0, x.size, points):
+        part = slice(i, i + points)
+        angle = np.outer(x[part], kx) + np.outer(y[part], ky)
+        out[:, part] = np.einsum("fm,pm->fp", spectra.real, np.cos(angle))
+        out[:, part] -= np.einsum("fm,pm->fp", spectra.imag, np.sin(angle))
+    return out
 
 
 _CHUNK = 2**21  # phase angles held at a time: 16 MiB

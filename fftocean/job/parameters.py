@@ -23,6 +23,7 @@ MAPS = (
     "jacobian",
     "foam",
     "velocity",
+    "surface_velocity",
     "slope_covariance",
 )
 FORMATS = ("exr", "exr-float", "exr-atlas", "png16", "r16", "npz", "bin", "ktx2", "zarr")
@@ -39,6 +40,7 @@ ENGINES = (
     "babylon",
     "houdini",
 )
+GROWTHS = ("jonswap", "kahma-calkoen", "young-verhagen")
 PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # repeated here so that the command line's help need not import the modules that define them; those
 # compare at import, or a test does
@@ -52,7 +54,7 @@ class Parameter:
     default: Any
     help: str
     quantity: Quantity | None = None  # for numbers
-    choices: tuple[str, ...] = ()  # for words
+    choices: tuple[str, ...] = ()  # for words; beside a quantity, words in place of a number
     many: bool = False  # a list of choices
     none: bool = False  # which may be empty
     switch: bool = False  # true or false
@@ -72,7 +74,8 @@ class Parameter:
         if self.quantity is None:
             return f"{'some' if self.many else 'one'} of {', '.join(self.choices)}"
         whole = "a whole number " if isinstance(self.quantity, Count) else ""
-        return whole + self.quantity.rule + (", or two such, [x, y]" if self.pair else "")
+        words = "".join(f", or {word!r}" for word in self.choices)
+        return whole + self.quantity.rule + (", or two such, [x, y]" if self.pair else "") + words
 
     def check(self, value: Any) -> Any:
         """
@@ -103,7 +106,7 @@ class Parameter:
             raise JobError(str(error)) from None
 
     def _check_one(self, value: Any) -> Any:
-        if self.quantity is not None:
+        if self.quantity is not None and not (self.choices and isinstance(value, str)):
             return self.quantity.check(self.key, value)
         if self.switch:
             if not isinstance(value, bool):
@@ -148,6 +151,12 @@ WIND = (
         "JONSWAP peak enhancement while the sea grows",
         limits.PEAK_ENHANCEMENT,
     ),
+    Parameter(
+        "sea.wind.growth",
+        GROWTHS[0],
+        "law of growth with fetch in deep water; Young and Verhagen's holds in finite depth",
+        choices=GROWTHS,
+    ),
     Parameter("sea.wind.blend", 0.5, "spreading: 0 is Donelan-Banner, 1 is cos^2", limits.FRACTION),
 )
 WATER = (
@@ -180,6 +189,20 @@ TILE = (
         "gaussian",
         "gaussian, as in nature, or fixed: random phases alone",
         choices=("gaussian", "fixed"),
+    ),
+    Parameter(
+        "ocean.order",
+        1,
+        "1 for linear waves; 2 adds second-order waves, which make crests higher and troughs "
+        "flatter",
+        limits.ORDER,
+        flag="order",
+    ),
+    Parameter(
+        "ocean.bound",
+        1000,
+        "number of waves whose pairs have second-order waves, the strongest",
+        limits.BOUND_WAVES,
     ),
 )
 OUTPUT = (
@@ -218,6 +241,13 @@ OUTPUT = (
         "bake.mips", False, "mip levels of each map; with the format ktx2", switch=True, flag="mips"
     ),
     Parameter(
+        "bake.engine_files",
+        True,
+        "files that play the bake in its engine, beside the maps",
+        switch=True,
+        flag="engine-files",
+    ),
+    Parameter(
         "bake.pictures",
         ("sheet", "animation"),
         "preview images, beside the maps",
@@ -230,10 +260,11 @@ FOAM = (
     Parameter("bake.foam.tau", 3.5, "time in which foam decays to 1/e", limits.FOAM_TAU),
     Parameter(
         "bake.foam.threshold",
-        0.72,
+        "wind",
         "smallest eigenvalue of the deformation gradient below which water foams: 1 is at rest, "
-        "0 folds",
+        "0 folds; 'wind' is that which covers what whitecaps do",
         limits.FOAM_THRESHOLD,
+        choices=("wind",),
     ),
     Parameter(
         "bake.foam.strength",

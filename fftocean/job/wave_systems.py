@@ -3,20 +3,22 @@ Wave systems of a job: the tables [[sea.systems]], each a spectrum, a spreading 
 a measured spectrum from a file.
 """
 
+import datetime
 import difflib
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from fftocean.errors import JobError, ParameterError, ReaderError
 from fftocean.job.parameters import spelled
 from fftocean.limits import DIRECTION, Count
-from fftocean.physics import presets  # noqa: F401  registers the spectra of its numbers
+from fftocean.physics import presets
 from fftocean.physics.kinds import Part, Registry
 from fftocean.physics.sea import WaveSystem
 from fftocean.physics.spectra import SPECTRA
+from fftocean.physics.spectra.tabulated import TAIL
 from fftocean.physics.spreading import SPREADINGS, Spreading
 
 if TYPE_CHECKING:
@@ -98,16 +100,23 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
     source = table["measured"]
     if (
         not isinstance(source, dict)
-        or not {"file"} <= set(source) <= {"file", "time", "site"}
+        or not {"file"} <= set(source) <= {"file", "time", "site", "tail"}
         or not isinstance(source["file"], str)
     ):
         raise JobError(
             f"{key}.measured must be a table with a file, and perhaps time and site counted "
-            f"from 0, got {source!r:.80}"
+            f"from 0, and the exponent of a tail, got {source!r:.80}"
         )
-    time, site = (
-        INDEX.check(f"{key}.measured.{name}", source.get(name, 0)) for name in ("time", "site")
-    )
+    site = INDEX.check(f"{key}.measured.site", source.get("site", 0))
+    when = source.get("time", 0)
+    dated = isinstance(when, (str, datetime.date))
+    if not dated:
+        INDEX.check(f"{key}.measured.time", when)
+    try:
+        tail = source.get("tail")
+        tail = None if tail is None else TAIL.check(f"{key}.measured.tail", tail)
+    except ParameterError as error:
+        raise JobError(str(error)) from None
     direction, spreading = None, None
     if "direction" in table:
         direction = DIRECTION.check(f"{key}.direction", table["direction"])
@@ -120,14 +129,20 @@ def measurement(key: str, table: Mapping[str, Any], folder: Path) -> "Realised":
         if os.path.isdir(folder / source["file"]):  # noqa: PTH112  false for impossible names
             raise ReaderError("must be a file, got a directory")
         dataset = readers.open(folder / source["file"], site=site)
+        time = readers.nearest_time(dataset, str(when)) if dated else int(when)
         if "efth" not in dataset and (direction is None or spreading is None):
             raise JobError(
                 "the file has no directions; beside `measured` a job must have direction [degrees, "
                 "toward, counter-clockwise from +x] and spreading, such as direction = 90.0 and "
-                "spreading = { kind = 'blend' }"
+                "spreading = { kind = 'blend' }; without a job file, --toward"
             )
         return readers.Realised.from_spectrum(
-            dataset, time=time, depth=math.inf, direction=direction, spreading=spreading
+            dataset,
+            time=time,
+            depth=math.inf,
+            direction=direction,
+            spreading=spreading,
+            tail=tail,
         )
     except ReaderError as error:
         raise ReaderError(f"{where}: {_without_name(error, source['file'])}") from None
@@ -184,6 +199,19 @@ def _made(key: str, table: Any, kinds: Registry[M], water: Water, nested: int = 
 
 
 _BY_ROLE: dict[str, Registry[Any]] = {kinds.role: kinds for kinds in (SPECTRA, SPREADINGS)}
+
+
+def winds_of(table: Any) -> Iterator[float]:
+    """Yield the winds that the table of a spectrum names [m/s]: by speed, or by a number."""
+    if not isinstance(table, dict):
+        return
+    numbered = {"beaufort": presets.beaufort, "sea-state": presets.sea_state}
+    preset = numbered.get(spelled(str(table.get("kind")), numbered) or "")
+    if preset is not None and isinstance(table.get("number"), int):
+        yield preset(table["number"]).wind
+    elif isinstance(table.get("speed"), (int, float)):
+        yield float(table["speed"])
+    yield from winds_of(table.get("spectrum"))
 
 
 def unknown_key(key: str, known: Iterable[str]) -> str:

@@ -512,3 +512,52 @@ def sum_below(
                 out[p, 4] += along * rate * ky * sine
                 out[p, 5] -= up * rate * cosine
                 out[p, 6] += along * rate * cosine
+
+
+@compiled
+def sum_rises(
+    tiles: tuple[Any, ...],
+    omega: Real,
+    depth: float,
+    x: Real,
+    y: Real,
+    origin: Real,
+    out: Real,
+) -> None:
+    """
+    Write the upward derivatives at z = 0 of what `sum_below` writes, summed over all waves.
+
+    d/dz of cosh k(z + h)/sinh kh is k there, that of sinh k(z + h)/sinh kh is k coth kh.
+
+    Args:
+        tiles: the fields of `Tiles`, of which the waves are used.
+        omega: of each wave [rad/s].
+        depth: still-water depth h [m].
+        x, y: the points [m].
+        origin: a buffer, (tiles, 2).
+        out: (points, 7): the derivatives, per metre, in the order of `sum_below`.
+    """
+    source = Tiles(*tiles)
+    sizes, first, waves = source.sizes, source.first, source.waves
+    for p in range(out.shape[0]):
+        if not (np.isfinite(x[p]) and np.isfinite(y[p])):
+            out[p, :] = np.nan
+            continue
+        out[p, :] = 0.0
+        _reduce(x[p], y[p], sizes, origin)
+        for i in range(sizes.shape[0]):
+            for m in range(first[i], first[i + 1]):
+                kx, ky, rate = waves[KX, m], waves[KY, m], omega[m]
+                k = np.sqrt(kx * kx + ky * ky)
+                angle = kx * origin[i, 0] + ky * origin[i, 1] - waves[PHASE, m]
+                along, up = waves[AMPLITUDE, m] * rate, waves[AMPLITUDE, m] * rate * k
+                if depth < np.inf:
+                    up *= (1.0 + np.exp(-2.0 * k * depth)) / -np.expm1(-2.0 * k * depth)
+                cosine, sine = np.cos(angle), np.sin(angle)
+                out[p, 0] += along * kx * cosine
+                out[p, 1] += along * ky * cosine
+                out[p, 2] += up * sine
+                out[p, 3] += along * rate * kx * sine
+                out[p, 4] += along * rate * ky * sine
+                out[p, 5] -= up * rate * cosine
+                out[p, 6] += along * rate * cosine

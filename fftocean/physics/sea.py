@@ -12,7 +12,7 @@ from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.limits import DEPTH, DIRECTION, SURFACE_TENSION, keep_checked
 from fftocean.physics import moments, presets
-from fftocean.physics.spectra import JONSWAP, TMA, FrequencySpectrum, require_spectrum
+from fftocean.physics.spectra import TMA, FrequencySpectrum, require_spectrum
 from fftocean.physics.spreading import Blend, DonelanBanner, Spreading, require_spreading
 from fftocean.physics.water import SAME, Statement, agreed, statements
 
@@ -154,10 +154,13 @@ class Sea:
         depth: float = math.inf,
         direction: float = 0.0,
         gamma: float = 3.3,
+        growth: str = "jonswap",
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
         Return a TMA sea, spread by an even blend of Donelan-Banner and cos^2.
+
+        In water of finite depth it grows as Young and Verhagen (1996) measured: `TMA.from_wind`.
 
         Args:
             speed: wind 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning that says
@@ -166,13 +169,13 @@ class Sea:
             depth: still-water depth [m].
             direction: toward which the wind blows, counter-clockwise from +x [degrees].
             gamma: peak enhancement of the growing sea [-].
+            growth: law of growth in deep water: "jonswap", "kahma-calkoen" or "young-verhagen".
             spreading: another model of directional spreading.
 
         Raises:
-            ParameterError: a value out of its range.
+            ParameterError: a value out of its range, or an unknown law of growth.
         """
-        deep = JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma)
-        spectrum = TMA(deep, DEPTH.check("depth", depth))
+        spectrum = TMA.from_wind(speed=speed, fetch=fetch, depth=depth, gamma=gamma, growth=growth)
         return cls(
             WaveSystem(
                 spectrum=spectrum,
@@ -233,14 +236,16 @@ class Sea:
         direction: float | None = None,
         spreading: Spreading | None = None,
         negative: str = "refuse",
+        tail: float | None = None,
     ) -> "Sea":
         """
         Return the sea of one measured spectrum: an xarray.Dataset from `readers.open` or straight
         from the wavespectra package.
 
         Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
-        bands. `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports
-        what was masked, repaired or assumed.
+        bands; with a `tail`, say 5, it goes on beyond the last frequency as f^-5.
+        `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was
+        masked, repaired, assumed or added.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
@@ -257,6 +262,7 @@ class Sea:
             direction=direction,
             spreading=spreading,
             negative=negative,
+            tail=tail,
         )
 
     @classmethod
@@ -293,6 +299,27 @@ class Sea:
     def surface_tension_from(self) -> str | None:
         """The first spectrum or spreading that states the surface tension; None where none does."""
         return next(map(str, self._stated("surface_tension")), None)
+
+    def _repr_html_(self) -> str:
+        """Return a table of the sea and its spectrum for notebooks."""
+        from fftocean import notebook_html
+
+        rows = [
+            *(
+                (f"system {i}", f"{_short(system.spectrum)}, {_short(system.spreading)}")
+                for i, system in enumerate(self.systems[:8])
+            ),
+            ("Hs", f"{self.hs:.3g} m"),
+            ("Tp", f"{self.tp:.3g} s"),
+            ("depth", f"{self.depth:g} m"),
+        ]
+        shown = notebook_html.table("Sea", rows)
+        if not self.tp > 0.0:
+            return shown
+        f = np.linspace(0.4, 4.0, 120) / self.tp
+        density = 2.0 * np.pi * self(2.0 * np.pi * f)
+        label = f"S(f) from {f[0]:.3g} to {f[-1]:.3g} Hz, at most {np.max(density):.3g} m²/Hz"
+        return shown + notebook_html.curve(f, density, label)
 
     def __repr__(self) -> str:
         shown = [_short(system.spectrum) for system in self.systems[:3]]

@@ -23,11 +23,12 @@ from fftocean.readers import (
 )
 from fftocean.readers.reader import Head, Reader
 from fftocean.readers.realise import Realised, sea_from_spectrum
+from fftocean.readers.times import nearest_time
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-__all__ = ["FORMATS", "Reader", "Realised", "open", "sea_from_spectrum"]
+__all__ = ["FORMATS", "Reader", "Realised", "nearest_time", "open", "sea_from_spectrum"]
 
 BINS = Count("", 8, 720)
 

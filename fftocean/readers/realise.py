@@ -17,6 +17,7 @@ from fftocean.limits import SIGNIFICANT_WAVE_HEIGHT
 from fftocean.physics.moments import mean_direction_and_spread
 from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra import TabulatedSpectrum
+from fftocean.physics.spectra.tabulated import TAIL
 from fftocean.physics.spreading import Spreading, TabulatedSpreading
 from fftocean.physics.spreading.tabulated import bin_widths
 from fftocean.readers import bands
@@ -32,11 +33,13 @@ class Realised:
     """A sea from a measured spectrum, with a report of the conversion."""
 
     sea: Sea
-    hs_source: float  # significant wave height of the source's own sum over bands, as of `sea` [m]
+    # significant wave height of the source's own sum over bands, as of `sea` without a tail [m]
+    hs_source: float
     factor: float  # m0 of the source's bands / m0 of straight lines through its densities [-]
     tm01_source: float = 0.0  # m0/m1 of the source's own sums [s]; 0 for a flat sea
     tm02_source: float = 0.0  # sqrt(m0/m2) of the source's own sums [s]; 0 for a flat sea
     depth_source: float | None = None  # water depth of the measurement [m]; None if unknown
+    tail_variance: float = 0.0  # m0 that a tail adds to the source's [m^2]
     notes: tuple[str, ...] = ()  # masked, repaired or assumed values, in words
 
     @classmethod
@@ -50,6 +53,7 @@ class Realised:
         direction: float | None = None,
         spreading: Spreading | None = None,
         negative: str = "refuse",
+        tail: float | None = None,
     ) -> "Realised":
         """
         Realise one spectrum of a dataset.
@@ -74,12 +78,18 @@ class Realised:
             negative: "refuse" negative densities, or "clip" them to 0 and keep the energy of each
                 frequency: for directional spectra from a truncated Fourier series
                 (`wavespectra.read_ndbc`).
+            tail: exponent n of a tail S(f_last) (f/f_last)^-n beyond the last frequency, 5 for the
+                waves of a local wind; it takes the place of the upper half of the last band, and
+                its directions are those of the last frequency. None adds none: what was not
+                measured is not there. `tail_variance` and a note have the energy that it adds.
 
         Raises:
             ReaderError: nothing measured at that time, or a dataset that is not a wave spectrum.
             ParameterError: a time, site or depth out of range; directions missing, or given
                 twice.
         """
+        if tail is not None:
+            tail = TAIL.check("tail", tail)
         spectrum = warn_of_notes(to_layout(dataset, site=site, time=time, negative=negative))
         notes = _notes_of(spectrum, getattr(dataset, "attrs", {}))
         own_depth = _own_depth(spectrum)
@@ -165,6 +175,14 @@ class Realised:
         straight = TabulatedSpectrum(
             frequency=lines.frequency.tolist(), density=lines.density.tolist()
         )
+        added = 0.0
+        if tail is not None:
+            straight, added = _with_tail(straight, float(frequency[-1]), tail)
+            notes.append(
+                f"a tail f^-{tail:g} beyond {frequency[-1]:.3g} Hz adds {added:.3g} m^2 to the "
+                f"variance, {100.0 * added / m0:.2g} % (Hs {4.0 * math.sqrt(m0 + added):.4g} m "
+                f"in place of {hs:.4g} m)"
+            )
         system = WaveSystem(spectrum=straight, spreading=spreading, direction=direction)
         return cls(
             sea=Sea(system, depth=depth),
@@ -173,8 +191,25 @@ class Realised:
             tm01_source=m0 / m1,
             tm02_source=math.sqrt(m0 / m2),
             depth_source=own_depth,
+            tail_variance=added,
             notes=tuple(notes),
         )
+
+
+def _with_tail(
+    spectrum: TabulatedSpectrum, last: float, tail: float
+) -> tuple[TabulatedSpectrum, float]:
+    """
+    Return a spectrum with a tail beyond the last measured frequency [Hz], and the m0 that it adds.
+
+    Points beyond that frequency, which are the upper half of its band, give way to the tail.
+    """
+    f, s = np.array(spectrum.frequency), np.array(spectrum.density)
+    kept = f <= last * (1.0 + 1e-9)
+    beyond = np.append(last, f[~kept])
+    cut = float(np.trapezoid(np.append(s[kept][-1], s[~kept]), beyond))
+    tailed = TabulatedSpectrum(f[kept].tolist(), s[kept].tolist(), tail=tail)
+    return tailed, tailed.tail_variance - cut
 
 
 _COUNTED: Final = {
@@ -249,6 +284,7 @@ def sea_from_spectrum(
     direction: float | None = None,
     spreading: Spreading | None = None,
     negative: str = "refuse",
+    tail: float | None = None,
 ) -> Sea:
     """
     Return the sea of one measured spectrum.
@@ -263,6 +299,7 @@ def sea_from_spectrum(
         direction=direction,
         spreading=spreading,
         negative=negative,
+        tail=tail,
     ).sea
 
 

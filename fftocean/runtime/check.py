@@ -1,6 +1,7 @@
 """Check of a run-time package: unchanged files, waves that a sea can have, and the right fields."""
 
 import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from fftocean import gerstner
 from fftocean.baking.finished.check import Finding
 from fftocean.baking.folder.lock import LOCK_FILE, require_free
 from fftocean.baking.folder.sealed import read_sealed
+from fftocean.engine_projects import TEXTURES
 from fftocean.errors import FFTOceanError, IntegrityError, OutputError
 from fftocean.fields import EIGHT
 from fftocean.files import digest, path_of, read_whole
@@ -21,6 +23,7 @@ from fftocean.runtime.decode import ocean_of
 from fftocean.runtime.folder import MARK, is_package
 from fftocean.runtime.package import SeaPackage
 from fftocean.runtime.planes import amplitude_planes
+from fftocean.runtime.textures import decode
 from fftocean.wave_list import oceans_of
 
 __all__ = ["check_package", "is_package"]
@@ -31,6 +34,8 @@ Largest error of a field at a point, relative to the largest of the tile's value
 are rounded to float32, each by up to 6e-8.
 """
 _MOST_MOMENTS = 64
+_OWN = re.compile(r"tile\d+[._].*|twiddle\.bin|\..*\.[0-9].*\.tmp|" + re.escape(MARK))
+"""Names that only a package has, also where a project is beside it."""
 
 
 def check_package(folder: str | Path) -> tuple[Finding, ...]:
@@ -69,6 +74,7 @@ def check_package(folder: str | Path) -> tuple[Finding, ...]:
     except FFTOceanError as error:
         return (*found, Finding("values", layout.DOCUMENT, str(error)))
     oceans = oceans_of(water)
+    found += _twiddle(files, contents)
     for i, ocean in enumerate(oceans):
         found += _textures(ocean, i, files)
     if layout.REFERENCE in files:
@@ -111,6 +117,8 @@ def _extra(folder: Path, contents: Contents) -> Iterator[Finding]:
     for path in sorted(folder.iterdir()):
         if path.name in listed or path.name == LOCK_FILE:
             continue
+        if contents.project is not None and not _OWN.fullmatch(path.name):
+            continue  # of the project, or made by its engine: the user's
         if path.name == MARK:
             why = "left over: run the same command again"
         elif path.match(".*.[0-9]*.tmp"):
@@ -122,18 +130,38 @@ def _extra(folder: Path, contents: Contents) -> Iterator[Finding]:
 
 def _textures(ocean: Ocean, index: int, files: Mapping[str, bytes]) -> Iterator[Finding]:
     """Yield textures that are not those of the waves."""
-    names = layout.texture_files(index)
-    for name, array in zip(names, amplitude_planes(ocean), strict=True):
-        if name in files and not _same_texture(files[name], array):
-            yield Finding("values", name, f"it does not hold {layout.waves_file(index)}")
+    for ending in TEXTURES:
+        names = layout.texture_files(index, ending)
+        if not set(names) & files.keys():
+            continue
+        for name, array in zip(names, amplitude_planes(ocean), strict=True):
+            if name in files and not _same_texture(files[name], ending, array):
+                yield Finding("values", name, f"it does not hold {layout.waves_file(index)}")
 
 
-def _same_texture(data: bytes, array: np.ndarray[Any, Any]) -> bool:
+def _same_texture(data: bytes, ending: str, array: np.ndarray[Any, Any]) -> bool:
     """Return whether bytes are those of a texture, to the last digit but one."""
-    if len(data) != array.nbytes:
+    try:
+        found = decode(data, ending, array.shape)
+    except IntegrityError:
         return False
-    found = np.frombuffer(data, "<f4").reshape(array.shape)
     return bool(np.all(np.abs(found - array) <= 4e-7 * np.abs(array)))
+
+
+def _twiddle(files: Mapping[str, bytes], contents: Contents) -> Iterator[Finding]:
+    """Yield a table of the transform that is none."""
+    if layout.TWIDDLE not in files:
+        return
+    n = max(max(tile.grid.shape) for tile in contents.tiles)
+    turns = np.exp(2j * np.pi * np.arange(n) / n)
+    found = np.frombuffer(files[layout.TWIDDLE], np.uint8)
+    right = found.size == 8 * n
+    if right:
+        pairs = found.view("<f4").reshape(n, 2)
+        right = bool(np.max(np.abs(pairs[:, 0] + 1j * pairs[:, 1] - turns)) <= 1e-7)
+    if not right:
+        why = f"it does not hold cosine and sine of 2 pi i/{n}"
+        yield Finding("values", layout.TWIDDLE, why)
 
 
 def _reference(data: bytes, oceans: Sequence[Ocean], contents: Contents) -> Iterator[Finding]:

@@ -62,6 +62,7 @@ class Contents:
     surface_tension: float  # [N/m]
     tiles: tuple[Tile, ...]
     files: tuple[File, ...]
+    project: tuple[str, ...] | None = None  # files of an engine's project, which may be edited
 
     @classmethod
     def of(cls, document: Any, source: str = layout.DOCUMENT) -> "Contents":
@@ -123,6 +124,10 @@ class _Entries:
         one, two = self.items(key, 2, 2)
         return check(f"{name}[0]", one), check(f"{name}[1]", two)
 
+    def table(self, key: str) -> "_Entries | None":
+        """Return an object that may be missing."""
+        return _Entries(self._tree[key], self.name(key)) if key in self._tree else None
+
     def tables(self, key: str, low: int, high: int) -> list["_Entries"]:
         """Return the objects of a list."""
         items = self.items(key, low, high)
@@ -147,6 +152,7 @@ def _contents(document: _Entries) -> Contents:
         surface_tension=document.take("surface_tension", SURFACE_TENSION.check),
         tiles=tiles,
         files=files,
+        project=_project(document),
     )
 
 
@@ -184,6 +190,21 @@ def _file(entries: _Entries) -> File:
             f"{entries.name('sha256')} must be 64 hexadecimal digits, got {sha256!r:.80}"
         )
     return File(name, entries.take("bytes", _BYTES.check), sha256)
+
+
+def _project(document: _Entries) -> tuple[str, ...] | None:
+    """Return the names of the files of an engine's project; None without one."""
+    project = document.table("project")
+    if project is None:
+        return None
+    names = [entries.get("name") for entries in project.tables("files", 0, 10_000)]
+    for i, name in enumerate(names):
+        if not layout.is_project_name(name) or name == layout.DOCUMENT:
+            raise ParameterError(
+                f"project.files[{i}].name must be that of a file in the folder or below it, "
+                f"got {name!r:.60}"
+            )
+    return tuple(names)
 
 
 def _require_names(files: tuple[File, ...], tiles: tuple[Tile, ...]) -> None:

@@ -3,9 +3,10 @@ Folder of a run-time package: files that are complete or absent, and `sea.json` 
 
 An export that was stopped leaves a mark, and no `sea.json`. The same export again keeps the files
 that are there already, with the same bytes. Another one is refused, unless it may overwrite; even
-then, files that no package lists are left alone.
+then, files that no package lists are left alone, and files of a project that were edited.
 """
 
+import contextlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,10 +16,13 @@ from fftocean.baking.folder import layout as bake_layout
 from fftocean.baking.folder.lock import locked, require_free
 from fftocean.baking.folder.sealed import CHECK, read_sealed, sealed
 from fftocean.cascade import Cascade
+from fftocean.engine_projects import engine_of
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.files import (
     as_json,
+    digest,
     make_folder,
+    make_parents,
     path_of,
     read_whole,
     remove,
@@ -27,6 +31,7 @@ from fftocean.files import (
 )
 from fftocean.foam import Foam
 from fftocean.ocean import Ocean
+from fftocean.runtime import project
 from fftocean.runtime.container import require_same
 from fftocean.runtime.contents import Contents
 from fftocean.runtime.decode import ocean_of
@@ -43,7 +48,8 @@ def export_sea(
     source: Ocean | Cascade,
     folder: str | Path,
     *,
-    textures: bool = False,
+    textures: bool | str = False,
+    engine: str | None = None,
     job: str | None = None,
     ticks: int | None = None,
     foam: Foam | None = None,
@@ -56,10 +62,13 @@ def export_sea(
     Files are complete or absent, and `sea.json`, with the SHA-256 of the others, is written last: a
     folder without it holds no package. The same call again finishes an export that was stopped.
 
+    With an engine, its kernels are of the package, and the files of its project are copied beside
+    it. These are the user's from then on: one that was edited is neither damage nor replaced.
+
     Args:
         source: an ocean or a cascade that loops.
         folder: the folder to write to; made if it does not exist.
-        textures, job, ticks, foam, wind: as in `runtime.pack`.
+        textures, engine, job, ticks, foam, wind: as in `runtime.pack`.
         overwrite: replace another package, whose files are removed first.
 
     Returns:
@@ -72,23 +81,42 @@ def export_sea(
     """
     folder = path_of("folder", folder)
     require_free(folder)
-    package = pack(source, textures=textures, job=job, ticks=ticks, foam=foam, wind=wind)
+    package = pack(
+        source, textures=textures, engine=engine, job=job, ticks=ticks, foam=foam, wind=wind
+    )
+    row = engine_of(engine)
+    added = {} if row is None else project.files_of(row)
+    if row is not None:
+        package.document["project"] = project.describe(row, added)
     add_file(package, README, readme_of(package.document), "text", [], "")
+    if both := sorted(set(added) & set(package.files)):
+        raise OutputError(f"the project of engine {engine} has a file {both[0]} of the package")
     document = sealed(package.document)
     make_folder(folder)
     with locked(folder):
         try:
-            _make_way(folder, document, package.files, overwrite=overwrite)
-            mark = {"document": document[CHECK], "files": list(package.files)}
-            write_whole(folder / MARK, as_json(sealed(mark)))
+            kept = _make_way(folder, document, package.files, added, overwrite=overwrite)
             for name, data in package.files.items():
                 if read_whole(folder / name, MOST_BYTES) != data:
                     write_whole(folder / name, data)
+            for name, data in added.items():
+                if name not in kept and read_whole(folder / name, MOST_BYTES) != data:
+                    write_whole(make_parents(folder, name), data)
             write_whole(folder / DOCUMENT, as_json(document))
             remove(folder / MARK)
         finally:
-            remove_temporary_files(folder)
+            for inner in ["", *sorted(project.folders_of(added))]:
+                remove_temporary_files(folder / inner)
     return document
+
+
+def edited_files(folder: Path, document: Mapping[str, Any]) -> list[str]:
+    """Return the files of a project that are no longer as an export wrote them."""
+    return [
+        name
+        for name, sha256 in project.listed_in(document).items()
+        if (data := read_whole(folder / name, MOST_BYTES)) is None or digest(data) != sha256
+    ]
 
 
 def load_sea(
@@ -149,10 +177,25 @@ def is_package(folder: Path) -> bool:
 
 
 def _make_way(
-    folder: Path, document: Mapping[str, Any], files: Mapping[str, bytes], *, overwrite: bool
-) -> None:
+    folder: Path,
+    document: Mapping[str, Any],
+    files: Mapping[str, bytes],
+    added: Mapping[str, bytes],
+    *,
+    overwrite: bool,
+) -> set[str]:
     """
-    Remove another package from a folder if it may be overwritten; leave this one's files.
+    Mark an export, and remove another package if it may be overwritten; leave this one's files.
+
+    Args:
+        folder: the folder to write to.
+        document: of the package that is written.
+        files: of the package.
+        added: of its project.
+        overwrite: replace another package.
+
+    Returns:
+        The files of the project that were edited, and are kept.
 
     Raises:
         OutputError: the folder holds something else, or another package and may not be overwritten.
@@ -165,7 +208,10 @@ def _make_way(
     ):
         if os.path.lexists(folder / name):
             raise OutputError(f"{folder} holds a bake ({name}); choose another folder")
-    listed: set[str] = set()  # by packages that are or were to be here
+    # By packages that are or were to be here: files of the package, and the SHA-256 of those of its
+    # project.
+    listed: set[str] = set()
+    projects: dict[str, set[str]] = {}
     for name, words in ((DOCUMENT, "another sea"), (MARK, "an unfinished export of another sea")):
         if not os.path.lexists(folder / name):
             continue
@@ -174,21 +220,41 @@ def _make_way(
         if not same and not overwrite:
             raise OutputError(f"{folder} holds {words} ({name}); {OTHER}")
         listed |= _names_in(earlier)
-    for name, data in files.items():
-        if name not in listed and os.path.lexists(folder / name):
+        for file, sha256 in project.listed_in(earlier).items():
+            projects.setdefault(file, set()).add(sha256)
+    kept: set[str] = set()
+    replaced: set[str] = set()
+    for name, digests in projects.items():
+        data = read_whole(folder / name, MOST_BYTES)
+        if data is not None and data != added.get(name):
+            (replaced if digest(data) in digests else kept).add(name)
+    known = listed | set(projects)
+    for name, data in {**files, **added}.items():
+        if name not in known and os.path.lexists(folder / name):
             if read_whole(folder / name, MOST_BYTES) == data:
                 continue
             raise OutputError(
                 f"{folder} holds {name}, which is not listed in a {DOCUMENT} there, and is not "
                 "overwritten; move it away, or choose another folder"
             )
-    if os.path.lexists(folder / DOCUMENT) and _earlier(folder, DOCUMENT) != document:
+    other = os.path.lexists(folder / DOCUMENT) and _earlier(folder, DOCUMENT) != document
+    if other:
         for name in sorted(listed):
             remove(folder / name)
+    mark = {"document": document[CHECK], "files": list(files), "project": document.get("project")}
+    write_whole(folder / MARK, as_json(sealed(mark)))
+    gone = replaced - set(added)
+    for name in sorted(gone):
+        remove(folder / name)
+    for inner in sorted(project.folders_of(gone), reverse=True):
+        with contextlib.suppress(OSError):  # something else is in it
+            (folder / inner).rmdir()
+    if other:
         # last: until then it lists what is to be removed
         remove(folder / DOCUMENT)
     for name in sorted(listed - set(files)):
         remove(folder / name)
+    return kept
 
 
 def _earlier(folder: Path, name: str) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from fftocean.grid import Grid
 
 FORMAT, VERSION = "fftocean-runtime", 1
 DOCUMENT, REFERENCE, README = "sea.json", "check.json", "README.md"
+TWIDDLE = "twiddle.bin"
 
 RECORD = np.dtype([("mx", "<i2"), ("my", "<i2"), ("cycles", "<u2"), ("re", "<f4"), ("im", "<f4")])
 """One wave, 14 bytes: integer wavenumbers, whole cycles in a loop, and h0(k) [m]."""
@@ -37,9 +38,9 @@ def waves_file(index: int) -> str:
     return f"tile{index}.waves"
 
 
-def texture_files(index: int) -> tuple[str, str]:
-    """Return the names of the files of a tile's two textures."""
-    return f"tile{index}_h0.bin", f"tile{index}_wave.bin"
+def texture_files(index: int, ending: str = "bin") -> tuple[str, str]:
+    """Return the names of the files of a tile's two textures in a format."""
+    return f"tile{index}_h0.{ending}", f"tile{index}_wave.{ending}"
 
 
 def is_file_name(name: Any) -> bool:
@@ -54,6 +55,11 @@ def is_file_name(name: Any) -> bool:
         and _NAME.fullmatch(name) is not None
         and _DEVICES.fullmatch(name) is None
     )
+
+
+def is_project_name(name: Any) -> bool:
+    """Return whether a name with slashes is that of a file in the package's folder or below it."""
+    return isinstance(name, str) and len(name) <= 200 and all(map(is_file_name, name.split("/")))
 
 
 def require_sides(grid: Grid, name: str) -> None:

@@ -6,15 +6,18 @@ from typing import Any
 
 from fftocean.arrays import brief_repr
 from fftocean.cascade import Cascade
+from fftocean.engine_projects import engine_of
 from fftocean.errors import ParameterError, described
 from fftocean.files import digest
 from fftocean.foam import Foam
-from fftocean.limits import DIRECTION, WIND_SPEED, Count, check_bool
+from fftocean.limits import DIRECTION, WIND_SPEED, Count
 from fftocean.ocean import Ocean
 from fftocean.runtime import document, layout, planes
+from fftocean.runtime.engines import kernels_of, require_engine_sides
 from fftocean.runtime.records import records_of
 from fftocean.runtime.reference import reference_of
 from fftocean.runtime.source import Source
+from fftocean.runtime.textures import encode, textures_ending, twiddle
 
 QUALITIES = ("exact", "moving")
 POINTS = 64
@@ -34,7 +37,8 @@ class SeaPackage:
 def pack(
     source: Ocean | Cascade | Source,
     *,
-    textures: bool = False,
+    textures: bool | str = False,
+    engine: str | None = None,
     reference: bool | int = True,
     job: str | None = None,
     quality: str = "exact",
@@ -47,7 +51,9 @@ def pack(
 
     Args:
         source: an ocean or a cascade that loops, or a `Source` of given amplitudes.
-        textures: add the waves as textures of float32, ready for a graphics processor.
+        textures: add the waves as textures of float32, ready for a graphics processor: "bin",
+            "ktx2" or "exr"; True is "bin".
+        engine: add the kernels of an engine of `runtime.engines`, and the textures that it needs.
         reference: add `check.json`, fields at some points by which a program can check itself,
             and measure the bounds of the fields; a number is that of the points a tile.
         job: the job of the sea as TOML text.
@@ -64,7 +70,8 @@ def pack(
     source = Source.of(source)
     if quality not in QUALITIES:
         raise ParameterError(f"quality must be 'exact' or 'moving', got {quality!r:.40}")
-    check_bool("textures", textures)
+    row = engine_of(engine)
+    ending = textures_ending(textures) or (row.textures if row else None)
     if foam is not None and not isinstance(foam, Foam):
         raise ParameterError(f"foam must be a Foam, got {described(foam)}")
     if job is not None and (not isinstance(job, str) or len(job) > layout.MOST_JOB):
@@ -77,6 +84,8 @@ def pack(
     whole = []
     for i, tile in enumerate(source.tiles):
         layout.require_sides(tile.grid, f"tile {i}")
+        if row:
+            require_engine_sides(row, tile.grid, f"tile {i}")
         whole.append(planes.planes_of(tile, f"tile {i}"))
     most = max(plane.most_cycles for plane in whole)
     ticks = layout.ticks_for(most) if ticks is None else layout.require_ticks(ticks, most)
@@ -97,11 +106,16 @@ def pack(
     for i, (tile, plane, waves) in enumerate(zip(source.tiles, whole, records, strict=True)):
         name = layout.waves_file(i)
         add_file(package, name, waves.tobytes(), RECORD_TEXT, [len(waves)], "wave")
-        if textures:
+        if ending:
             arrays = planes.textures_of(plane, tile.grid, tile.depth)
-            for name, array in zip(layout.texture_files(i), arrays, strict=True):
-                axes = "row, column, channel"
-                add_file(package, name, array.tobytes(), "float32", list(array.shape), axes)
+            for name, array in zip(layout.texture_files(i, ending), arrays, strict=True):
+                data, dtype = encode(array, ending)
+                add_file(package, name, data, dtype, list(array.shape), "row, column, channel")
+    if ending or row:
+        table = twiddle(max(max(tile.grid.shape) for tile in source.tiles))
+        add_file(package, layout.TWIDDLE, table.tobytes(), "float32", list(table.shape), "i, part")
+    for name, data in (kernels_of(row) if row else {}).items():
+        add_file(package, name, data, "text", [], "")
     if measured:
         data = json.dumps(reference_of(source, ticks, points), separators=(",", ":")).encode()
         add_file(package, layout.REFERENCE, data, "json", [], "")

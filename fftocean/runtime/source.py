@@ -12,6 +12,7 @@ from fftocean.ocean import Ocean, from_amplitudes
 from fftocean.physics.sea import Sea
 from fftocean.runtime.layout import MOST_TILES
 from fftocean.statistics import loop_error
+from fftocean.wave_list import require_linear
 
 PROPOSED = 64.0
 """Period near which a loop is proposed for waves without one [s]."""
@@ -69,6 +70,7 @@ class Source:
                 f"a run-time package holds the linear waves of an Ocean or a Cascade, "
                 f"got {_INSTEAD.get(kind, described(given))}"
             )
+        require_linear(given, "a run-time package")
         oceans = given.oceans if isinstance(given, Cascade) else (given,)
         return cls(
             tiles=tuple(ocean.amplitudes for ocean in oceans),

@@ -248,13 +248,11 @@ class Playback:
         Return the parameters of foam: those of a job that bakes foam, else such that it covers what
         whitecaps do at the job's wind.
         """
-        foam = dict(self._tiles[0].contents.job.foam)
+        job = self._tiles[0].contents.job
+        foam = dict(job.foam)
         wind, water = self._wind, self._water
-        if (
-            wind is not None
-            and water is not None
-            and "foam" not in self._tiles[0].contents.job.maps
-        ):
+        fixed = "foam" in job.maps and not job.foam_follows_wind
+        if wind is not None and water is not None and not fixed:
             foam["threshold"] = threshold_for(
                 water, wind[0], tau=foam["tau"], strength=foam["strength"]
             )

@@ -112,6 +112,7 @@ class MovingSeas:
             self._given is not None
             and state.has_random_numbers_of(self._given.state)
             and not state.has_waves_of(self._given.state)
+            and not (state.base.crests or state.base.fixes)  # each sea is constrained anew
         )
 
     def make(self, state: State, number: int) -> MadeSea:
@@ -175,10 +176,11 @@ def _foam_of(state: State, cascade: Cascade) -> Foam:
     windows of foam take the tiles' samples as they are, unfiltered.
     """
     own, wind = state.base.foam, _wind_of(state)
-    if "foam" in state.base.maps or (wind is None and state.base.systems):
+    fixed = "foam" in state.base.maps and not state.base.foam_follows_wind
+    if fixed or (wind is None and state.base.systems):
         return Foam(**own)
     speed = 0.0 if wind is None else wind[0]
-    return Foam.from_wind(cascade, speed, tau=own["tau"], strength=own["strength"])
+    return Foam.whitecaps(cascade, speed, tau=own["tau"], strength=own["strength"])
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:

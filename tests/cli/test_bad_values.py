@@ -41,7 +41,9 @@ ACCEPTED = {
     "sea.surface_tension": ("0", "1e-308"),
     "ocean.seed": ("0",),
     "ocean.choppiness": ("0", "1e-308"),
+    "ocean.bound": ("0",),
     "bake.mips": ("true",),
+    "bake.engine_files": ("true",),
     "bake.foam.threshold": ("-1", "0", "1e-308"),
     "bake.foam.strength": ("0", "1e-308"),
 }

@@ -53,3 +53,30 @@ def test_info_describes_a_job_with_systems_and_without_waves(run):
     assert code == 0
     assert "the sea is exactly flat" in err
     assert "nan" not in out
+
+
+STEEP = "spectrum = { kind = 'jonswap', hs = 3.0, tp = 5.0 }\n"
+
+
+@pytest.mark.parametrize("command", [("info",), ("verify",), ("info", "--tiles", "16:60,16:9")])
+def test_impossible_seas_are_named(run, command):
+    """Each limit in one note, whatever the number of tiles; troughs that bare the bed refuse it."""
+    Path("steep.toml").write_text("sea.depth = 4.0\n[[sea.systems]]\n" + STEEP)
+    code, out, err = run(command[0], "steep.toml", "--n", "16", *command[1:])
+    assert code == 0
+    assert err.count("steeper than those of real seas") == 1
+    assert err.count("0.75 of the depth of 4 m") == 1
+    if command[0] == "info":
+        assert "wave height and steepness" in out
+    Path("bare.toml").write_text("sea.depth = 2.0\n[[sea.systems]]\n" + STEEP)
+    code, _, err = run(command[0], "bare.toml", "--n", "16", *command[1:])
+    assert code == 2
+    assert "troughs bare the bed, got 2 m for waves of 3 m" in err
+
+
+def test_foam_is_described_where_it_is_baked(run):
+    out = run("info", "--n", "16", "--maps", "foam")[1]
+    # 3.84e-6 x 7^3.41 is 0.29 %
+    assert "covers 0.29 % of the water on average; threshold 0." in " ".join(out.split())
+    assert "whitecaps of 7 m/s" in " ".join(out.split())
+    assert "whitecaps" not in run("info", "--n", "16")[1]

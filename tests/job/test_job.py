@@ -38,6 +38,8 @@ GOOD = {
         "hs": "0.5",
         "tp": "8.0",
         "gamma": "2.0",
+        "growth": "'kahma-calkoen'",
+        "tail": "5.0",
         "speed": "9.0",
         "fetch": "1e5",
         "number": "4",
@@ -116,6 +118,7 @@ VERDICTS = {
     "sea.wind.fetch":        "r   r   r  r r   r    r     r",
     "sea.wind.direction":    "r   r   a  a r   r    r     a",
     "sea.wind.gamma":        "r   r   r  r r   r    r     r",
+    "sea.wind.growth":       "r   r   r  r r   r    r     r",
     "sea.wind.blend":        "r   r   r  a r   r    r     a",
     "sea.depth":             "r   a   r  r r   r    a     r",
     "ocean.band_low":        "r   r   r  a r   r    r     a",
@@ -127,6 +130,8 @@ VERDICTS = {
     "ocean.loop":            "r   r   r  r r   r    r     r",
     "ocean.choppiness":      "r   r   r  a r   r    r     a",
     "ocean.amplitudes":      "r   r   r  r r   r    r     r",
+    "ocean.order":           "r   r   r  r r   r    r     r",
+    "ocean.bound":           "r   r   r  a r   r    r     r",
     "bake.frames":           "r   r   r  r r   r    r     r",
     "bake.maps":             "r   r   r  r r   r    r     r",
     "bake.format":           "r   r   r  r r   r    r     r",
@@ -134,6 +139,7 @@ VERDICTS = {
     "bake.lookup":           "r   r   r  r r   r    r     r",
     "bake.normals":         "r   r   r  r r   r    r     r",
     "bake.mips":             "r   r   r  r r   a    r     r",
+    "bake.engine_files":     "r   r   r  r r   a    r     r",
     "bake.pictures":         "r   r   r  r r   r    r     r",
     "bake.foam.tau":         "r   r   r  r r   r    r     r",
     "bake.foam.threshold":   "r   r   a  a r   r    r     a",
@@ -289,6 +295,48 @@ def test_every_default_keeps_its_own_rule():
     assert set(BY_KEY["bake.engine"].choices) == set(PROFILES)
 
 
+@pytest.mark.parametrize(
+    ("sea", "wind"),
+    [
+        ("[sea.wind]\nspeed = 12.0\n", 12.0),
+        (f"[[sea.systems]]\n{SWELL}\n", None),
+        ("[[sea.systems]]\nspectrum = { kind = 'beaufort', number = 6 }\n", 12.3),
+        ("[[sea.systems]]\nspectrum = { kind = 'elfouhaily', speed = 9.0, fetch = 1e5 }\n", 9.0),
+        (
+            "[[sea.systems]]\nspectrum = { kind = 'tma', spectrum = "
+            "{ kind = 'jonswap', speed = 8.0, fetch = 1e5 } }\n",
+            8.0,
+        ),
+    ],
+)
+def test_foam_follows_the_wind_that_a_job_names(sea, wind):
+    """By speed or by a number; a swell alone has none, and the fixed threshold."""
+    text = sea + "[ocean]\nn = 32\nsize = 80.0\n"
+    job = Job.from_toml(text)
+    assert job.wind_speed == (None if wind is None else pytest.approx(wind))
+    ocean = job.ocean()
+    told = job.describe_foam(ocean)
+    assert told["wind"] == job.wind_speed
+    if wind is None:
+        assert job.foam_on(ocean) == Foam()
+        assert told["threshold_from"] == "fixed, as the sea names no wind"
+        return
+    assert job.foam_on(ocean).threshold == pytest.approx(
+        Foam.whitecaps(ocean, wind).threshold, abs=5.1e-5
+    )
+    # rounding the threshold by 5e-5 changes the coverage by less than 1 %
+    assert told["coverage"] == pytest.approx(3.84e-6 * wind**3.41, rel=0.01)
+    assert "whitecaps of" in told["threshold_from"]
+    fixed = Job.from_toml(text + "[bake.foam]\nthreshold = 0.6\n")
+    assert fixed.foam_on(ocean) == Foam(threshold=0.6)
+    assert fixed.describe_foam(ocean)["threshold_from"] == "as the job has it"
+
+
+def test_the_threshold_of_foam_is_a_number_or_follows_the_wind():
+    refused("[bake.foam]\nthreshold = 'Monahan'\n", "bake.foam.threshold", "or 'wind'", "Monahan")
+    assert Job.from_toml("[bake.foam]\nthreshold = 'Wind'\n").foam_follows_wind
+
+
 def test_foam_is_that_of_the_library():
     """The same defaults, though the table of keys stands apart from what they mean."""
     assert Foam(**Job.default().foam) == Foam()
@@ -376,7 +424,7 @@ def test_a_file_reads_as_its_text(tmp_path, ending):
         ),
         (
             "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0 }\n",
-            ["{hs, tp, [gamma]} or {speed, fetch, [gamma]}", "got {hs}"],
+            ["{hs, tp, [gamma]} or {speed, fetch, [gamma], [growth]}", "got {hs}"],
         ),
         (
             "[[sea.systems]]\nspectrum = { kind = 'jonswap', hs = 1.0, tp = 9.0, speed = 9.0 }\n",
@@ -637,8 +685,8 @@ SPECTRA = {
         speed=9.0, fetch=1e5
     ),
     "kind = 'tma', hs = 1.5, tp = 9.0": lambda: fo.TMA.from_sea_state(hs=1.5, tp=9.0, depth=DEPTH),
-    "kind = 'tma', speed = 9.0, fetch = 1e5, gamma = 1.5": lambda: fo.TMA(
-        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=1.5), DEPTH
+    "kind = 'tma', speed = 9.0, fetch = 1e5, gamma = 1.5": lambda: fo.TMA.from_wind(
+        speed=9.0, fetch=1e5, gamma=1.5, depth=DEPTH
     ),
     "kind = 'pierson-moskowitz', hs = 2.0, tp = 9.0": lambda: fo.PiersonMoskowitz.from_sea_state(
         hs=2.0, tp=9.0
@@ -802,6 +850,18 @@ WW3 = str(SPECTRA_FILES / "ww3file.nc")
 
 def measured_job(*tables, **sea):
     return Job.from_tree({"sea": {"systems": [{"measured": table} for table in tables], **sea}})
+
+
+def test_a_measured_system_has_the_tail_that_its_table_names():
+    plain, tailed = measured_job({"file": WW3}), measured_job({"file": WW3, "tail": 5.0})
+    made = tailed.measurements()["sea.systems[0]"]
+    assert made.tail_variance > 0.0
+    assert tailed.sea().variance == pytest.approx(
+        plain.sea().variance + made.tail_variance, rel=1e-9
+    )
+    assert any("a tail f^-5" in note for note in tailed.measured_notes()["sea.systems[0]"])
+    with pytest.raises(JobError, match=r"sea\.systems\[0\]\.measured\.tail must be between 1\.5"):
+        measured_job({"file": WW3, "tail": 1.0})
 
 
 def test_a_job_takes_the_depth_of_its_measured_file_unless_it_names_one():

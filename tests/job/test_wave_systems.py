@@ -26,8 +26,8 @@ SPECTRUM_CASES = [
     ("jonswap", "speed = 9, fetch = 1e5", fo.JONSWAP.from_wind(speed=9.0, fetch=1e5)),
     (
         "jonswap",
-        "speed = 9, fetch = 1e5, gamma = 2",
-        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0),
+        "speed = 9, fetch = 1e5, gamma = 2, growth = 'kahma-calkoen'",
+        fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0, growth="kahma-calkoen"),
     ),
     ("tma", "hs = 1, tp = 6", fo.TMA.from_sea_state(hs=1.0, tp=6.0, depth=DEPTH)),
     (
@@ -37,8 +37,8 @@ SPECTRUM_CASES = [
     ),
     (
         "tma",
-        "speed = 9, fetch = 1e5, gamma = 2",
-        fo.TMA(fo.JONSWAP.from_wind(speed=9.0, fetch=1e5, gamma=2.0), DEPTH),
+        "speed = 9, fetch = 1e5, gamma = 2, growth = 'kahma-calkoen'",
+        fo.TMA.from_wind(speed=9.0, fetch=1e5, gamma=2.0, depth=DEPTH, growth="kahma-calkoen"),
     ),
     (
         "tma",
@@ -89,8 +89,8 @@ SPECTRUM_CASES = [
     ("sea-state", "number = 4", fo.presets.sea_state(4).spectrum(DEPTH)),
     (
         "tabulated",
-        "frequency = [0.1, 0.2], density = [1.0, 2.0]",
-        fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0]),
+        "frequency = [0.1, 0.2], density = [1.0, 2.0], tail = 4",
+        fo.TabulatedSpectrum([0.1, 0.2], [1.0, 2.0], tail=4.0),
     ),
 ]
 SPREADING_CASES = [

@@ -150,7 +150,7 @@ def test_still_air_is_a_flat_sea_and_says_so():
 def test_the_short_way_is_the_long_way():
     short = Sea.from_wind(speed=14.0, fetch=200e3, depth=40.0, direction=30.0)
     system = WaveSystem(
-        spectrum=TMA(JONSWAP.from_wind(speed=14.0, fetch=200e3), depth=40.0),
+        spectrum=TMA.from_wind(speed=14.0, fetch=200e3, depth=40.0),
         spreading=Blend(DonelanBanner(), CosineSquared(), weight=0.5),
         direction=30.0,
     )

@@ -319,3 +319,72 @@ def test_a_height_that_no_sea_has_is_refused():
 def test_what_is_no_spectrum_is_refused(what, message):
     with pytest.raises(ReaderError, match=message):
         sea_from_spectrum(what)
+
+
+# A tail beyond the last frequency
+
+
+def sounded(tail=None):
+    """Return a sea realised from a one-dimensional JONSWAP spectrum, cut at 0.3 Hz, and S there."""
+    spectrum = JONSWAP.from_sea_state(hs=2.0, tp=6.0)
+    f = np.arange(0.05, 0.3001, 0.01)
+    dataset = xr.Dataset({"ef": ("freq", 2.0 * np.pi * spectrum(2.0 * np.pi * f))}, {"freq": f})
+    made = Realised.from_spectrum(
+        dataset, direction=0.0, spreading=CosinePower(s=5.0), depth=math.inf, tail=tail
+    )
+    return made, spectrum
+
+
+@pytest.mark.parametrize("n", [4.0, 5.0, 7.5])
+def test_a_tail_adds_its_closed_integral(n):
+    """
+    S f/(n - 1) beyond f, less the upper half of the last band, 0.005 Hz of S; the integral of any
+    band beyond f, and the whole by quadrature.
+    """
+    (cut, _), (tailed, _) = sounded(), sounded(n)
+    one = tailed.sea.systems[0].spectrum
+    last = 0.3
+    level = float(one(2.0 * np.pi * last)) * 2.0 * np.pi
+    added = level * last / (n - 1.0) - 0.005 * level
+    assert tailed.tail_variance == pytest.approx(added, rel=1e-9)
+    assert tailed.sea.variance == pytest.approx(cut.sea.variance + added, rel=1e-9)
+    assert tailed.hs_source == cut.hs_source
+    band = moments.moment(one, 0, 2.0 * np.pi * 0.4, 2.0 * np.pi * 0.9)
+    exact = level * last**n / (n - 1.0) * (0.4 ** (1.0 - n) - 0.9 ** (1.0 - n))
+    assert band == pytest.approx(exact, rel=1e-9)
+    assert float(one(2.0 * np.pi * (last + 1e-9))) == pytest.approx(level / (2.0 * np.pi), rel=1e-7)
+    inside = 2.0 * np.pi * np.linspace(0.05, 0.3, 77)
+    assert np.array_equal(one(inside), cut.sea.systems[0].spectrum(inside))
+
+
+def test_a_tail_gives_back_the_energy_that_the_instrument_cut():
+    """At 0.3 Hz, 1.8 peaks, a JONSWAP is 11 % below f^-5 (exp(-1.25/1.8^4)), and here loses 5 %."""
+    made, spectrum = sounded(5.0)
+    whole, cut = moments.moment(spectrum, 0), sounded()[0].sea.variance
+    assert made.sea.variance == pytest.approx(whole, rel=1e-2)
+    assert cut < 0.94 * whole
+    (note,) = (note for note in made.notes if "tail" in note)
+    assert "a tail f^-5 beyond 0.3 Hz adds" in note
+
+
+def test_without_a_tail_nothing_is_added():
+    made, _ = sounded()
+    assert made.tail_variance == 0.0
+    assert not any("tail" in note for note in made.notes)
+    assert made.sea.systems[0].spectrum(2.0 * np.pi * 0.5) == 0.0
+
+
+@pytest.mark.parametrize("tail", [1.0, -5.0, math.inf, "5", True])
+def test_a_tail_of_impossible_exponent_is_refused(tail):
+    with pytest.raises(ParameterError, match="tail must be"):
+        sounded(tail)
+
+
+def test_a_tail_goes_where_the_last_frequency_goes():
+    """The directions beyond are those of the last frequency."""
+    specified = sea(toward=200.0)
+    made = Realised.from_spectrum(ww3(specified), time=0, tail=5)
+    theta = np.linspace(-np.pi, np.pi, 49)
+    last = 2.0 * np.pi * FREQUENCY[-1]
+    there, beyond = (made.sea.density(x * last, theta) for x in (1.0, 2.0))
+    assert beyond == pytest.approx(there / 32.0, rel=1e-9)

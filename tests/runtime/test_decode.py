@@ -66,7 +66,7 @@ def test_a_loaded_package_is_packed_to_the_same_bytes():
     first = build.packed()
     again = runtime.pack(runtime.ocean_of(first), textures=True)
     waves = [name for name in first.files if name.endswith((".waves", ".bin"))]
-    assert len(waves) == 9
+    assert len(waves) == 10
     assert all(again.files[name] == first.files[name] for name in waves)
     assert again.document["tiles"] == first.document["tiles"]
 

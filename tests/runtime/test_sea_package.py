@@ -137,7 +137,7 @@ def test_seas_of_several_systems_and_of_none_are_packed():
 @pytest.mark.parametrize(
     ("keyword", "value", "words"),
     [
-        ("textures", 1, "textures must be True or False"),
+        ("textures", 1, "textures must be True, False or one of bin, ktx2, exr, got 1"),
         ("reference", -1, "reference must be a whole number between 0 and 4096"),
         ("reference", 2.0, "reference must be a whole number"),
         ("quality", "fast", "quality must be 'exact' or 'moving'"),

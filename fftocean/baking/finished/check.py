@@ -16,7 +16,7 @@ from fftocean.arrays import Real
 from fftocean.baking.finished.containers import INSEPARABLE, has_written_lines
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
-from fftocean.baking.folder import layout, listing
+from fftocean.baking.folder import engine_files, layout, listing
 from fftocean.baking.folder.identity import HEADER
 from fftocean.baking.folder.lock import require_free
 from fftocean.baking.folder.sealed import read_sealed
@@ -176,6 +176,7 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
             Finding("manifest", path, detail)
             for path, detail in listing.inconsistencies(folder, reference, listed)
         ]
+        found += _player(folder, listed, layout.CASCADE_FILE)
         for key in layout.PREVIEWS:
             if key in listed and (
                 fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})
@@ -270,6 +271,7 @@ def _beside(contents: Contents) -> Iterator[Finding]:
     beside = [
         entry for entries in contents.manifest.get("containers", {}).values() for entry in entries
     ]
+    yield from _player(contents.folder, contents.manifest, layout.MANIFEST_FILE)
     for entry in [*previews, *beside]:
         path = entry["path"]
         is_known = path in layout.PREVIEW_FILES or any(
@@ -286,6 +288,18 @@ def _beside(contents: Contents) -> Iterator[Finding]:
             fault = _fault(data, entry, {})
             if fault and not (data and has_written_lines(contents, path, data)):
                 yield Finding(fault[0], path, fault[1])
+
+
+def _player(folder: Path, listed: Mapping[str, Any], document: str) -> Iterator[Finding]:
+    """Yield the problems of the files that play a bake or a cascade in its engine."""
+    entries, names = listed.get("engine_files", ()), engine_files.names_for(listed["job"])
+    if tuple(entry["path"] for entry in entries) != names:
+        detail = f"its engine_files are not those of its job: {', '.join(names) or 'none'}"
+        yield Finding("manifest", document, detail)
+        return
+    for entry in entries:
+        if fault := _fault(read_whole(folder / entry["path"]), entry, {}):
+            yield Finding(fault[0], entry["path"], fault[1])
 
 
 def _fault(

@@ -105,6 +105,7 @@ class Contents:
         for entry in [
             *containers,
             *(self.manifest[key] for key in layout.PREVIEWS if key in self.manifest),
+            *self.manifest.get("engine_files", ()),
         ]:
             if not isinstance(entry["path"] + entry["sha256"], str) or entry["bytes"] < 0:
                 raise ValueError(f"a file is listed as {entry}")

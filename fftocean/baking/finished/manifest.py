@@ -8,10 +8,12 @@ from typing import Any
 from fftocean.baking.folder.layout import MANIFEST_FILE
 from fftocean.baking.folder.plan import Plan
 from fftocean.baking.folder.sealed import read_sealed, sealed
+from fftocean.baking.scene import video_memory
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.export import profiles, rules
 from fftocean.ocean import Ocean
+from fftocean.physics.plausibility import plausibility
 from fftocean.physics.sea import Sea
 from fftocean.statistics import Statistics
 
@@ -25,6 +27,7 @@ def compose(
     blend: Mapping[str, Any],
     containers: Mapping[str, Any],
     pictures: Mapping[str, Any],
+    engine_files: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
     """
     Return the manifest of a bake as plain data.
@@ -37,6 +40,7 @@ def compose(
         blend: loss by linear blending between two frames.
         containers: files that hold several frames, and their sidecars, by map.
         pictures: entries of the previews, by name.
+        engine_files: entries of the files that play it in its engine.
     """
     job = scene.job
     shape = scene.ocean.grid.shape
@@ -68,6 +72,13 @@ def compose(
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": statistics.as_plain(),  # specified and realised
+        **({} if (rarity := scene.ocean.rarity) is None else {"constrained": rarity.as_plain()}),
+        **(
+            {}
+            if scene.ocean.sea is None
+            else {"plausibility": plausibility(scene.ocean.sea).as_plain()}
+        ),
+        **({"foam": job.describe_foam(scene.ocean)} if "foam" in job.maps else {}),
         "conventions": {**rules.conventions(scene.profile), "lookup": _LOOKUP[job.lookup]},
         "sampling": {**rules.sampling(scene.profile), "values": _numbers(plan, scene, rows)},
         "blend": dict(blend),
@@ -76,8 +87,10 @@ def compose(
             **extremes_over(rows),
         },
         "maps": entries,
+        "video_memory": video_memory.described(scene, len(rows)),
         **({"containers": dict(containers)} if containers else {}),
         **pictures,
+        **({"engine_files": list(engine_files)} if engine_files else {}),
         "frames": list(rows),
     }
     return sealed(manifest)
@@ -144,6 +157,7 @@ def _tile(ocean: Ocean) -> dict[str, Any]:
         "stated_by": {} if ocean.sea is None else _stated(ocean.sea),
         "loop": ocean.loop,
         "choppiness": ocean.choppiness,
+        **({"order": 2, "bound": ocean.bound} if ocean.order > 1 else {}),
         "fft": ocean.backend,
     }
 

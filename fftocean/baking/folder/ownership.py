@@ -15,8 +15,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from fftocean.baking.folder import engine_files
 from fftocean.baking.folder.identity import differences
 from fftocean.baking.folder.layout import (
+    CASCADE_FILE,
+    CASCADE_JOB,
     JOB_FILE,
     MANIFEST_FILE,
     PREVIEWS,
@@ -29,6 +32,7 @@ from fftocean.baking.folder.layout import (
 from fftocean.baking.folder.sealed import is_sealed, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.export.formats import FORMATS
+from fftocean.export.recipes import FRAME_SUFFIX
 from fftocean.files import as_json, read_json, remove, remove_temporary_files, write_whole
 
 PREVIEW_FILES = {"sheet": SHEET, **PREVIEWS}
@@ -48,6 +52,7 @@ def require_same_bake(folder: Path, header: Mapping[str, Any]) -> None:
             [folder / MANIFEST_FILE]
             if os.path.lexists(folder / MANIFEST_FILE)
             else [*itertools.islice(bake_files(folder), 1)]
+            or engine_files.existing(folder, engine_files.names_for(header["job"]))
         )
         for path in found:
             name = path.relative_to(folder).as_posix()
@@ -80,7 +85,24 @@ def files_of_bake(folder: Path) -> list[Path]:
         name = path.relative_to(folder).as_posix()
         return name in listed or any(_is_of(job, name) for job in jobs)
 
-    return [path for path in bake_files(folder) if is_listed(path)]
+    found = [path for path in bake_files(folder) if is_listed(path)]
+    return [*found, *engine_files_in(folder)]
+
+
+def engine_files_in(folder: Path) -> list[Path]:
+    """
+    Return the files of an engine's player in a folder: those that a bake or cascade there lists.
+    """
+    names: set[str] = set()
+    for file in (MANIFEST_FILE, JOB_FILE, CASCADE_FILE, CASCADE_JOB):
+        try:
+            tree = read_sealed(folder / file)
+        except (IntegrityError, OutputError):
+            continue  # as in `files_of_bake`
+        names |= _paths_in(tree) & engine_files.NAMES
+        if isinstance(tree.get("job"), dict):
+            names |= {*engine_files.names_for(tree["job"])}
+    return engine_files.existing(folder, sorted(names))
 
 
 def _paths_in(tree: Any) -> set[str]:
@@ -106,22 +128,24 @@ def _is_of(job: Mapping[str, Any], name: str) -> bool:
             return True
         if name.startswith(f"{m}{form.suffix}/"):
             return True  # a folder that is one container
-        number = name.removeprefix(f"{m}/").removesuffix(form.suffix)
-        if name == f"{m}/{number}{form.suffix}" and number.isdigit():
+        image = name.removesuffix(FRAME_SUFFIX) if job.get("bake.engine") == "godot" else name
+        number = image.removeprefix(f"{m}/").removesuffix(form.suffix)
+        if image == f"{m}/{number}{form.suffix}" and number.isdigit():
             return int(number[:9]) < int(job.get("bake.frames") or 0)
     return False
 
 
-def require_replaceable(folder: Path) -> None:
+def require_replaceable(folder: Path, header: Mapping[str, Any]) -> None:
     """
-    Raise if overwriting would replace a file that no bake lists.
+    Raise if overwriting, by the bake of this header, would replace a file that no bake lists.
 
     Raises:
         OutputError: neither a job nor a manifest in the folder lists a file there that is named
             like one of a bake.
     """
     listed = set(files_of_bake(folder))
-    foreign = [path for path in bake_files(folder) if path not in listed]
+    written = engine_files.existing(folder, engine_files.names_for(header["job"]))
+    foreign = [path for path in (*bake_files(folder), *written) if path not in listed]
     if not any(is_sealed(folder / file) for file in (MANIFEST_FILE, JOB_FILE)):
         foreign += [
             path for path in (folder / MANIFEST_FILE, folder / JOB_FILE) if os.path.lexists(path)
@@ -143,7 +167,7 @@ def require_possible(folder: Path, header: Mapping[str, Any], *, overwrite: bool
     """
     require_writable(folder)
     if overwrite:
-        require_replaceable(folder)
+        require_replaceable(folder, header)
     else:
         require_same_bake(folder, header)
 

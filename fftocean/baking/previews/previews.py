@@ -7,10 +7,12 @@ from typing import Any
 from fftocean.baking.folder import layout
 from fftocean.baking.previews import sheets, whitecaps
 from fftocean.baking.scene.scene import Scene
+from fftocean.cascade import Cascade
 from fftocean.errors import JobError, how_to_install
 from fftocean.files import write_whole
 from fftocean.foam import Foam
 from fftocean.job.job import Job
+from fftocean.ocean import Ocean
 from fftocean.statistics import Statistics
 
 
@@ -22,7 +24,7 @@ def write_previews(folder: Path, scene: Scene, statistics: Statistics) -> dict[s
         OutputError: one cannot be written.
     """
     frames, images = scene.job.frames, {}
-    foam = foam_of(scene.job)
+    foam = foam_of(scene.job, scene.ocean)
     if "sheet" in scene.job.pictures:
         text = caption(scene.job, statistics)
         images["preview"] = (
@@ -54,16 +56,18 @@ def require_drawable(job: Job) -> None:
         )
 
 
-def foam_of(job: Job) -> dict[str, Any]:
+def foam_of(job: Job, water: Ocean | Cascade) -> dict[str, Any]:
     """
     Return the foam of a job's previews, as arguments of `sheets.contact_sheet`.
 
     A job that bakes foam shows that foam; another shows the whitecap cover at its wind speed.
     """
-    foam = Foam(**job.foam)
     if "foam" in job.maps or not job.wind:
-        return {"foam": foam}
-    return {"foam": foam, "cover": whitecaps.whitecap_cover(job.settings["sea.wind.speed"])}
+        return {"foam": job.foam_on(water)}
+    return {
+        "foam": Foam(**job.foam),
+        "cover": whitecaps.whitecap_cover(job.settings["sea.wind.speed"]),
+    }
 
 
 def caption(job: Job, statistics: Statistics, tiles: str | None = None) -> str:

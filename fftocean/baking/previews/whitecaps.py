@@ -13,6 +13,7 @@ import numpy as np
 from fftocean.arrays import Real
 from fftocean.fields import DISPLACEMENT_GRADIENT
 from fftocean.foam import Foam
+from fftocean.foam_coverage import whitecap_coverage
 from fftocean.kernels import interpolate, surface
 from fftocean.ocean import Frame
 
@@ -27,12 +28,12 @@ _CALIBRATED = 4096  # points that the threshold is found from
 
 def whitecap_cover(wind: float) -> float:
     """
-    Return the share of the sea that whitecaps cover at a wind speed [m/s]: 2.95e-6 U^3.52.
+    Return the share of the sea that whitecaps cover at a wind speed [m/s].
 
-    Source: Monahan & O'Muircheartaigh (1980), from winds up to 17 m/s; it is not continued above
-    20 m/s, and no waves break below 3.7 m/s.
+    The law is that of `foam_coverage`, from winds up to 17 m/s; here it is not continued above 20
+    m/s, and no waves break below 3.7 m/s.
     """
-    return 0.0 if wind < 3.7 else 2.95e-6 * min(wind, 20.0) ** 3.52
+    return 0.0 if wind < 3.7 else whitecap_coverage(min(wind, 20.0))
 
 
 def minimum_eigenvalue(frames: Frame | Sequence[Frame]) -> Real:

@@ -51,7 +51,7 @@ class Scene:
         self.ocean: Ocean = job.ocean()
         self.form = formats.FORMATS[job.format]
         self.profile = engines.profile_for(job.engine, job.format, job.normals)
-        self.foam = Foam(**job.foam)
+        self._foam: Foam | None = None
         self._eulerian = Eulerian(self.ocean) if job.lookup == "eulerian" else None
         self._unresolved = (
             maps.unresolved(self.ocean) if job.mips or "slope_covariance" in job.maps else None
@@ -67,6 +67,13 @@ class Scene:
     def levels(self) -> int:
         """Number of mip levels of each map: down to one sample, or 1 without mips."""
         return max(self.ocean.grid.shape).bit_length() if self._mips else 1
+
+    @property
+    def foam(self) -> Foam:
+        """Foam of the job on its water; a threshold that follows the wind is solved at first."""
+        if self._foam is None:
+            self._foam = self.job.foam_on(self.ocean)
+        return self._foam
 
     def frame(self, j: int) -> Frame | EulerianFrame:
         """Return the j-th frame of the loop; the next call may overwrite its arrays."""

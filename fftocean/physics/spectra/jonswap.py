@@ -1,7 +1,6 @@
 """JONSWAP spectrum of the fetch-limited sea."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -19,7 +18,13 @@ from fftocean.limits import (
 )
 from fftocean.physics.kinds import Way
 from fftocean.physics.spectra.base import SPECTRA, phillips_constant, relative
-from fftocean.physics.spectra.pierson_moskowitz import FULLY_DEVELOPED_PEAK
+from fftocean.physics.spectra.growth import (
+    GROWTH,
+    WindSea,
+    in_deep_water,
+    peak_enhancement,
+    shape_integral,
+)
 from fftocean.physics.spectra.wind import STILL_AIR, checked_wind, warn_of_short_fetch
 
 
@@ -40,45 +45,55 @@ class JONSWAP:
         keep_checked(self, peak=PEAK, alpha=PHILLIPS_CONSTANT, gamma=PEAK_ENHANCEMENT)
 
     @classmethod
-    def from_wind(cls, *, speed: float, fetch: float, gamma: float = 3.3) -> "JONSWAP":
+    def from_wind(
+        cls, *, speed: float, fetch: float, gamma: float = 3.3, growth: str = "jonswap"
+    ) -> "JONSWAP":
         """
-        Return the sea raised by a wind of `speed` (U10) [m/s] over `fetch` [m].
+        Return the sea raised by a wind of `speed` (U10) [m/s] over `fetch` [m] of deep water.
 
-        The laws of the JONSWAP experiment, alpha = 0.076 (U^2/gF)^0.22 and omega_p = 22
-        (g^2/UF)^(1/3), let a sea grow for ever. Here it grows by them until its energy is 99 % of
-        the fully developed sea's; from there on what is missing of that energy falls as 1/F, the
-        peak goes on falling by its law to the fully developed one, and gamma relaxes to 1 over the
-        same stretch: the limit of a long fetch *is* Pierson-Moskowitz, never passed, and Hs(F) only
-        rises.
+        The laws of growth, from which `growth` chooses, let a sea grow for ever, or nearly so. Here
+        it grows by them until its energy is 99 % of the fully developed sea's; from there on what
+        is missing of that energy falls as 1/F, the peak goes on falling by its law to the fully
+        developed one, and gamma relaxes to 1 over the same stretch: the limit of a long fetch *is*
+        Pierson-Moskowitz, never passed, and Hs(F) only rises. (The law of Young and Verhagen has a
+        limit of its own.)
 
         Args:
             speed: wind speed 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning
                 that says so.
             fetch: distance over which the wind blows [m].
             gamma: peak enhancement of the growing sea [-].
+            growth: "jonswap" (Hasselmann et al. 1973), "kahma-calkoen" (1992) or "young-verhagen"
+                (1996); see `physics.spectra.growth`.
 
         Raises:
             ParameterError: a value out of its range (`limits.WIND_SPEED`, `limits.FETCH`,
-                `limits.PEAK_ENHANCEMENT`).
+                `limits.PEAK_ENHANCEMENT`), or an unknown law.
 
-        Source: Hasselmann et al. 1973; the limit from Pierson & Moskowitz 1964.
+        Pinned by tests/physics/test_growth.py and test_spectra.py.
         """
         speed = checked_wind(speed)
         fetch = FETCH.check("fetch", fetch)
         warn_of_short_fetch(speed, fetch)
-        return fetch_limited(speed, fetch, PEAK_ENHANCEMENT.check("gamma", gamma))
+        gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
+        return fetch_limited(speed, fetch, gamma, GROWTH.check("growth", growth))
 
     @classmethod
-    def from_sea_state(cls, *, hs: float, tp: float, gamma: float = 3.3) -> "JONSWAP":
+    def from_sea_state(cls, *, hs: float, tp: float, gamma: float | None = None) -> "JONSWAP":
         """
         Return the sea of significant wave height `hs` [m] and peak period `tp` [s], normalised
         exactly: 4 sqrt(m0) is `hs`.
 
+        Without a `gamma` it is that of DNV-RP-C205 for such a sea, from 1 for long low waves to 5
+        for short steep ones: exp(5.75 - 1.15 Tp/sqrt(Hs)).
+
         Raises:
             ParameterError: a value out of its range, or waves too steep to be (alpha > 1).
         """
-        tp = PERIOD.check("tp", tp)
-        gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
+        hs, tp = SIGNIFICANT_WAVE_HEIGHT.check("hs", hs), PERIOD.check("tp", tp)
+        gamma = (
+            peak_enhancement(hs, tp) if gamma is None else PEAK_ENHANCEMENT.check("gamma", gamma)
+        )
         return cls(
             peak=2.0 * np.pi / tp,
             alpha=phillips_constant(hs, tp, shape_integral(gamma)),
@@ -96,41 +111,18 @@ class JONSWAP:
         return s
 
 
-def fetch_limited(speed: float, fetch: float, gamma: float) -> JONSWAP:
+def fetch_limited(speed: float, fetch: float, gamma: float, growth: str = "jonswap") -> JONSWAP:
     """Return the sea of `JONSWAP.from_wind`, with arguments that have been checked."""
-    wind = max(speed, STILL_AIR)
-    x = GRAVITY * fetch / wind**2  # dimensionless fetch
-    # Dimensionless, with u = omega_p U/g and e = g^2 m0 / U^4:  e = alpha J(gamma) / u^4.
-    limit = 8.1e-3 * 0.2 / FULLY_DEVELOPED_PEAK**4
-    growth = 0.076 * shape_integral(gamma) / 22.0**4
-    # fetch at which e is 99 % of its limit
-    nearly = (0.99 * limit / growth) ** (1.0 / (4.0 / 3.0 - 0.22))
-    mature = (22.0 / FULLY_DEVELOPED_PEAK) ** 3  # fetch at which the peak is that of the limit
-    u = max(22.0 * x ** (-1.0 / 3.0), FULLY_DEVELOPED_PEAK)
-    alpha = 0.076 * x**-0.22
-    if x > nearly:
-        age = min((x - nearly) / (mature - nearly), 1.0)
-        gamma = gamma ** (1.0 - age)
-        alpha = limit * (1.0 - 0.01 * nearly / x) * u**4 / shape_integral(gamma)
-    return JONSWAP(peak=u * GRAVITY / wind, alpha=min(alpha, 1.0) if speed else 0.0, gamma=gamma)
+    sea = in_deep_water(growth, GRAVITY * fetch / max(speed, STILL_AIR) ** 2, gamma)
+    return of_wind_sea(sea, speed)
 
 
-@lru_cache(maxsize=256)
-def shape_integral(gamma: float) -> float:
-    """
-    Return J(gamma) = m0 omega_p^4 / (alpha g^2): 1/5 for gamma = 1, then growing.
-
-    It is 1/5 plus the integral of what the peak adds to Pierson-Moskowitz, x^-5 exp(-5/4 x^-4)
-    (gamma^r - 1): smooth on either side, and nothing (1e-17) nine sigma away. `moment` would say
-    the same, and load half of SciPy before the first frame.
-    """
-    nodes, weights = np.polynomial.legendre.leggauss(64)
-    from_peak = 4.5 * (1.0 + nodes)  # in sigma
-    raised = np.expm1(np.log(gamma) * np.exp(-0.5 * from_peak**2))
-    sides = [(sigma, 1.0 + side * sigma * from_peak) for sigma, side in ((0.07, -1.0), (0.09, 1.0))]
-    return 0.2 + sum(
-        4.5 * sigma * float(np.sum(weights * raised * x**-5 * np.exp(-1.25 * x**-4)))
-        for sigma, x in sides
+def of_wind_sea(sea: WindSea, speed: float) -> JONSWAP:
+    """Return a dimensionless wind sea as a spectrum; of one in finite depth, that in deep water."""
+    return JONSWAP(
+        peak=sea.peak * GRAVITY / max(speed, STILL_AIR),
+        alpha=min(sea.alpha, 1.0) if speed else 0.0,
+        gamma=sea.gamma,
     )
 
 
@@ -138,5 +130,11 @@ SPECTRA.add(
     "jonswap",
     JONSWAP,
     Way(JONSWAP.from_sea_state, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD, gamma=PEAK_ENHANCEMENT),
-    Way(JONSWAP.from_wind, speed=WIND_SPEED, fetch=FETCH, gamma=PEAK_ENHANCEMENT),
+    Way(
+        JONSWAP.from_wind,
+        speed=WIND_SPEED,
+        fetch=FETCH,
+        gamma=PEAK_ENHANCEMENT,
+        growth=GROWTH,
+    ),
 )

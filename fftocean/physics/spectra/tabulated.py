@@ -8,15 +8,19 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.errors import ParameterError
-from fftocean.limits import DENSITY, DEPTH, FREQUENCY, keep_checked
+from fftocean.limits import DENSITY, DEPTH, FREQUENCY, Quantity, keep_checked
 from fftocean.physics.kinds import Numbers, Way
 from fftocean.physics.spectra.base import SPECTRA
+
+TAIL = Quantity("", 1.5, 100.0)
+"""Exponents of a tail: m0 exists above 1, and at 1.5 a third of it lies beyond ten times f_last."""
 
 
 @dataclass(frozen=True, slots=True)
 class TabulatedSpectrum:
     """
-    A measured spectrum S(f): straight lines between the points, nothing outside them.
+    A measured spectrum S(f): straight lines between the points, nothing outside them, or beyond
+    the last one a tail S = S(f_last) (f / f_last)^-tail.
 
     Frequencies in Hz and densities in m^2/Hz, as buoys report them; the call takes and gives omega
     like any other spectrum. With a `depth` it states that of the water in which it was measured,
@@ -26,6 +30,9 @@ class TabulatedSpectrum:
     frequency: Sequence[float]  # f [Hz], strictly ascending, > 0
     density: Sequence[float]  # S(f) [m^2/Hz], >= 0
     depth: float | None = field(default=None, kw_only=True)  # [m]; None states none
+    tail: float | None = field(
+        default=None, kw_only=True
+    )  # exponent of the tail [-]; None has none
     _omega: Real = field(init=False, repr=False, compare=False)
     _s: Real = field(init=False, repr=False, compare=False)
 
@@ -39,6 +46,8 @@ class TabulatedSpectrum:
             )
         if self.depth is not None:
             keep_checked(self, depth=DEPTH)
+        if self.tail is not None:
+            keep_checked(self, tail=TAIL)
         object.__setattr__(self, "frequency", tuple(f.tolist()))
         object.__setattr__(self, "density", tuple(s.tolist()))
         object.__setattr__(self, "_omega", 2.0 * np.pi * f)
@@ -47,9 +56,10 @@ class TabulatedSpectrum:
     def __repr__(self) -> str:
         f = self.frequency
         depth = "" if self.depth is None else f", depth={self.depth:g}"
+        tail = "" if self.tail is None else f", tail f^-{self.tail:g}"
         return (
             f"TabulatedSpectrum({len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz, "
-            f"peak at {self.peak / (2.0 * math.pi):g} Hz{depth})"
+            f"peak at {self.peak / (2.0 * math.pi):g} Hz{tail}{depth})"
         )
 
     @property
@@ -62,13 +72,27 @@ class TabulatedSpectrum:
         """The tabulated frequencies as omega [rad/s]: where the straight lines meet."""
         return tuple(self._omega.tolist())
 
+    @property
+    def tail_variance(self) -> float:
+        """m0 of the tail, S(f_last) f_last / (tail - 1) [m^2]; 0 without one."""
+        if self.tail is None:
+            return 0.0
+        return float(self.density[-1] * self.frequency[-1] / (self.tail - 1.0))
+
     def __call__(self, omega: RealLike, /) -> Real:
         """Return S at `omega`, [m^2 s/rad]."""
-        return np.interp(
-            np.asarray(omega, dtype=np.float64), self._omega, self._s, left=0.0, right=0.0
-        )
+        omega = np.asarray(omega, dtype=np.float64)
+        inside: Real = np.interp(omega, self._omega, self._s, left=0.0, right=0.0)
+        if self.tail is None:
+            return inside
+        last = self._omega[-1]
+        beyond = self._s[-1] * (last / np.maximum(omega, last)) ** self.tail
+        joined: Real = np.where(omega > last, beyond, inside)
+        return joined
 
 
 SPECTRA.add(
-    "tabulated", TabulatedSpectrum, Way(TabulatedSpectrum, frequency=Numbers(), density=Numbers())
+    "tabulated",
+    TabulatedSpectrum,
+    Way(TabulatedSpectrum, frequency=Numbers(), density=Numbers(), tail=TAIL),
 )

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fftocean.arrays import Real, RealLike
+from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError
 from fftocean.limits import (
     DEPTH,
@@ -19,8 +20,15 @@ from fftocean.limits import (
 from fftocean.physics.kinds import Part, Way
 from fftocean.physics.moments import moment
 from fftocean.physics.spectra.base import SPECTRA, FrequencySpectrum, require_spectrum, too_steep
-from fftocean.physics.spectra.jonswap import JONSWAP
+from fftocean.physics.spectra.growth import (
+    GROWTH,
+    in_deep_water,
+    in_finite_depth,
+    peak_enhancement,
+)
+from fftocean.physics.spectra.jonswap import JONSWAP, of_wind_sea
 from fftocean.physics.spectra.kitaigorodskii import kitaigorodskii, kitaigorodskii_at
+from fftocean.physics.spectra.wind import STILL_AIR, checked_wind, warn_of_short_fetch
 from fftocean.physics.water import statements
 
 
@@ -50,23 +58,66 @@ class TMA:
                 )
 
     @classmethod
-    def from_sea_state(cls, *, hs: float, tp: float, depth: float, gamma: float = 3.3) -> "TMA":
+    def from_wind(
+        cls,
+        *,
+        speed: float,
+        fetch: float,
+        depth: float,
+        gamma: float = 3.3,
+        growth: str = "jonswap",
+    ) -> "TMA":
+        """
+        Return the sea raised by a wind of `speed` (U10) [m/s] over `fetch` [m] of water of `depth`
+        [m]: its energy and its peak are those of Young and Verhagen's growth in finite depth.
+
+        What the fetch does follows from a law for deep water, and what the bed does from Young and
+        Verhagen; see `physics.spectra.growth`. In deep water it is `JONSWAP.from_wind`. (That
+        spectrum wrapped in a `TMA` is another, higher sea: one that grew in deep water.)
+
+        Args:
+            speed: wind speed 10 m above the sea [m/s]; 0 is an exactly flat sea, with a warning
+                that says so.
+            fetch: distance over which the wind blows [m].
+            depth: still-water depth, the same all along the fetch [m].
+            gamma: peak enhancement of the growing sea [-].
+            growth: law for deep water: "jonswap", "kahma-calkoen" or "young-verhagen".
+
+        Raises:
+            ParameterError: a value out of its range, or an unknown law.
+
+        Source: Young & Verhagen, The growth of fetch limited waves in water of finite depth,
+        Coastal Engineering 29 (1996), 47-78; the shape: Bouws et al. 1985.
+        Pinned by tests/physics/test_growth.py.
+        """
+        depth = DEPTH.check("depth", depth)
+        speed = checked_wind(speed)
+        fetch = FETCH.check("fetch", fetch)
+        warn_of_short_fetch(speed, fetch)
+        gamma = PEAK_ENHANCEMENT.check("gamma", gamma)
+        scale = GRAVITY / max(speed, STILL_AIR) ** 2
+        deep = in_deep_water(GROWTH.check("growth", growth), scale * fetch, gamma)
+        return cls(of_wind_sea(in_finite_depth(deep, scale * depth), speed), depth)
+
+    @classmethod
+    def from_sea_state(
+        cls, *, hs: float, tp: float, depth: float, gamma: float | None = None
+    ) -> "TMA":
         """
         Return the sea whose significant wave height *in water of `depth`* is `hs` [m]; `tp` [s] and
         `gamma` are those of the deep-water JONSWAP.
 
+        Without a `gamma` it is that of DNV-RP-C205 for `hs` and `tp`, as of
+        `JONSWAP.from_sea_state`.
+
         Raises:
             ParameterError: a value out of its range, or waves too steep to be.
         """
-        hs = SIGNIFICANT_WAVE_HEIGHT.check("hs", hs)
-        unit = cls(
-            JONSWAP(
-                peak=2.0 * np.pi / PERIOD.check("tp", tp),
-                alpha=1.0,
-                gamma=PEAK_ENHANCEMENT.check("gamma", gamma),
-            ),
-            depth,
+        hs, tp = SIGNIFICANT_WAVE_HEIGHT.check("hs", hs), PERIOD.check("tp", tp)
+        gamma = (
+            peak_enhancement(hs, tp) if gamma is None else PEAK_ENHANCEMENT.check("gamma", gamma)
         )
+        unit = cls(JONSWAP(peak=2.0 * np.pi / tp, alpha=1.0, gamma=gamma), depth)
         m0 = moment(unit, 0)
         alpha = (hs / 4.0) ** 2 / m0 if hs else 0.0
         if not alpha <= 1.0:
@@ -95,11 +146,6 @@ class TMA:
         return self.spectrum(omega) * kitaigorodskii_at(k, self.depth)
 
 
-def _from_wind(*, speed: float, fetch: float, depth: float, gamma: float = 3.3) -> TMA:
-    """Return the fetch-limited sea in water of finite depth."""
-    return TMA(JONSWAP.from_wind(speed=speed, fetch=fetch, gamma=gamma), depth)
-
-
 SPECTRA.add(
     "tma",
     TMA,
@@ -110,6 +156,13 @@ SPECTRA.add(
         tp=PERIOD,
         gamma=PEAK_ENHANCEMENT,
     ),
-    Way(_from_wind, water=("depth",), speed=WIND_SPEED, fetch=FETCH, gamma=PEAK_ENHANCEMENT),
+    Way(
+        TMA.from_wind,
+        water=("depth",),
+        speed=WIND_SPEED,
+        fetch=FETCH,
+        gamma=PEAK_ENHANCEMENT,
+        growth=GROWTH,
+    ),
     Way(TMA, water=("depth",), spectrum=Part("spectrum")),
 )

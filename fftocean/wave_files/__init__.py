@@ -1,0 +1,1 @@
+"""Files of waves for programs that compute loads on structures; public as `fftocean.export`."""

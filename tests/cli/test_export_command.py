@@ -1,0 +1,55 @@
+"""`fftocean export`: files for engineers' programs."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+SMALL = ("--n", "16", "--loop", "20")
+
+
+def test_an_swd_file_has_the_waves_without_or_with_the_loop(run):
+    """The list is that of free waves: the loop would need frequencies that no list can have."""
+    code, out, err = run("export", "swd", "-o", "new/sea.swd", *SMALL)
+    assert (code, err) == (0, "")
+    assert out.startswith("new/sea.swd: ")
+    data = Path("new/sea.swd").read_bytes()
+    assert int.from_bytes(data[8:12], "little") == 6
+    assert b"speed = 7.0" in data
+    steps = ("--steps", "3", "--quiet")
+    assert run("export", "swd", "-o", "sea.swd", *steps, *SMALL) == (0, "", "")
+    assert int.from_bytes(Path("sea.swd").read_bytes()[8:12], "little") == 4
+    assert run("export", "swd", "-o", "sum.swd", "--tiles", "16:100,16:37", "--quiet")[0] == 0
+
+
+def test_openfast_gets_eight_files(run):
+    grid = ("--grid", "20,10,8,2,2,3", "--dt", "5")
+    code, out, _ = run("export", "openfast", "-o", "waves", *grid, *SMALL)
+    assert code == 0
+    assert out.count("waves.") == 8
+    assert np.loadtxt("waves.Vxi").shape == (4, 27)
+    assert np.loadtxt("waves.Elev").shape == (4, 9)
+
+
+def test_components_are_a_table(run):
+    assert run("export", "components", "-o", "waves.csv", *SMALL, "--quiet") == (0, "", "")
+    assert Path("waves.csv").read_text().startswith("frequency_Hz,direction_degrees,")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("components", "-o", "a", "--steps", "2"), "--steps must not be given with components"),
+        (
+            ("openfast", "-o", "a", "--dt", "1"),
+            "NZ must be given with openfast",
+        ),
+        (("openfast", "-o", "a", "--grid", "1,2"), "must be XHALF,YHALF,DEPTH,NX,NY,NZ"),
+        (("swdd", "-o", "a"), "did you mean swd?"),
+    ],
+)
+def test_refusals_name_the_rule(run, arguments, message):
+    code, out, err = run("export", *arguments, *SMALL)
+    assert (code, out) == (2, "")
+    assert message in err
+    assert not list(Path().iterdir())
