@@ -34,7 +34,7 @@ def toy(tmp_path, monkeypatch):
     (place / "unity" / "README.md").write_text("steps")
     (place / "unity" / "Main.cs").write_text("class Main {}")
     (place / "unity" / "inner" / "Deep.cs").write_text("class Deep {}")
-    shutil.copybuild.tree(example_projects.PLACES[1] / "readers", place / "readers")
+    shutil.copytree(example_projects.PLACES[1] / "readers", place / "readers")
     monkeypatch.setattr(example_projects, "PLACES", (place,))
     return place / "unity"
 
