@@ -73,12 +73,18 @@ def estimate(
         + 700_000 * len(scene.job.pictures)
         + 1200 * len(chosen),
         seconds=3.0 + each * rounds / count + (1.5 if name != "serial" else 0.0),
-        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
+        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype) + tables_of(scene),
         container=_container(scene, len(chosen)),
         video=video_memory(scene, len(chosen)),
         executor=name,
         workers=count,
     )
+
+
+def tables_of(scene: Scene) -> float:
+    """Return the memory of the tables of second-order waves [bytes]."""
+    bound = scene.ocean.bound_waves
+    return 0.0 if bound is None else float(bound.nbytes)
 
 
 def _container(scene: Scene, frames: int) -> float:

@@ -75,13 +75,14 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
 class Browser:
     """One headless Chromium, controlled by `driver.mjs`."""
 
-    def __init__(self, chromium, modules, site, *, log):
+    def __init__(self, chromium, modules, site, *, log, graphics="webgl"):
         self.site = site
         self._command = [
             "node",
             str(Path(__file__).with_name("driver.mjs")),
             chromium,
             str(modules),
+            graphics,
         ]
         self._log = log
         self._names = itertools.count(1)
@@ -125,8 +126,8 @@ class Browser:
 
         Args:
             url: any address.
-            options: `width` and `height` of the window, `reducedMotion`, and `before`, a script
-                that runs before the page's own.
+            options: `width` and `height` of the window, `reducedMotion`, `before`, a script that
+                runs before the page's own, and `empty`, a pattern of modules that are empty.
         """
         name = f"page {next(self._names)}"
         opened = Page(self, name)
