@@ -129,9 +129,15 @@ def test_what_the_conditions_at_the_free_surface_leave_over(order, power, depth)
 # frames
 
 
-@pytest.mark.parametrize("sea", [SEA, FINITE], ids=["deep", "20 m"])
-@pytest.mark.parametrize(("dtype", "tolerance"), [("float32", 1e-6), ("float64", 1e-12)])
-@pytest.mark.parametrize("choppiness", [0.0, 0.7])
+@pytest.mark.parametrize(
+    ("sea", "dtype", "tolerance", "choppiness"),
+    [
+        (SEA, "float32", 1e-6, 0.7),
+        (SEA, "float64", 1e-12, 0.0),
+        (FINITE, "float32", 1e-6, 0.0),
+        (FINITE, "float64", 1e-12, 0.7),
+    ],
+)
 def test_every_check_of_verify_passes(sea, dtype, tolerance, choppiness):
     """Direct sum of all pairs by Dalzell's coefficients, seam, loop, energy, free surface."""
     water = ocean(sea=sea, dtype=dtype, choppiness=choppiness)
