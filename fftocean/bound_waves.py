@@ -476,7 +476,7 @@ def _parents(amplitudes: Amplitudes, most: int) -> Parents:
         running=running[strongest],
         frequency=frequency,
         variance=variance[strongest],
-        gaussian=a.draw == "gaussian",
+        gaussian=a.draw in ("gaussian", "constrained"),
     )
 
 

@@ -11,7 +11,7 @@ from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.baking.scene.video_memory import texels, video_memory
-from fftocean.export import formats
+from fftocean.export import formats, recipes
 from fftocean.export.profiles import range_of_normals
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
@@ -61,6 +61,8 @@ def estimate(
         + (scene.job.frames if "foam" in scene.job.maps else 0.0)
     )
     containers = len(scene.job.maps) * (len(chosen) if scene.form.scope == "frame" else 2)
+    if scene.form.scope == "frame" and recipes.files_beside_frames(scene.profile, ["0.exr"]):
+        containers *= 2
     return Estimate(
         frames=len(chosen),
         files=containers

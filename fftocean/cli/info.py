@@ -73,14 +73,15 @@ def _keys(job: "Job") -> "Table":
     """Return the table of a job's keys."""
     from rich.text import Text
 
+    from fftocean.job.fixed_tables import CREST, FIX
     from fftocean.job.parameters import PARAMETERS
 
     units = {p.key: p.unit for p in PARAMETERS}
     table = key_value_table(f"Job: {plain(job.source)}")
     for key, value in job.describe().items():
-        if key == "sea.systems":
-            for i, system in enumerate(value):
-                table.add_row(f"sea.systems[{i}]", Text(shortened(system)))
+        if key in ("sea.systems", CREST, FIX):
+            for i, row in enumerate(value):
+                table.add_row(f"{key}[{i}]", Text(shortened(row)))
         else:
             table.add_row(key, f"{value_in_words(value)} {units[key]}".rstrip())
     return table
@@ -147,6 +148,9 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
     if ocean.bound_waves is not None:
         yield "second order", str(ocean.bound_waves.report)
     yield "folds", str(statistics.folding)
+    if ocean.rarity is not None:
+        yield "fixed values", str(ocean.rarity)
+        yield "", "they come back on every tile, and with every loop"
     assert ocean.sea is not None  # a job has a sea
     yield "wave height and steepness", str(plausibility(ocean.sea))
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
