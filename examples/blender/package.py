@@ -111,7 +111,7 @@ class Surface:
         for tile in sea.tiles:
             across = np.exp(1j * np.outer(tile.kx, self.x))
             along = np.exp(1j * np.outer(self.y, tile.ky))
-            self._exact.append((along, across))
+            self._exact.append((along.astype(np.complex64), across.astype(np.complex64)))
             if filtered:
                 kept_x = resolved(np.outer(tile.kx, np.gradient(self.x)))
                 kept_y = resolved(np.outer(np.gradient(self.y), tile.ky))
@@ -122,14 +122,22 @@ class Surface:
                 self._mesh.append((along, across))
 
     def fields(self, tick, names=FIELDS, exact=False):
-        """Return fields (rows, columns) at a moment, by name, before choppiness."""
+        """
+        Return fields (rows, columns) at a moment, by name, before choppiness.
+
+        Args:
+            tick: the moment.
+            names: of fields.
+            exact: with all waves, in single precision; else those that the spacing resolves.
+        """
         total = {name: np.zeros(self.rough.shape) for name in names}
         for tile, (along, across) in zip(
             self.sea.tiles, self._exact if exact else self._mesh, strict=True
         ):
-            waves = tile.at(tick, self.sea.ticks)
+            waves = tile.at(tick, self.sea.ticks).astype(along.dtype)
             for name in names:
-                total[name] += 2.0 * ((along @ (waves * tile.factors[name])) @ across).real
+                factor = tile.factors[name].astype(along.dtype)
+                total[name] += 2.0 * ((along @ (waves * factor)) @ across).real
         return total
 
     def vertices(self, fields):
@@ -185,20 +193,23 @@ class Foam:
     Coverage of foam on a surface: what broke in the last seconds and has not decayed.
 
     The foam of a frame is a function of that frame alone, so frames may come in any order, and the
-    loop closes. Rates of earlier frames are kept.
+    loop closes. It adds up three decays, in steps of a tenth of a second at most; rates of earlier
+    frames are kept.
     """
 
     def __init__(self, surface, frames):
         self.surface, self.frames, self._rates = surface, frames, {}
         sea = surface.sea
         self.decay = sea.document["foam"]["decay"]
-        self.stride = max(1, round(0.5 * frames / sea.loop))  # about half a second
+        # A crest moves on by less than a patch of foam in a tenth of a second; with longer steps
+        # neighbouring frames would have other patches.
+        self.stride = max(1, int(0.1 * frames / sea.loop))
         self.step = self.stride * sea.loop / frames
 
     def coverage(self, frame):
         """Return the share of the water that is white, (rows, columns)."""
         left = math.exp(-self.step / self.decay)
-        count = math.ceil(4.0 * self.decay / self.step)
+        count = math.ceil(3.0 * self.decay / self.step)
         total = 0.0
         for m in range(count):
             total = total + self._rate((frame - m * self.stride) % self.frames) * left**m

@@ -25,7 +25,7 @@ def robots(monkeypatch):
 @pytest.mark.process
 def test_it_answers_for_each_sea_and_number_of_points(robots, tmp_path):
     files = tmp_path / "robots.json", tmp_path / "robots.png"
-    flags = ["--n", "8", "16", "--points", "1", "3", "--tiles", "1", "2", "--seconds", "0"]
+    flags = ["--n", "16", "32", "--points", "1", "3", "--tiles", "1", "2", "--seconds", "0"]
     assert robots.main([*flags, "--json", str(files[0]), "--plot", str(files[1])]) == 0
     result = read(files[0])
     assert files[1].read_bytes()[:8] == PNG

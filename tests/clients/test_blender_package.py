@@ -105,7 +105,11 @@ def test_a_wave_of_two_and_a_half_samples_is_half_in_the_mesh(package, tmp_path)
 
 
 def test_foam_is_the_periodic_solution_of_its_equation(package, folder):
-    """A patch that breaks once decays by its rate, and the loop closes."""
+    """
+    A patch that breaks once decays by its rate, and the loop closes.
+
+    What is older than three decays is left out, and the rest raised by its share, e^-3 = 0.05.
+    """
     sea = package.Sea(folder)
     foam = package.Foam(package.Surface(sea, np.arange(2.0), np.arange(2.0)), 80)
     rate = 3.0
@@ -114,7 +118,7 @@ def test_foam_is_the_periodic_solution_of_its_equation(package, folder):
     risen = rate * tau * (1.0 - np.exp(-step / tau))
     for later in (0, 1, 7):
         found = -np.log(1.0 - foam.coverage(5 + later)[0, 0])
-        assert found == pytest.approx(risen * np.exp(-later * step / tau), rel=0.02)
+        assert found == pytest.approx(risen * np.exp(-later * step / tau), rel=0.06)
     assert np.array_equal(foam.coverage(85), foam.coverage(5))
     foam._rates = {j: np.full((2, 2), rate) for j in range(80)}
     assert -np.log(1.0 - foam.coverage(0)[0, 0]) == pytest.approx(rate * tau, rel=1e-9)
