@@ -116,7 +116,7 @@ class Panels(NamedTuple):
 
 @dataclass(frozen=True)
 class Body:
-    """A floating body: its shape, mass and coefficients, all about the water line of still water."""
+    """A floating body: shape, mass and coefficients, about the water line of still water."""
 
     vertices: np.ndarray  # (vertices, 3) [m], z = 0 at the water line
     quads: np.ndarray  # (panels, 4)

@@ -127,7 +127,7 @@ def main() -> None:
     ride = Simulation({"hull": hull(), "buoy": buoy(drag=0.6)}, water)
     ride.step()  # compiles the kernels
     steps, spent, track = int(options.seconds * RATE), 0.0, []
-    film_from = steps - int(round(sea.loop * RATE)) if options.film else steps
+    film_from = steps - round(sea.loop * RATE) if options.film else steps
     shots = {int(i) for i in np.linspace(steps // 2, steps - 1, 6)} if options.picture else set()
     every = max(1, round(RATE / options.rate))
     stills, film = [], []

@@ -68,9 +68,9 @@ def model_of(
     places: dict[str, tuple[float, float]],
     *,
     timestep: float = 0.02,
-    size: float = 64.0,
-    cells: int = 200,
-    eye: tuple[float, float, float] = (-5.0, -14.0, 5.5),
+    size: float = 60.0,
+    cells: int = 240,
+    eye: tuple[float, float, float] = (-4.0, -12.0, 4.4),
 ) -> mujoco.MjModel:
     """
     Return a model of bodies at places on a sea of some size [m].
