@@ -42,6 +42,7 @@ QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "memory": ("--n", "64", "128", "--runs", "1"),
     "startup": ("--runs", "2", "--cold", "1", "--n", "64"),
     "bake": ("--n", "64", "--frames", "8"),
+    "second_order": ("--n", "64", "--waves", "20", "50", "--seconds", "0"),
 }
 
 

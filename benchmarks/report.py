@@ -16,7 +16,7 @@ from fftocean.bench.results import Condition, Reading, Result, read
 
 HERE = Path(__file__).resolve().parent
 RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
-QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake")
+QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake", "second_order")
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
         "full frame",
@@ -146,6 +146,10 @@ def goals() -> list[Goal]:
     found.append(
         Goal("bake at 512, 3 maps: Python's own share", "<=", 10.0, "bake", "Python", {"n": 512})
     )
+    for waves, bound in ((500, 0.5), (1000, 1.3), (2000, 5.0)):
+        what = f"second order of {waves} waves in a frame, 256 x 256"
+        at = {"n": 256, "waves": waves}
+        found.append(Goal(what, "<=", bound, "second_order", "second order adds", at))
     return found
 
 
@@ -205,9 +209,11 @@ def _head(results: Mapping[str, Result]) -> list[str]:
                 if busy and max(busy) > BUSY_FROM
                 else ""
             )
+            own = results[name].machine["cpu"]
+            elsewhere = "" if own == m["cpu"] else f"; on another machine: {own}"
             lines.append(
                 f"| {name} | {before['utc']} UTC, load {before['load']} before, "
-                f"{after['load']} after{word} |"
+                f"{after['load']} after{word}{elsewhere} |"
             )
     return [*lines, ""]
 

@@ -21,7 +21,6 @@ import numpy as np
 import fftocean as fo
 from fftocean.foam_coverage import threshold_for
 from fftocean.moving_amplitudes import MovingAmplitudes
-from fftocean.sea_summary import summary
 from fftocean.slope_variance import slope_variance
 
 SIZES = (420.0, 61.0, 8.3)
@@ -88,7 +87,6 @@ def main() -> None:
                 "exact cascade": lambda new=new: fo.Cascade(new, tiles, seed=7, loop=64.0),
                 "threshold of foam": lambda exact=exact: threshold_for(exact, 11.0),
                 "slope variance": lambda exact=exact: slope_variance(exact, wind_speed=11.0),
-                "summary": lambda exact=exact: summary(exact),
             }
             print(f"depth {depth:g} m, {'wind sea and swell' if swell else 'wind sea'}")
             for name, run in steps.items():

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from fftocean.baking.finished.load import load as load
     from fftocean.baking.repair import repair as repair
     from fftocean.cascade import Cascade as Cascade
+    from fftocean.constraints import constrained as constrained
+    from fftocean.constraints import crest_height as crest_height
     from fftocean.errors import CacheWarning as CacheWarning
     from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import FieldError as FieldError
@@ -36,6 +38,9 @@ if TYPE_CHECKING:
     from fftocean.errors import ReaderError as ReaderError
     from fftocean.errors import SeaWarning as SeaWarning
     from fftocean.eulerian import Eulerian as Eulerian
+    from fftocean.fixed_values import Crest as Crest
+    from fftocean.fixed_values import Fix as Fix
+    from fftocean.fixed_values import Rarity as Rarity
     from fftocean.foam import Foam as Foam
     from fftocean.frame import EulerianFrame as EulerianFrame
     from fftocean.frame import Frame as Frame
@@ -97,6 +102,7 @@ _NAMES_BY_MODULE = {
     "fftocean.baking.finished.load": ("Bake", "BakedCascade", "load"),
     "fftocean.baking.repair": ("repair",),
     "fftocean.cascade": ("Cascade",),
+    "fftocean.constraints": ("constrained", "crest_height"),
     "fftocean.errors": (
         "CacheWarning",
         "FFTOceanError",
@@ -110,6 +116,7 @@ _NAMES_BY_MODULE = {
         "SeaWarning",
     ),
     "fftocean.eulerian": ("Eulerian",),
+    "fftocean.fixed_values": ("Crest", "Fix", "Rarity"),
     "fftocean.foam": ("Foam",),
     "fftocean.frame": ("EulerianFrame", "Frame"),
     "fftocean.ocean": ("Ocean",),

@@ -11,6 +11,7 @@ from fftocean import noise
 from fftocean.arrays import Complex, Integer, Real, brief_repr
 from fftocean.cells import QUADRANTS, WHOLE, Band, Cells, Part
 from fftocean.errors import ParameterError
+from fftocean.fixed_values import Fix, Rarity
 from fftocean.grid import Grid
 from fftocean.limits import ANGLE, DEPTH, LENGTH, LOOP, SEED
 from fftocean.physics import dispersion
@@ -54,10 +55,13 @@ class Amplitudes:
     backward: Complex  # the same
     variance_forward: Real  # E_k, the expected a^2/2 of the wave at +k [m^2]
     variance_backward: Real  # of the wave at -k [m^2]
-    draw: Literal["gaussian", "fixed", "given"]
+    draw: Literal["gaussian", "fixed", "given", "constrained"]
     band: Band = (
         WHOLE  # the wavenumbers |k| that the tile was to hold, of those that it can [rad/m]
     )
+    # values that these waves were made to have, and the rarity of those of all tiles together
+    fixed: tuple[Fix, ...] = ()
+    rarity: Rarity | None = None
     cycles: Integer | None = field(init=False)  # whole cycles in a loop
 
     __repr__ = brief_repr

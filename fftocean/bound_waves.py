@@ -66,10 +66,18 @@ class _Table:
 class Report:
     """Bound waves in numbers, averaged over the phases of the waves."""
 
+    waves: int  # that have bound waves
     ratio: float  # rms of the second-order over that of the linear elevation [-]
     dropped: float  # share of the second-order variance in sums beyond the grid [-]
     skewness: float  # of the elevation, with Gaussian waves of the parents' variances [-]
     realised: float  # the same for the amplitudes that the parents have [-]
+
+    def __str__(self) -> str:
+        return (
+            f"pairs of the {self.waves} strongest waves: {100 * self.ratio:.1f} % of the rms of "
+            f"the linear waves, {100 * self.dropped:.2g} % of their variance beyond the grid and "
+            "left out"
+        )
 
 
 class BoundWaves:
@@ -116,6 +124,12 @@ class BoundWaves:
     def __len__(self) -> int:
         """Number of waves that have bound waves."""
         return int(self.parents.mx.size)
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the tables that have been computed [B]."""
+        tables = self._tables.values()
+        return sum(t.sums.nbytes + t.differences.nbytes for t in tables)
 
     @property
     def reach(self) -> tuple[int, int]:
@@ -175,6 +189,7 @@ class BoundWaves:
         self._tables[kind] = _Table(*tables)
         m0 = self.amplitudes.variance
         return Report(
+            waves=int(p.mx.size),
             ratio=math.sqrt(second / linear) if linear > 0.0 else 0.0,
             dropped=beyond / all_of_it if all_of_it > 0.0 else 0.0,
             skewness=3.0 * skewness / m0**1.5 if m0 > 0.0 else 0.0,
@@ -428,7 +443,7 @@ def _parents(amplitudes: Amplitudes, most: int) -> Parents:
         running=running[strongest],
         frequency=frequency,
         variance=variance[strongest],
-        gaussian=a.draw == "gaussian",
+        gaussian=a.draw in ("gaussian", "constrained"),
     )
 
 

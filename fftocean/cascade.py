@@ -14,6 +14,7 @@ from fftocean.cells import WHOLE, Band, parts_of_sea
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, POINTWISE
+from fftocean.fixed_values import Rarity
 from fftocean.grid import Grid
 from fftocean.host import require_memory
 from fftocean.limits import BAND_EDGE, LOOP, SEED
@@ -163,6 +164,11 @@ class Cascade:
     def loop(self) -> float | None:
         """Period that all tiles have in common [s], or None."""
         return self.loops[0] if len(set(self.loops)) == 1 else None
+
+    @property
+    def rarity(self) -> Rarity | None:
+        """Rarity of the values that `fo.constrained` made the sum of tiles have, or None."""
+        return self.oceans[0].rarity
 
     @property
     def variance(self) -> float:

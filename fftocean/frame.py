@@ -119,7 +119,8 @@ class Frame(_Arrays):
     Sample [iy, ix] is the water whose rest position is (x, y) of the grid. Fields that were not
     asked for raise `FieldError`. Displacements, stretches and horizontal velocities are
     those of linear wave theory: the surface is at (x + c displace_x, y + c displace_y, height),
-    where c is `choppiness`, and moves with (c velocity_x, c velocity_y, velocity_z).
+    where c is `choppiness`, and itself moves with (c velocity_x, c velocity_y, velocity_z), while
+    velocity_* is that of the water there, whatever c.
     """
 
     __slots__ = ()
@@ -157,8 +158,8 @@ class EulerianFrame(_Arrays):
 
     Sample [iy, ix] is the water that is at (x, y) of the grid at time t. The surface is at (x, y,
     height): height, slope_x, slope_y and normal are those of a height field over world x and y.
-    jacobian and velocity_* belong to the water particle at that position; horizontal velocities are
-    before `choppiness`. There are no displacements and no stretches.
+    jacobian and velocity_* belong to the water at that position; the velocities are those of the
+    water, before `choppiness`. There are no displacements and no stretches.
     """
 
     __slots__ = ()

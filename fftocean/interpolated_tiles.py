@@ -90,11 +90,18 @@ class InterpolatedTiles:
             changed, gain, rate, planning="estimate", threads=self._threads
         )
 
+    def growth(self, _t: float) -> float:
+        """Return the factor on all waves at a time: 1."""
+        return 1.0
+
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
         if not self._process.is_current:
             self._lock, self._process = threading.Lock(), Process()
-        groups = ["motion", *(group for group, name in _GROUPS.items() if name in fields)]
+        groups = [
+            "motion",
+            *(group for group, names in _GROUPS.items() if set(names) & set(fields)),
+        ]
         with self._lock:
             if self._last.t != t:
                 self._last = _TexelGroups(t)
@@ -145,9 +152,12 @@ class InterpolatedTiles:
                             interpolate.bilinear(channels, u, v, total)
             if "geometry" in sums:
                 write_normals(sums["geometry"], c, out.arrays["normals"])
-            for group, name in (("velocity", "velocities"), ("acceleration", "accelerations")):
-                if group in sums:
-                    out.arrays[name][:] = sums[group] * (c, c, 1.0)
+            for group in ("velocity", "acceleration"):
+                of_water, of_surface = _GROUPS[group]
+                if of_water in fields:
+                    out.arrays[of_water][:] = sums[group]
+                if of_surface in fields:
+                    out.arrays[of_surface][:] = sums[group] * (c, c, 1.0)
 
         return find
 
@@ -203,7 +213,12 @@ def _workspace(tiles: int) -> tuple[npt.NDArray[Any], ...]:
     )
 
 
-_GROUPS = {"geometry": "normals", "velocity": "velocities", "acceleration": "accelerations"}
+_GROUPS = {
+    "geometry": ("normals",),
+    "velocity": ("velocities", "surface_velocities"),
+    "acceleration": ("accelerations", "surface_accelerations"),
+}
+"""The fields of an answer that each group of texels gives: of the water, then of the surface."""
 _CHANNELS = {
     "motion": MOTION,
     "geometry": GEOMETRY,

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from fftocean import mean_motion
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, brief_repr
 from fftocean.bound_waves import ELEVATION, POTENTIAL
@@ -99,7 +100,7 @@ def at(
         threads: number of threads that share the points.
         order: 1 or 2; None for that of the source. An ocean of order 2 adds, below the surface, the
             potential of its waves of second order: to velocities, to accelerations (which remain
-            those at a fixed point), and to the pressure, which then has -rho |velocity|^2/2 too.
+            those at a fixed point), and to the pressure, which then has -rho u^2/2 too.
             The expansion is about z = 0: "none" and "extrapolation" keep it in order.
 
     Raises:
@@ -306,35 +307,9 @@ def stokes_drift(
     _require_steady(waves)
     levels = as_coordinates("z", z)
     out = np.zeros((*levels.shape, 3))
-    flat, drifts = levels.reshape(-1), out.reshape(-1, 3)
-    k = np.hypot(waves.kx, waves.ky)
-    strength = waves.amplitude**2 * waves.omega * np.stack([waves.kx, waves.ky])
-    block = max(1, _DRIFT_BLOCK // max(1, k.size))  # levels at a time
-    for first in range(0, flat.size, block):
-        some = flat[first : first + block]
-        drifts[first : first + block, :2] = (
-            _drift_profile(k, np.minimum(some, 0.0), waves.depth) @ strength.T
-        )
-    drifts[flat < -waves.depth] = 0.0
-    drifts[np.isnan(flat)] = np.nan
+    out[..., :2] = mean_motion.stokes_drift(waves, levels.reshape(-1)).reshape((*levels.shape, 2))
+    out[np.isnan(levels)] = np.nan
     return out
-
-
-_DRIFT_BLOCK = 2**20  # waves times levels at a time
-
-
-def _drift_profile(k: Real, z: Real, depth: float) -> Real:
-    """
-    Return cosh 2k(z + h) / (2 sinh^2 kh) for levels and waves, (levels, waves), z <= 0 [-].
-
-    It is written with exponents that are never positive, so that nothing overflows.
-    """
-    down: Real = np.exp(2.0 * k * np.maximum(z, -depth)[:, None])
-    if math.isinf(depth):
-        return down
-    up = np.exp(-2.0 * k * (np.maximum(z, -depth)[:, None] + 2.0 * depth))
-    profile: Real = (down + up) / np.expm1(-2.0 * k * depth) ** 2
-    return profile
 
 
 def _require_steady(waves: WaveList) -> None:

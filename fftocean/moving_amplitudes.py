@@ -91,6 +91,11 @@ class _Tile:
             raise ParameterError(
                 f"cascade must be made of a sea and a seed, got the given waves of {ocean!r:.80}"
             )
+        if self._given.draw == "constrained":
+            raise ParameterError(
+                "cascade must not be constrained: the waves of another sea would not have its "
+                "fixed values; constrain each cascade that is made"
+            )
         draw = noise.unit_phasors if self._given.draw == "fixed" else noise.complex_normals
         factor = math.sqrt(0.5) if self._given.draw == "fixed" else 0.5
         self._places: list[tuple[int, Integer, Integer]] = []

@@ -17,6 +17,7 @@ from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
+from fftocean.fixed_values import Rarity
 from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
@@ -341,6 +342,11 @@ class Ocean:
     def loop(self) -> float | None:
         """Period after which the water repeats [s], or None."""
         return self.amplitudes.loop
+
+    @property
+    def rarity(self) -> Rarity | None:
+        """Rarity of the values that `fo.constrained` made these waves have, or None."""
+        return self.amplitudes.rarity
 
     @property
     def order(self) -> int:

@@ -219,7 +219,7 @@ def _columns(fields: Sequence[str], levels: Real) -> list[tuple[str, float]]:
         raise ParameterError(
             f"fields must be a list of names such as ('height', 'pressure'), got {fields!r:.60}"
         )
-    columns = []
+    columns: list[tuple[str, float]] = []
     for name in dict.fromkeys(fields):
         if name not in UNITS:
             raise ParameterError(f"fields must be of {', '.join(UNITS)}, got {name!r:.60}")
@@ -288,8 +288,7 @@ def _factor(name: str, z: float, kx: Real, ky: Real, omega: Real, depth: float) 
     if name in ("slope_x", "slope_y"):
         return 1j * (kx if name == "slope_x" else ky)
     k = np.hypot(kx, ky)
-    decay, mirrored = np.exp(k * z), 0.0
-    whole = 1.0
+    decay, mirrored, whole = np.exp(k * z), np.zeros(1), np.ones(1)
     if math.isfinite(depth):
         mirrored = np.exp(-2.0 * k * (z + depth))
         whole = -np.expm1(-2.0 * k * depth)

@@ -16,7 +16,7 @@ from fftocean.arrays import Integer, Real
 from fftocean.bound_waves import POTENTIAL
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, described
-from fftocean.fields import EIGHT, FIELDS
+from fftocean.fields import EIGHT, FIELDS, multiplier
 from fftocean.gerstner import Surface
 from fftocean.ocean import Frame, Ocean
 from fftocean.statistics import Statistics, measure
@@ -55,7 +55,8 @@ class Check:
 
 def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
     """
-    Verify an ocean: all fields against the direct sum, seam, loop, Parseval, and energy.
+    Verify an ocean: all fields against the direct sum, seam, loop, Parseval, and energy; the fixed
+    values of a constrained one, whose energy is compared with that of seas that have them.
 
     Errors of fields are relative to the largest value of their kind in the frame (all
     displacements are one kind, all slopes another); errors of energies are relative to the
@@ -80,6 +81,7 @@ def verify(ocean: Ocean, t: float = 3.7) -> list[Check]:
         *_seam(ocean, t),
         *_loop(ocean),
         *_parseval(ocean, t),
+        *_fixed_values(ocean),
         *_energy(ocean, measure(ocean)),
         *_free_surface(ocean),
     ]
@@ -247,6 +249,68 @@ def _parseval(ocean: Ocean, t: float) -> Iterator[Check]:
     yield Check("mean level", "0", level, _tolerance(ocean, t), "k = 0 carries nothing")
 
 
+def _fixed_values(ocean: Ocean) -> Iterator[Check]:
+    """Compare the values that the waves were made to have with the direct sum at their places."""
+    fixes = ocean.amplitudes.fixed
+    if not fixes:
+        return
+    ocean = ocean.linear()  # the values are those of these waves
+    worst, omega = 0.0, float(np.max(ocean.modes().omega, initial=0.0))
+    for fix in fixes:
+        kind = [name for name in FIELDS if name.partition("_")[0] == fix.field.partition("_")[0]]
+        frame = ocean.frame(fix.t, kind)
+        largest = max(float(np.max(np.abs(frame[name]))) for name in kind)
+        found = getattr(gerstner.surface(ocean, fix.x, fix.y, fix.t), fix.field)
+        scale = max(largest, abs(fix.value), _least(ocean))
+        worst = max(worst, abs(float(found) - fix.value) / scale)
+    grid = ocean.grid
+    far = max(max(abs(f.x) / grid.lx * grid.nx, abs(f.y) / grid.ly * grid.ny) for f in fixes)
+    late = omega * max(abs(fix.t) for fix in fixes)
+    yield Check(
+        "fixed values",
+        "direct sum at their places",
+        worst,
+        1e-12 + 4.0 * np.finfo(np.float64).eps * (far + late),
+        "the rounding of k.x and omega t",
+    )
+
+
+def _conditional_energy(ocean: Ocean) -> tuple[float, float]:
+    """
+    Return the expected m0 of waves that have fixed values, and the tolerance of one realisation,
+    relative to it.
+
+    Conditioned on the values b, the amplitudes z of the waves have the mean E c* Lambda^-1 b and
+    the covariance that remains; half of the squares of both is the energy. To the tolerance of
+    `_likely` comes that of the products of the mean with the rest, Gaussian with the variance sum
+    of E |mean|^2.
+    """
+    a = ocean.amplitudes
+    kx, ky = np.broadcast_arrays(ocean.grid.kx[None, :], ocean.grid.ky[:, None])
+    ahead, against = a.variance_forward > 0.0, a.variance_backward > 0.0
+    against[:, 0] = False
+    energy = np.concatenate([a.variance_forward[ahead], a.variance_backward[against]])
+    kx, ky = (np.concatenate([k[ahead], -k[against]]) for k in (kx, ky))
+    omega = np.concatenate([a.running_omega[ahead], a.running_omega[against]])
+    rows = []
+    for fix in a.fixed:
+        field = FIELDS[fix.field]
+        phase = np.exp(1j * (kx * fix.x + ky * fix.y - omega * fix.t))
+        rows.append(multiplier(field, kx, ky, a.depth) * (-1j * omega) ** field.dt * phase)
+    c, b = np.array(rows), np.array([fix.value for fix in a.fixed])
+    covariance = np.real((c * energy) @ np.conj(c.T))
+    scale = np.sqrt(np.maximum(np.diagonal(covariance), np.finfo(np.float64).tiny))
+    inverse = np.linalg.pinv(covariance / np.outer(scale, scale), 1e-12, hermitian=True)
+    inverse /= np.outer(scale, scale)
+    mean = energy * (np.conj(c.T) @ (inverse @ b))
+    lost = np.real(np.sum((inverse @ c) * np.conj(c), axis=0)) * energy**2
+    expected = float(np.sum(energy) + 0.5 * np.sum(np.abs(mean) ** 2 - lost))
+    spread = math.sqrt(float(np.sum(energy**2))) + math.sqrt(
+        float(np.sum(energy * np.abs(mean) ** 2))
+    )
+    return expected, (4.0 * spread + 8.0 * float(np.max(energy))) / expected
+
+
 def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
     """
     Compare energies: of the frame, of the sea's resolved and unresolved parts, of the realisation.
@@ -271,7 +335,16 @@ def _energy(ocean: Ocean, statistics: Statistics) -> Iterator[Check]:
         1e-3,
         "the sum over cells against integrals along rays",
     )
-    if statistics.resolved > 0.0:
+    if statistics.resolved > 0.0 and ocean.amplitudes.fixed:
+        expected, tolerance = _conditional_energy(ocean)
+        yield Check(
+            "m0 of this realisation",
+            "m0 given the fixed values, averaged over seeds",
+            _relative(realised, expected),
+            tolerance,
+            "at most 1 seed in 1500 is further off",
+        )
+    elif statistics.resolved > 0.0:
         tolerance, reason = _likely(ocean)
         yield Check(
             "m0 of this realisation",

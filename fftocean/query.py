@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from fftocean import mean_motion
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
-from fftocean.errors import FieldError, ParameterError
+from fftocean.errors import FieldError, ParameterError, described
 from fftocean.forks import Process
 from fftocean.gerstner.waves import Waves
 from fftocean.interpolated_tiles import InterpolatedTiles
@@ -24,6 +25,8 @@ from fftocean.wave_list import list_waves, oceans_of
 
 MODES = ("bilinear", "bicubic", "exact")
 WANTED = ("heights", "normals", "velocities", "accelerations")
+KNOWN = (*WANTED, "surface_velocities", "surface_accelerations")
+LEVELS = ("still", "frame")
 WAVELENGTH = Quantity("m", 0.0, math.inf)
 
 
@@ -80,7 +83,7 @@ class Answer:
 
     @property
     def heights(self) -> Real:
-        """Height of the water above its mean level [m]."""
+        """Height of the surface above the still-water level, or the frame's zero (`level`) [m]."""
         return self["heights"]
 
     @property
@@ -90,13 +93,24 @@ class Answer:
 
     @property
     def velocities(self) -> Real:
-        """Velocity of the water particle that is at the surface there, (..., 3) [m/s]."""
+        """Velocity of the water that is at the surface there, (..., 3) [m/s]."""
         return self["velocities"]
 
     @property
     def accelerations(self) -> Real:
-        """Acceleration of that particle, (..., 3) [m/s^2]."""
+        """Acceleration of that water, (..., 3) [m/s^2]."""
         return self["accelerations"]
+
+    @property
+    def surface_velocities(self) -> Real:
+        """Velocity of the displaced surface's own point: horizontally choppiness times the water's,
+        (..., 3) [m/s]."""
+        return self["surface_velocities"]
+
+    @property
+    def surface_accelerations(self) -> Real:
+        """Acceleration of that point, (..., 3) [m/s^2]."""
+        return self["surface_accelerations"]
 
 
 class Query:
@@ -114,6 +128,14 @@ class Query:
     for few points, or few waves. The interpolant or sum itself is inverted: residuals are those of
     the surface that is returned.
 
+    Velocities and accelerations are those of the water, by linear theory, whatever the choppiness,
+    which is a factor on the shape of the surface. The drawn surface itself moves with
+    "surface_velocities".
+
+    Heights are those above the still-water level. The displaced surface of a frame lies lower in
+    the mean over the world, since horizontal displacement widens troughs: by `set_down`, which
+    `level="still"` takes away (see `mean_motion.set_down`).
+
     Args:
         source: an `Ocean`, a `Cascade`, a model of `fo.gerstner` or its `Waves`, or `Modes`
             (`ocean.modes()`).
@@ -126,6 +148,10 @@ class Query:
         choppiness: of `Modes` [-], None is 1; the other sources have their own.
         threads: number of threads that share the points of a call, and the work on frames. The
             result does not depend on it.
+        level: where heights are counted from: "still", the still-water level, or "frame", the zero
+            of frames and maps, to lie on a mesh that is drawn from these.
+        drift: add to the velocities of the water what tracers that follow them lack of the Stokes
+            drift at the surface: things that float then drift as on water.
 
     The frames of the last t are kept, so that many calls at one time cost one synthesis. Threads
     can share a query; they work on points at the same time, without the GIL.
@@ -137,7 +163,7 @@ class Query:
     Method: Newton's iteration on the summed displacement with its exact Jacobian (`kernels.query`).
     Source: splines: Unser 1999.
     Pinned by tests/test_query.py: an independent inversion of `gerstner.surface`; differences in
-    time and space; folds.
+    time and space; folds; quadrature of the mean level; tracers beside the Stokes drift.
     """
 
     def __init__(
@@ -149,6 +175,8 @@ class Query:
         depth: float | None = None,
         choppiness: float | None = None,
         threads: int = 1,
+        level: str = "still",
+        drift: bool = False,
     ) -> None:
         tiles = oceans_of(source)
         mode = mode or ("bicubic" if tiles else "exact")
@@ -158,25 +186,28 @@ class Query:
             raise ParameterError(
                 f"mode must be 'exact' for waves that have no tile to interpolate, got {mode!r}"
             )
-        self.source, self.mode = source, mode
+        if not isinstance(level, str) or level not in LEVELS:
+            raise ParameterError(f"level must be one of {', '.join(LEVELS)}, got {level!r}")
+        if not isinstance(drift, bool):
+            raise ParameterError(f"drift must be True or False, got {described(drift)}")
+        self.source, self.mode, self.level = source, mode, level
         self.shortest = WAVELENGTH.check("shortest", shortest)
         self.threads = THREADS.check("threads", threads)
         self._water: SummedWaves | InterpolatedTiles
+        waves = list_waves(source, depth=depth, choppiness=choppiness, shortest=self.shortest)
+        self.set_down = mean_motion.set_down(waves)
+        """Mean height of the displaced surface over the world, in frames [m]; at most 0."""
+        self.drift = np.append(mean_motion.missing_drift(waves), 0.0) if drift else np.zeros(3)
+        """Velocity that is added to that of the waves' water, (3,) [m/s]."""
         if mode == "exact":
-            self._water = SummedWaves(
-                list_waves(source, depth=depth, choppiness=choppiness, shortest=self.shortest)
-            )
-        elif depth is not None or choppiness is not None:
-            raise ParameterError(
-                "depth and choppiness go with Modes only: "
-                "an ocean, a cascade and a few-wave model have their own"
-            )
+            self._water = SummedWaves(waves)
         else:
             self._water = InterpolatedTiles(
                 tiles, spline=mode == "bicubic", shortest=self.shortest, threads=self.threads
             )
         self._start()
-        self._recipe = (source, mode, self.shortest, depth, choppiness, self.threads)
+        self.drift.setflags(write=False)
+        self._recipe = (source, mode, self.shortest, depth, choppiness, self.threads, level, drift)
 
     def _start(self) -> None:
         self._pool = (
@@ -199,7 +230,7 @@ class Query:
     def __repr__(self) -> str:
         return shortened(
             f"Query(mode={self.mode!r}, shortest={self.shortest:g}, threads={self.threads}, "
-            f"{self.source!r})"
+            f"level={self.level!r}, {self.source!r})"
         )
 
     def at(self, x: RealLike, y: RealLike, t: RealLike, fields: Sequence[str] = WANTED) -> Answer:
@@ -209,7 +240,8 @@ class Query:
         Args:
             x, y: points of the world [m]; any shapes that broadcast, any distance away.
             t: times [s]; one for all points is fastest, since each different one takes a synthesis.
-            fields: "heights", "normals", "velocities", "accelerations"; no other is computed.
+            fields: "heights", "normals", "velocities", "accelerations", "surface_velocities",
+                "surface_accelerations"; no other is computed.
 
         Returns:
             Arrays of the shape that x, y and t broadcast to, float64. Where one of the three is not
@@ -219,7 +251,7 @@ class Query:
             ParameterError: values that are not numbers, shapes that do not broadcast, a time beyond
                 +-1e12 s, or an unknown field.
         """
-        fields = check_fields(fields, WANTED)
+        fields = check_fields(fields, KNOWN)
         if not self._process.is_current:  # a forked child has none of its parent's threads
             self._start()
         xs, ys, ts = (
@@ -270,6 +302,14 @@ class Query:
         """Find the water at all points at one time, block by block."""
         if x.size == 0:
             return
+        self._find_waves(x, y, t, out)
+        growth = self._water.growth(t) ** 2
+        if self.level == "still":
+            out.arrays["heights"] -= growth * self.set_down
+        if "velocities" in out.fields:
+            out.arrays["velocities"] += growth * self.drift
+
+    def _find_waves(self, x: Real, y: Real, t: float, out: PointResults) -> None:
         find = self._water.at(t, out.fields)
         block = self._water.block
         if x.size <= block:
@@ -290,8 +330,17 @@ def _rebuilt(
     depth: float | None,
     choppiness: float | None,
     threads: int,
+    level: str,
+    drift: bool,
 ) -> Query:
     """Return a query from its arguments in order."""
     return Query(
-        source, mode=mode, shortest=shortest, depth=depth, choppiness=choppiness, threads=threads
+        source,
+        mode=mode,
+        shortest=shortest,
+        depth=depth,
+        choppiness=choppiness,
+        threads=threads,
+        level=level,
+        drift=drift,
     )

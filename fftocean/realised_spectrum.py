@@ -55,7 +55,8 @@ def realised_spectrum(ocean: Ocean) -> RealisedSpectrum:
     forward, backward = a.variance_forward[once], a.variance_backward[once]
     expected, _ = np.histogram(omega, edges, weights=forward + backward)
     square, _ = np.histogram(omega, edges, weights=forward**2 + backward**2)
-    scatter = np.sqrt(square) if a.draw == "gaussian" else np.zeros_like(square)
+    free = a.draw in ("gaussian", "constrained")
+    scatter = np.sqrt(square) if free else np.zeros_like(square)
     return RealisedSpectrum(edges, energy, expected, scatter)
 
 

@@ -401,6 +401,8 @@ def _attributes(ocean: Ocean | Window) -> dict[str, Any]:
         "dtype": ocean.dtype,
         "backend": tiles[0].backend,
     }
+    if tiles[0].rarity is not None:
+        found["constrained"] = str(tiles[0].rarity)
     if len(tiles) > 1:
         found["tiles"] = "; ".join(
             f"{t.grid.nx} x {t.grid.ny} over {t.grid.lx:g} x {t.grid.ly:g} m" for t in tiles

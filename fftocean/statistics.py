@@ -514,7 +514,7 @@ def _scatter(tiles: list[Amplitudes]) -> tuple[float, float]:
     total = float(np.sum(forward) + np.sum(backward))
     if not total > 0.0:
         return 0.0, 0.0
-    if tiles[0].draw != "gaussian":
+    if tiles[0].draw in ("fixed", "given"):
         return 0.0, math.sqrt(2.0 * float(np.sum(forward * backward))) / total
     sampling = math.sqrt(float(np.sum(forward**2) + np.sum(backward**2))) / total
     snapshot = math.sqrt(float(np.sum((forward + backward) ** 2))) / total

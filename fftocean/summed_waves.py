@@ -1,11 +1,13 @@
 """Sums of all waves at points."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.bound_waves import SURFACE
+from fftocean.fields import potential_factor
 from fftocean.kernels import bound
 from fftocean.kernels import query as kernels
 from fftocean.point_results import FAR, PointFunction, PointResults, write_normals
@@ -22,11 +24,19 @@ class SummedWaves:
         longest = 2.0 * np.pi / np.min(np.hypot(waves.kx, waves.ky), initial=np.inf) or 1.0
         sizes = np.where(np.isfinite(waves.sizes), waves.sizes, longest)
         self.limit = 1e-9 * float(np.max(sizes, initial=0.0))
+        k = np.hypot(waves.kx, waves.ky)
+        water = waves.amplitude * potential_factor(k, waves.depth)
+        same = np.allclose(water, waves.potential, rtol=1e-14, atol=0.0)
+        self._water = None if same else water  # a model's own displacement is not the water's
         self._reach = (
             FAR
             * waves.choppiness
             * math.sqrt(0.5 * float(np.sum(waves.potential**2 * (waves.kx**2 + waves.ky**2))))
         )
+
+    def growth(self, t: float) -> float:
+        """Return the factor on all waves at time t [s]: below 1 for a model that starts."""
+        return _growth(self._waves, t)[0]
 
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
@@ -50,17 +60,39 @@ class SummedWaves:
             kernels.sum_waves(tiles, waves.omega, x, y, out.offsets, origin, sums)
             if second is not None:
                 sums[:, [0, 1, 10, 13]] += second[:, 1:]  # slopes, and z of velocity, acceleration
-            place, velocity, acceleration = sums[:, 5:8], sums[:, 8:11], sums[:, 11:14]
             if "normals" in fields:
                 write_normals(grow * sums[:, :5], c, out.arrays["normals"])
-            if "velocities" in fields:
-                out.arrays["velocities"][:] = (grow * velocity + rate * place) * (c, c, 1.0)
-            if "accelerations" in fields:
-                out.arrays["accelerations"][:] = (
-                    grow * acceleration + 2.0 * rate * velocity + curve * place
-                ) * (c, c, 1.0)
+            motion = _Motion(sums, grow, rate, curve)
+            for name in set(fields) & {"surface_velocities", "surface_accelerations"}:
+                out.arrays[name][:] = motion[name.removeprefix("surface_")] * (c, c, 1.0)
+            if self._water is not None and set(fields) & {"velocities", "accelerations"}:
+                table = tiles[-1].copy()
+                table[kernels.POTENTIAL] = self._water
+                water = (*tiles[:-1], table)
+                kernels.sum_waves(water, waves.omega, x, y, out.offsets, origin, sums)
+            for name in set(fields) & {"velocities", "accelerations"}:
+                out.arrays[name][:] = motion[name]
 
         return find
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Motion:
+    """Velocity and acceleration of waves that grow."""
+
+    sums: Real  # of `kernels.query.sum_waves`
+    grow: float  # and its time derivatives
+    rate: float  # [1/s]
+    curve: float  # [1/s^2]
+
+    def __getitem__(self, name: str) -> Real:
+        """Return "velocities" or "accelerations", (points, 3), before choppiness."""
+        place, velocity, acceleration = self.sums[:, 5:8], self.sums[:, 8:11], self.sums[:, 11:14]
+        if name == "velocities":
+            moved: Real = self.grow * velocity + self.rate * place
+            return moved
+        pushed: Real = self.grow * acceleration + 2.0 * self.rate * velocity + self.curve * place
+        return pushed
 
 
 def _second_order(waves: WaveList, t: float, x: Real, y: Real, offsets: Real) -> Real:

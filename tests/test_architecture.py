@@ -21,7 +21,7 @@ FLOORS = {
         *("example_projects", "engine_projects", "notebook_html"),
     ],
     1: ["physics", "grid", "noise"],
-    2: ["cells", "amplitudes", "readers", "fields"],
+    2: ["cells", "amplitudes", "readers", "fields", "fixed_values"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: [
         "computation",
@@ -31,17 +31,15 @@ FLOORS = {
         "lookahead",
         "ocean",
         "gerstner",
-        *("computation", "bound_waves", "synthesis", "frame", "lookahead", "ocean", "gerstner"),
         "cell_lattice",
     ],
     5: ["cascade", "moving_amplitudes", "wave_list", "window", "points", "point_results"],
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
-        *("kinematics", "statistics", "blend_loss"),
+        *("kinematics", "statistics", "blend_loss", "constraints", "mean_motion"),
         *("summed_waves", "interpolated_tiles", "query"),
-        *("polar_spectrum", "realised_spectrum", "measured_dispersion", "sea_summary"),
-        "wave_files",
-        "probe_series",
+        *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
+        *("wave_files", "probe_series"),
     ],
     7: ["job", "proof"],
     8: ["baking", "runtime"],
@@ -62,7 +60,6 @@ STAIRS = [
         [
             *("physics", "physics.units", "physics.dispersion", "physics.moments"),
             *("physics.water", "physics.second_order"),
-            *("physics.second_order", "physics.water"),
         ],
         ["physics.kinds"],
         ["physics.spreading"],
@@ -72,12 +69,18 @@ STAIRS = [
         ["physics.panels"],
         ["physics.plausibility"],
     ],
-    [["cells"], ["amplitudes"]],
+    [["cells", "fields"], ["fixed_values"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
-    [["products"], ["statistics", "polar_spectrum"], ["sea_summary"]],
+    [["products"], ["statistics", "polar_spectrum"]],
+    [
+        ["mean_motion", "summed_waves", "interpolated_tiles"],
+        ["kinematics", "query"],
+        ["constraints"],
+    ],
+    [["products"], ["statistics", "polar_spectrum"]],
     [["foam_coverage"], ["foam"]],
     [["realised_spectrum"], ["measured_dispersion"]],
     [["baking"], ["runtime"]],
@@ -93,7 +96,12 @@ STEP = {
 
 # The floors within packages, lowest first; the parts of one floor do not know each other.
 INNER = {
-    "job": [["parameters"], ["wave_systems"], ["job"], ["frame_rate", "reference", "sources"]],
+    "job": [
+        ["parameters"],
+        ["wave_systems", "fixed_tables"],
+        ["job"],
+        ["frame_rate", "job_text", "reference", "sources"],
+    ],
     "baking": [
         ["folder"],
         ["scene"],

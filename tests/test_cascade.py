@@ -53,6 +53,7 @@ def flat(level):
 # Energy
 
 
+@pytest.mark.filterwarnings("ignore:the waves of systems:fftocean.errors.SeaWarning")
 def test_no_energy_twice_and_none_missing():
     """
     With a flat density every share is an area: all tiles together cover the last one's rectangle

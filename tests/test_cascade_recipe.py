@@ -241,7 +241,7 @@ def test_the_recipe_s_normal_is_that_of_a_query(baked):
     folders, cascade = baked
     x, y = places()
     got = run(folders["canonical"], "canonical", 7, x, y)
-    found = fo.Query(cascade, mode="exact").at(
+    found = fo.Query(cascade, mode="exact", level="frame").at(
         x + got["D"].x, y + got["D"].y, LOOP * 7 / FRAMES, fields=("heights", "normals")
     )
     calm = ~found.folded & (np.hypot(found.x0 - x, found.y0 - y) < 1e-3)

@@ -359,7 +359,9 @@ CONSTRUCTORS = {
 KEYS = [(name, key) for name, (_, valid) in CONSTRUCTORS.items() for key in valid]
 BAD = [math.nan, math.inf, -math.inf, -1.0, 0.0, "5", True, None, 1e308, 1e-308]
 REFUSED_EVERYWHERE = (math.nan, -math.inf, "5", True, None)
-UNSTATED = {("Sea", "depth"), ("Sea", "surface_tension")}  # None: taken from the sea's spectra
+# None: taken from the sea's spectra; from the height and the period
+UNSTATED = {("Sea", "depth"), ("Sea", "surface_tension")}
+UNSTATED |= {("JONSWAP.from_sea_state", "gamma"), ("TMA.from_sea_state", "gamma")}
 
 
 def build(name: str, key: str, value: object) -> np.ndarray:

@@ -20,6 +20,10 @@ SEA = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
 SHALLOW = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=6.0, direction=30.0)
 TILES = [(64, 120.0), (64, 31.0), (32, 7.3)]
 FEW = fo.gerstner.CWR(period=5.0, amplitude=0.5, number=4, steepness=0.8, scale=1.6)
+MOVING = (
+    *("heights", "normals", "velocities", "accelerations"),
+    *("surface_velocities", "surface_accelerations"),
+)
 RNG = np.random.default_rng(11)
 
 
@@ -80,7 +84,7 @@ def test_exact_equals_an_independent_inversion(name):
     """
     source, t = SOURCES[name](), 3.7
     x, y = points(12, far=50.0)
-    found = fo.Query(source, mode="exact").at(x, y, t)
+    found = fo.Query(source, mode="exact", level="frame").at(x, y, t, MOVING)
     x0, y0 = slowly(source, x, y, t)
     truth = fo.gerstner.surface(source, x0, y0, t)
     assert np.max(np.hypot(truth.x - x, truth.y - y)) < 1e-12  # so the oracle has found it
@@ -88,15 +92,9 @@ def test_exact_equals_an_independent_inversion(name):
     assert np.max(np.abs(found.heights - truth.height)) < 1e-10
     assert np.max(np.abs(found.normals - truth.normal)) < 1e-10
     c = source.choppiness
-    assert (
-        np.max(
-            np.abs(
-                found.velocities
-                - np.stack([c * truth.velocity_x, c * truth.velocity_y, truth.velocity_z], -1)
-            )
-        )
-        < 1e-10
-    )
+    water = np.stack([truth.velocity_x, truth.velocity_y, truth.velocity_z], -1)
+    assert np.max(np.abs(found.velocities - water)) < 1e-10
+    assert np.max(np.abs(found.surface_velocities - water * (c, c, 1.0))) < 1e-10
     assert np.max(found.residual) < 1e-10
     assert not np.any(found.folded)
 
@@ -108,7 +106,8 @@ def test_few_wave_models():
         (FEW, 4.1),
         (fo.gerstner.CWR(period=5.0, amplitude=0.5, steepness=0.7, tau=3.0), 2.0),
     ):
-        found = fo.Query(model).at(x, y, t)
+        query = fo.Query(model, level="frame")
+        found = query.at(x, y, t, ("heights", "normals", "surface_velocities"))
         x0, y0 = x.copy(), y.copy()
         for _ in range(400):
             s = model.waves.at(x0, y0, t)
@@ -116,8 +115,9 @@ def test_few_wave_models():
         s = model.waves.at(x0, y0, t)
         assert np.max(np.abs(found.heights - s.height)) < 1e-11
         assert np.max(np.abs(found.normals - s.normal)) < 1e-11
-        assert np.max(np.abs(found.velocities - s.velocity)) < 1e-11
-        assert np.array_equal(fo.Query(model.waves).at(x, y, t).heights, found.heights)
+        assert np.max(np.abs(found.surface_velocities - s.velocity)) < 1e-11
+        same = fo.Query(model.waves, level="frame").at(x, y, t, "heights")
+        assert np.array_equal(same.heights, found.heights)
     assert not np.any(
         fo.Query(fo.gerstner.CWR(period=5.0, amplitude=0.5, tau=3.0)).at(x, y, -1.0).heights
     )
@@ -139,7 +139,10 @@ def test_bicubic_is_near_the_truth():
     """
     source = fo.Ocean(SEA, n=256, size=200.0, seed=1)
     x, y = points(300)
-    query, sigma = fo.Query(source, mode="bicubic"), math.sqrt(source.amplitudes.variance)
+    query, sigma = (
+        fo.Query(source, mode="bicubic", level="frame"),
+        math.sqrt(source.amplitudes.variance),
+    )
     found = query.at(x, y, 3.7, "heights")
     exact = fo.gerstner.surface(source, found.x0, found.y0, 3.7)
     error = found.heights - exact.height
@@ -149,7 +152,7 @@ def test_bicubic_is_near_the_truth():
     assert (
         np.sqrt(np.mean(apart**2)) < 0.02 * sigma
     )  # two displacements with the height's own error
-    bilinear = fo.Query(source, mode="bilinear").at(found.x0[:1] * 0 + x[:1], y[:1], 3.7, "heights")
+    bilinear = fo.Query(source, mode="bilinear", level="frame").at(x[:1], y[:1], 3.7, "heights")
     assert abs(bilinear.heights[0] - found.heights[0]) < 0.1 * sigma
 
 
@@ -166,7 +169,7 @@ def test_interpolated_modes_invert_what_they_return(mode):
     rows, columns = RNG.integers(0, grid.ny, 40), RNG.integers(0, grid.nx, 40)
     x = grid.x[columns] + 0.6 * frame.displace_x[rows, columns] + 3 * grid.lx
     y = grid.y[rows] + 0.6 * frame.displace_y[rows, columns] - 2 * grid.ly
-    found = fo.Query(single, mode=mode).at(x, y, 5.0)
+    found = fo.Query(single, mode=mode, level="frame").at(x, y, 5.0)
     assert np.max(np.abs(found.heights - frame.height[rows, columns])) < 1e-7
     assert np.max(np.abs(found.normals - frame.normal[rows, columns])) < 1e-6
     assert np.max(np.abs(found.velocities[:, 2] - frame.velocity_z[rows, columns])) < 1e-6
@@ -220,15 +223,15 @@ def test_bicubic_of_a_cascade_is_near_exact():
 @pytest.mark.parametrize(
     "source", [ocean, cascade, lambda: FEW], ids=["ocean", "cascade", "few"], indirect=True
 )
-def test_velocity_is_the_rate_of_the_position(source):
+def test_surface_velocity_is_the_rate_of_the_position(source):
     """
-    Of the particle found: central differences of its position converge as dt^2, twice dt four times
+    Of the point found: central differences of its position converge as dt^2, twice dt four times
     the error; so do accelerations.
 
     Positions are those of `gerstner.surface` or `Waves.at`, at the parameters found.
     """
     x, y = points(6, far=40.0)
-    found = fo.Query(source, mode="exact").at(x, y, 2.0)
+    found = fo.Query(source, mode="exact", level="frame").at(x, y, 2.0, MOVING)
 
     def position(t):
         if source is FEW:
@@ -240,19 +243,23 @@ def test_velocity_is_the_rate_of_the_position(source):
     first, second = [], []
     for dt in (0.01, 0.02):
         first.append(
-            np.max(np.abs((position(2.0 + dt) - position(2.0 - dt)) / (2 * dt) - found.velocities))
+            np.max(
+                np.abs(
+                    (position(2.0 + dt) - position(2.0 - dt)) / (2 * dt) - found.surface_velocities
+                )
+            )
         )
         second.append(
             np.max(
                 np.abs(
                     (position(2.0 + dt) - 2 * position(2.0) + position(2.0 - dt)) / dt**2
-                    - found.accelerations
+                    - found.surface_accelerations
                 )
             )
         )
     assert first[1] / first[0] == pytest.approx(4.0, rel=0.1)
     assert second[1] / second[0] == pytest.approx(4.0, rel=0.1)
-    assert first[0] < 1e-2 * np.max(np.abs(found.velocities))
+    assert first[0] < 1e-2 * np.max(np.abs(found.surface_velocities))
 
 
 @pytest.mark.parametrize("mode", ["bilinear", "bicubic"])
@@ -274,9 +281,14 @@ def test_interpolated_velocity_is_the_rate_of_the_interpolated_position(mode):
         )
         for f in frames
     ]
-    found = fo.Query(source, mode=mode).at(place[1][0], place[1][1], t)
-    assert np.max(np.abs((place[2] - place[0]) / (2 * dt) - found.velocities)) < 1e-4
-    assert np.max(np.abs((place[2] - 2 * place[1] + place[0]) / dt**2 - found.accelerations)) < 1e-3
+    found = fo.Query(source, mode=mode).at(place[1][0], place[1][1], t, MOVING)
+    velocity = (place[2] - place[0]) / (2 * dt)
+    acceleration = (place[2] - 2 * place[1] + place[0]) / dt**2
+    assert np.max(np.abs(velocity - found.surface_velocities)) < 1e-4
+    assert np.max(np.abs(acceleration - found.surface_accelerations)) < 1e-3
+    water = (0.6, 0.6, 1.0)  # moves as if choppiness were 1
+    assert np.array_equal(found.velocities * water, found.surface_velocities)
+    assert np.array_equal(found.accelerations * water, found.surface_accelerations)
 
 
 def test_normals_are_those_of_the_heights():
@@ -300,6 +312,175 @@ def test_normals_are_those_of_the_heights():
     )
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
     assert np.max(np.abs(normal - query.at(x, y, 1.0).normals)) < 1e-5
+
+
+# The water and its mean motion
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+@pytest.mark.parametrize("choppiness", [0.0, 0.4, 1.0])
+@pytest.mark.parametrize("depth", [math.inf, 2.0])
+def test_the_water_moves_as_in_one_airy_wave(mode, choppiness, depth):
+    """
+    a omega coth kh cos f along, a omega sin f up, at the rest position found, whatever the
+    choppiness; accelerations are their time derivatives at rest position.
+    """
+    a, size, phase, t = 0.2, 10.0, 0.7, 1.3
+    k = 2.0 * math.pi / size
+    tanh = math.tanh(k * depth)
+    omega = math.sqrt(9.80665 * k * tanh)
+    source = fo.Ocean.from_modes(
+        [(1, 0, a, phase)], n=64, size=size, depth=depth, dtype="float64", choppiness=choppiness
+    )
+    x = np.linspace(0.0, size, 9)
+    found = fo.Query(source, mode=mode).at(x, 0.0, t)
+    f = k * found.x0 - omega * t - phase
+    still = np.zeros_like(x)
+    water = a * omega * np.stack([np.cos(f) / tanh, still, np.sin(f)], axis=-1)
+    push = a * omega**2 * np.stack([np.sin(f) / tanh, still, -np.cos(f)], axis=-1)
+    # linear interpolation of 64 samples: (k dx)^2/8 = 1.2e-3; cubic: (k dx)^4/384 = 2.4e-7
+    share = {"bilinear": 2e-3, "bicubic": 1e-6, "exact": 1e-12}[mode]
+    scale = a * omega / tanh
+    assert np.max(np.abs(found.velocities - water)) < share * scale
+    assert np.max(np.abs(found.accelerations - push)) < share * scale * omega
+
+
+def test_water_of_a_sharpened_model_is_that_of_its_waves():
+    """A few-wave model is read as deep water waves: the sharpness of its shape moves no water."""
+    flat, sharp = (
+        fo.gerstner.CWR(period=5.0, amplitude=0.5, number=4, steepness=steepness, scale=1.6)
+        for steepness in (1e-9, 0.8)
+    )
+    x0, y0 = points(9, far=30.0)
+    surface = sharp.waves.at(x0, y0, 2.0)
+    found = fo.Query(sharp).at(surface.x, surface.y, 2.0)
+    assert np.max(np.abs(found.x0 - x0)) < 1e-9
+    there = fo.Query(flat).at(x0, y0, 2.0)
+    assert np.max(np.abs(found.velocities - there.velocities)) < 1e-6
+    below = fo.kinematics.at(sharp, x0, y0, 0.0, 2.0)
+    assert np.max(np.abs(found.velocities - below.velocities)) < 1e-9
+
+
+def world_mean(source, t):
+    """
+    The mean height over the world of the surface of one tile: the mean of h J over rest positions,
+    by the direct sum on a lattice that resolves the products of three waves.
+    """
+    side = np.arange(48) * source.grid.lx / 48
+    x0, y0 = (a.ravel() for a in np.meshgrid(side, side))
+    s, c = fo.gerstner.surface(source, x0, y0, t), source.choppiness
+    area = (1.0 + c * s.stretch_xx) * (1.0 + c * s.stretch_yy) - (c * s.stretch_xy) ** 2
+    assert np.mean(area) == pytest.approx(1.0, abs=1e-12)
+    return float(np.mean(s.height * area))
+
+
+@pytest.mark.parametrize("depth", [math.inf, 1.5])
+def test_set_down_of_one_wave(depth):
+    """-a^2 k c/(2 tanh kh), by quadrature of the direct sum; one wave has no products of three."""
+    a, size = 0.3, 12.0
+    k = 2.0 * math.pi / size
+    source = fo.Ocean.from_modes(
+        [(0, 1, a, 0.9)], n=8, size=size, depth=depth, dtype="float64", choppiness=0.8
+    )
+    query = fo.Query(source, mode="exact")
+    assert query.set_down == pytest.approx(-0.5 * 0.8 * a**2 * k / math.tanh(k * depth), rel=1e-12)
+    assert query.set_down == pytest.approx(world_mean(source, 2.2), rel=1e-12)
+    y = np.arange(400) * size / 400  # equidistant in the world
+    exact = query.at(0.0, y, 2.2, "heights").heights
+    assert abs(np.mean(exact)) < 1e-11  # of a periodic, smooth function: by roundings alone
+    frame = fo.Query(source, mode="exact", level="frame").at(0.0, y, 2.2, "heights").heights
+    assert np.max(np.abs(frame - exact - query.set_down)) < 1e-15
+
+
+def test_heights_of_a_choppy_sea_have_mean_zero():
+    """
+    A gale on a loop: the mean over the world and over one period is `set_down`, to that part of the
+    products of three waves that has not averaged out over 24 moments; over one moment it swings by
+    the beats of waves that run against each other.
+    """
+    sea = fo.Sea.beaufort(9)
+    source = fo.Ocean(sea, n=24, size=400.0, seed=3, loop=60.0, dtype="float64")
+    query = fo.Query(source, mode="exact")
+    assert query.set_down < -0.05
+    means = [world_mean(source, 60.0 * j / 24) for j in range(24)]
+    assert np.mean(means) == pytest.approx(query.set_down, rel=0.02)
+    x, y = (a.ravel() for a in np.meshgrid(*2 * [np.arange(40) * 10.0]))
+    still = np.mean(query.at(x, y, 5.0, "heights").heights)
+    assert still == pytest.approx(world_mean(source, 5.0) - query.set_down, abs=2e-3)
+
+
+def test_set_down_adds_up_over_tiles_and_follows_the_filter():
+    both = cascade()
+    whole = fo.Query(both).set_down
+    assert whole == pytest.approx(sum(fo.Query(tile).set_down for tile in both.oceans), rel=1e-12)
+    assert whole == fo.Query(both, mode="exact").set_down
+    assert 0.0 > fo.Query(both, shortest=5.0).set_down > whole
+
+
+def test_a_model_that_starts_has_its_set_down_grow_with_it():
+    model = fo.gerstner.CWR(period=5.0, amplitude=0.5, number=4, steepness=0.8, scale=1.6, tau=3.0)
+    still, frame = (fo.Query(model, level=level) for level in ("still", "frame"))
+    for t, share in ((-1.0, 0.0), (3.0, (1.0 - math.exp(-1.0)) ** 2), (1e3, 1.0)):
+        risen = still.at(1.0, 2.0, t).heights - frame.at(1.0, 2.0, t).heights
+        assert risen == pytest.approx(-share * still.set_down, abs=1e-12)
+
+
+@pytest.mark.parametrize("choppiness", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("depth", [math.inf, 3.0])
+def test_tracers_of_a_drifting_query_drift_as_stokes_says(depth, choppiness):
+    """
+    Particles on a lattice that follow the velocities of a query, over one loop by Runge-Kutta, as
+    in tests/test_kinematics.py: the mean is the closed form of each wave, to (a k)^2 = 6e-4 times
+    some units; without drift it is what the docstring says that a query has of it.
+    """
+    loop, size, g = 12.0, 20.0, 9.80665
+    waves = [(2, 1, 0.015, 0.3), (-1, 2, 0.02, 1.1), (3, -2, 0.01, 2.0)]
+    source = fo.Ocean.from_modes(
+        waves, n=8, size=size, depth=depth, loop=loop, dtype="float64", choppiness=choppiness
+    )
+    stokes, met = np.zeros(2), np.zeros(2)
+    for mx, my, a, _ in waves:
+        along = np.array([mx, my]) * 2.0 * math.pi / size
+        k = math.hypot(*along)
+        omega = round(loop * math.sqrt(g * k * math.tanh(k * depth)) / (2 * math.pi))
+        omega *= 2.0 * math.pi / loop
+        coth = 1.0 / math.tanh(k * depth)
+        stokes += 0.5 * a**2 * omega * along * (coth**2 + 1.0)
+        met += 0.5 * a**2 * omega * along * coth**2 * (1.0 - choppiness)
+    side = (np.arange(7) + 0.5) * size / 7
+    for drift, expected in ((True, stokes), (False, met)):
+        query = fo.Query(source, mode="exact", drift=drift)
+        x, y = (a.ravel().copy() for a in np.meshgrid(side, side))
+        start, steps = np.array([x.mean(), y.mean()]), 120
+        position, dt = np.stack([x, y]), loop / steps
+
+        def velocity(p, t, query=query):
+            return query.at(p[0], p[1], t, "velocities").velocities.T[:2]
+
+        for i in range(steps):
+            t = i * dt
+            one = velocity(position, t)
+            two = velocity(position + 0.5 * dt * one, t + 0.5 * dt)
+            three = velocity(position + 0.5 * dt * two, t + 0.5 * dt)
+            four = velocity(position + dt * three, t + dt)
+            position = position + dt / 6.0 * (one + 2.0 * two + 2.0 * three + four)
+        found = (position.mean(axis=1) - start) / loop
+        assert np.max(np.abs(found - expected)) < 5e-3 * np.max(np.abs(stokes))
+
+
+def test_drift_is_added_to_the_water_alone():
+    """To the velocities, in every mode, and not to those of the surface, nor to anything else."""
+    source = cascade()
+    for mode in ("bilinear", "exact"):
+        plain, drifting = (
+            fo.Query(source, mode=mode, drift=drift).at(*points(6), 2.0, MOVING)
+            for drift in (False, True)
+        )
+        drift = fo.Query(source, mode=mode, drift=True).drift
+        assert np.max(np.abs(drifting.velocities - plain.velocities - drift)) < 1e-14
+        assert drift[2] == 0.0
+        for name in set(MOVING) - {"velocities"}:
+            assert np.array_equal(drifting[name], plain[name])
 
 
 # Folds
@@ -443,7 +624,8 @@ def test_years_later():
     frame = source.frame(1e8, ("height", "displace_x", "displace_y"))
     x = source.grid.x[7] + 0.9 * frame.displace_x[3, 7]
     y = source.grid.y[3] + 0.9 * frame.displace_y[3, 7]
-    assert abs(fo.Query(source, mode="exact").at(x, y, 1e8).heights - frame.height[3, 7]) < 1e-9
+    query = fo.Query(source, mode="exact", level="frame")
+    assert abs(query.at(x, y, 1e8).heights - frame.height[3, 7]) < 1e-9
     looping = ocean(loop=40.0)
     exact = fo.Query(looping, mode="exact")
     assert (
@@ -475,10 +657,14 @@ def test_what_is_not_finite_is_nan_for_that_point_only(mode, bad):
 def test_without_choppiness_the_water_stays_where_it_is():
     source = ocean(choppiness=0.0)
     x, y = points(20)
-    found = fo.Query(source).at(x, y, 1.0)
+    query = fo.Query(source)
+    assert query.set_down == 0.0
+    found = query.at(x, y, 1.0, MOVING)
     assert np.array_equal(found.x0, x)
     assert not np.any(found.residual)
-    assert not np.any(found.velocities[:, :2])
+    assert not np.any(found.surface_velocities[:, :2])
+    assert not np.any(found.surface_accelerations[:, :2])
+    assert np.all(np.abs(found.velocities[:, :2]) > 0.0)  # the water swings all the same
     assert not np.any(found.folded)
 
 
@@ -537,11 +723,14 @@ def test_many_threads_share_a_query():
 
 
 def test_a_query_is_a_frozen_value():
-    query = fo.Query(ocean(), mode="bilinear", shortest=3.0, threads=2)
+    query = fo.Query(ocean(), mode="bilinear", shortest=3.0, threads=2, level="frame", drift=True)
     with pytest.raises(AttributeError, match="frozen"):
         query.mode = "exact"
     for again in (pickle.loads(pickle.dumps(query)), copy.copy(query)):
         assert (again.mode, again.shortest, again.threads) == ("bilinear", 3.0, 2)
+        assert again.level == "frame"
+        assert np.array_equal(again.drift, query.drift)
+        assert np.any(again.drift)
         assert np.array_equal(again.at(1.0, 2.0, 0.5).normals, query.at(1.0, 2.0, 0.5).normals)
     assert "bilinear" in repr(query)
     assert "heights" in repr(query.at(1.0, 2.0, 0.5))
@@ -575,6 +764,8 @@ def test_a_forked_child_can_ask_too():
         (lambda: fo.Query(ocean(), shortest=-1.0), "shortest"),
         (lambda: fo.Query(ocean(), shortest=math.nan), "shortest"),
         (lambda: fo.Query(ocean(), threads=0), "threads"),
+        (lambda: fo.Query(ocean(), level="sea"), "level must be one of still, frame"),
+        (lambda: fo.Query(ocean(), drift=1), "drift must be True or False"),
         (lambda: fo.Query(ocean(), depth=3.0), "go with Modes only"),
         (lambda: fo.Query(ocean(), choppiness=1.0, mode="exact"), "go with Modes only"),
         (lambda: fo.Query(ocean().modes(), depth=-1.0), "depth"),

@@ -320,7 +320,8 @@ def test_every_sea_has_finite_fields_that_are_right(
     that are the direct sum's.
     """
     wavelength = 9.80665 * tp**2 / (2.0 * math.pi)
-    spectrum = fo.JONSWAP.from_sea_state(hs=min(0.02 * wavelength, 100.0), tp=tp)
+    hs = min(0.02 * wavelength, 0.5 * depth, 100.0)
+    spectrum = fo.JONSWAP.from_sea_state(hs=hs, tp=tp)
     sea = fo.Sea(
         fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction), depth=depth
     )

@@ -22,8 +22,9 @@ const PI = 3.14159265;
 const EARTH = 6371e3;       // radius [m]
 const SUN = vec3f(1.0, 0.97, 0.93) * 10.0;   // irradiance above the air, any unit
 const RAYLEIGH = vec3f(0.046, 0.108, 0.265); // optical depth of the air at 610, 550, 465 nm
-const HAZE = vec3f(0.05, 0.055, 0.06);       // of what is in it
-const WATER = vec3f(0.0012, 0.0058, 0.0098); // radiance from below, of the irradiance [1/sr]
+const HAZE = vec3f(0.03, 0.032, 0.035);      // of what is in it
+const OZONE = vec3f(0.010, 0.028, 0.001);     // which only absorbs
+const WATER = vec3f(0.0016, 0.0085, 0.0135); // radiance from below, of the irradiance [1/sr]
 
 // Air masses on the way to a direction (Kasten & Young 1989).
 fn air_mass(up: f32) -> f32 {
@@ -31,14 +32,14 @@ fn air_mass(up: f32) -> f32 {
   return 1.0 / (max(up, 0.0) + 0.50572 * pow(degrees + 6.07995, -1.6364));
 }
 
-fn sunlight() -> vec3f { return SUN * exp(-(RAYLEIGH + HAZE) * air_mass(view.sun.z)); }
+fn sunlight() -> vec3f { return SUN * exp(-(RAYLEIGH + HAZE + OZONE) * air_mass(view.sun.z)); }
 
 // Clear sky: light scattered once in a flat layer, and a share of what was scattered before.
 fn sky(direction: vec3f) -> vec3f {
   let cosine = dot(direction, view.sun.xyz);
   let to_eye = air_mass(max(direction.z, 0.0));
   let to_sun = air_mass(view.sun.z);
-  let depth = RAYLEIGH + HAZE;
+  let depth = RAYLEIGH + HAZE + OZONE;
   let g = 0.76;
   let rayleigh = 3.0 / (16.0 * PI) * (1.0 + cosine * cosine);
   let haze = (1.0 - g * g) / (4.0 * PI * pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
@@ -126,7 +127,7 @@ fn web(at: vec2f) -> f32 {
 
 // Share of a pixel that foam covers: coverage, broken up.
 fn foam_at(rest: vec2f, pixel: f32) -> f32 {
-  let window = textureSampleBias(foam_map, repeating, view.foam.xy + rest * view.foam.z, 0.7).x;
+  let window = textureSampleBias(foam_map, repeating, view.foam.xy + rest * view.foam.z, 1.2).x;
   let edge = 2.0 * max(abs(rest.x), abs(rest.y)) * view.foam.z;
   let mean = textureLoad(foam_map, vec2u(0u), textureNumLevels(foam_map) - 1u).x;
   let cover = mix(window, mean, smoothstep(0.75, 0.98, edge));
@@ -134,7 +135,7 @@ fn foam_at(rest: vec2f, pixel: f32) -> f32 {
   let bend = vec2f(smooth_noise(at), smooth_noise(at + 37.0));
   let fine = 0.55 * web(at + bend) + 0.45 * web(3.0 * at + 2.0 * bend);
   let noise = 0.7 * fine + 0.3 * smooth_noise(0.5 * at);
-  let broken = smoothstep(0.0, 0.35, noise - 0.9 + 0.95 * pow(cover, 0.7));
+  let broken = smoothstep(0.0, 0.55, 1.3 * noise - 1.3 + 1.25 * pow(cover, 0.6));
   return mix(broken, cover, smoothstep(0.1, 0.6, pixel));
 }
 
@@ -183,7 +184,8 @@ fn along(variance: vec3f, d: vec2f) -> f32 { return dot(variance, vec3f(d * d, 2
   let square = (rough.y * off.x * off.x - 2.0 * rough.z * off.x * off.y + rough.x * off.y * off.y) / determinant;
   let facets = exp(-0.5 * square) / (2.0 * PI * sqrt(determinant));
   let mirror = 0.02 + 0.98 * pow(1.0 - max(dot(halfway, to_eye), 0.0), 5.0);
-  let glitter = sun * mirror * facets / (4.0 * pow(max(halfway.z, 0.1), 4.0) * max(to_eye.z + deviation, 0.05)) * smoothstep(0.0, 0.1, view.sun.z);
+  // 0.4 is taste: all of it burns out the path below the sun, as it does in photographs.
+  let glitter = 0.4 * sun * mirror * facets / (4.0 * pow(max(halfway.z, 0.1), 4.0) * max(to_eye.z + deviation, 0.05)) * smoothstep(0.0, 0.1, view.sun.z);
 
   // Light from below; more and greener where the sun shines through a crest.
   let falling = sun * max(view.sun.z, 0.0) + sky_light();
@@ -199,5 +201,5 @@ fn along(variance: vec3f, d: vec2f) -> f32 { return dot(variance, vec3f(d * d, 2
 
   // Air between: what it takes away it replaces by the sky above the horizon.
   let air = sky(normalize(vec3f(-to_eye.xy, 0.02)));
-  return shown(mix(radiance, air, 1.0 - exp(-distance / 16000.0)), p.position.xy);
+  return shown(mix(radiance, air, 1.0 - exp(-distance / 9000.0)), p.position.xy);
 }

@@ -24,7 +24,7 @@ function report({ document, tiles }, { worst, field, tile }) {
 function cameraOf({ document }) {
   const number = (name, otherwise) => (options.has(name) ? Number(options.get(name)) : otherwise);
   const lowest = document.bounds.height + 0.5; // no crest reaches the eye
-  const [elevation, azimuth] = (options.get('sun') ?? '20').split(',').map((x) => (Number(x) * Math.PI) / 180);
+  const [elevation, azimuth] = (options.get('sun') ?? '24').split(',').map((x) => (Number(x) * Math.PI) / 180);
   const yaw = (number('yaw', document.statistics.realised.direction + 180 - 28) * Math.PI) / 180;
   const camera = {
     yaw,
@@ -32,8 +32,8 @@ function cameraOf({ document }) {
     height: Math.max(number('height', 1.6 * document.statistics.realised.hs + 2), lowest),
     fov: 0.85,
     eye: [0, 0],
-    sun: [elevation, azimuth ?? yaw - 0.2],
-    exposure: number('exposure', 0.55),
+    sun: [elevation, azimuth ?? yaw - 0.6],
+    exposure: number('exposure', 0.7),
   };
   canvas.addEventListener('pointerdown', (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener('pointermove', (event) => {
@@ -82,7 +82,7 @@ function play(sea, water, camera) {
 
 /** Show one moment, with the foam of some seconds before it. */
 async function showStill(sea, water, camera, tick) {
-  const { loop, ticks } = sea.document, step = 0.1, steps = 60;
+  const { loop, ticks } = sea.document, step = 0.2, steps = 20;
   for (let i = -steps; i <= 0; i++) {
     const earlier = Math.round((i * step * ticks) / loop);
     sea.set({ tick: (((tick + earlier) % ticks) + ticks) % ticks, eye: camera.eye, seconds: step });

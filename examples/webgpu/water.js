@@ -2,8 +2,8 @@
 
 const EARTH = 6371e3; // [m]
 
-/** The part of draw.wgsl that depends on the number of tiles. */
-function tileCode(count) {
+/** Return the part of draw.wgsl that depends on the number of tiles. */
+export function tileCode(count) {
   const each = (line) => Array.from({ length: count }, (_, i) => line.replaceAll('TILE', i)).join('\n');
   const binding = (map, offset) => Array.from({ length: count }, (_, i) =>
     `@group(1) @binding(${3 + 3 * i + offset}) var ${map}_${i}: texture_2d<f32>;`).join('\n');

@@ -72,6 +72,7 @@ class TileSet:
         assert sea is not None  # a job has a sea
         self.sea: Sea = sea
         self.cascade: Cascade = from_oceans(sea, job.settings["ocean.seed"], oceans)
+        self.rarity = tile_jobs[0].rarity
         self.statistics: Statistics = measure(self.cascade)
 
     def listed(
@@ -107,6 +108,7 @@ class TileSet:
                     "frames": len(self.chosen),
                 },
                 "statistics": self.statistics.as_plain(),
+                **({} if self.rarity is None else {"constrained": self.rarity.as_plain()}),
                 "plausibility": plausibility(self.sea).as_plain(),
                 "conventions": rules.conventions(profile),
                 "how_to_add": f"{rules.cascade_text(profile)} {HOW_TO_ADD}",
@@ -187,7 +189,11 @@ class TileSet:
         yield "peak period Tp", f"{s.specified.tp:.2f} s specified, {s.tp:.2f} s realised"
         yield "energy outside the bands", outside(s.as_plain())
         yield "wave height and steepness", str(plausibility(self.sea))
+        if (second := self.cascade.oceans[0].bound_waves) is not None:
+            yield "second order", f"of the largest tile alone, {second.report}"
         yield "folds", str(s.folding)
+        if self.rarity is not None:
+            yield "fixed values", str(self.rarity)
         yield (
             "maps",
             f"{', '.join(self.job.maps)} of each tile; "

@@ -11,7 +11,7 @@ from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
 from fftocean.baking.scene.video_memory import texels, video_memory
-from fftocean.export import formats
+from fftocean.export import formats, recipes
 from fftocean.export.profiles import range_of_normals
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
@@ -61,6 +61,8 @@ def estimate(
         + (scene.job.frames if "foam" in scene.job.maps else 0.0)
     )
     containers = len(scene.job.maps) * (len(chosen) if scene.form.scope == "frame" else 2)
+    if scene.form.scope == "frame" and recipes.files_beside_frames(scene.profile, ["0.exr"]):
+        containers *= 2
     return Estimate(
         frames=len(chosen),
         files=containers
@@ -71,12 +73,18 @@ def estimate(
         + 700_000 * len(scene.job.pictures)
         + 1200 * len(chosen),
         seconds=3.0 + each * rounds / count + (1.5 if name != "serial" else 0.0),
-        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype),
+        memory=memory_needed(scene.ocean.grid, scene.ocean.dtype) + tables_of(scene),
         container=_container(scene, len(chosen)),
         video=video_memory(scene, len(chosen)),
         executor=name,
         workers=count,
     )
+
+
+def tables_of(scene: Scene) -> float:
+    """Return the memory of the tables of second-order waves [bytes]."""
+    bound = scene.ocean.bound_waves
+    return 0.0 if bound is None else float(bound.nbytes)
 
 
 def _container(scene: Scene, frames: int) -> float:

@@ -80,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
     from fftocean import export
     from fftocean.errors import JobError
     from fftocean.files import make_folder
-    from fftocean.view.job_text import job_text
+    from fftocean.job.job_text import job_text
 
     used = {
         "swd": {"steps", "dt"},

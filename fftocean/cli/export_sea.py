@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _job_text(job: "Job", tiles: list[tuple[int, float]] | None) -> str:
     """Return the job as TOML; tiles, which a job does not have, in a comment."""
-    from fftocean.view.job_text import job_text
+    from fftocean.job.job_text import job_text
 
     given = ",".join(f"{n}:{size:g}" for n, size in tiles or ())
     flags = f" --tiles {given}" if tiles else ""

@@ -73,14 +73,15 @@ def _keys(job: "Job") -> "Table":
     """Return the table of a job's keys."""
     from rich.text import Text
 
+    from fftocean.job.fixed_tables import CREST, FIX
     from fftocean.job.parameters import PARAMETERS
 
     units = {p.key: p.unit for p in PARAMETERS}
     table = key_value_table(f"Job: {plain(job.source)}")
     for key, value in job.describe().items():
-        if key == "sea.systems":
-            for i, system in enumerate(value):
-                table.add_row(f"sea.systems[{i}]", Text(shortened(system)))
+        if key in ("sea.systems", CREST, FIX):
+            for i, row in enumerate(value):
+                table.add_row(f"{key}[{i}]", Text(shortened(row)))
         else:
             table.add_row(key, f"{value_in_words(value)} {units[key]}".rstrip())
     return table
@@ -109,9 +110,17 @@ def _sea(statistics: "Statistics") -> "Table":
             f"{realised.mean_direction:.1f} deg",
         ),
         ("directional spread", f"{specified.spread:.1f} deg", f"{realised.spread:.1f} deg"),
+        *_skewness(statistics),
     ):
         table.add_row(name, one, other, *scatter)
     return table
+
+
+def _skewness(statistics: "Statistics") -> Iterator[tuple[str, str, str]]:
+    """Yield the row of a sea of order 2: specified, and of the waves of this seed."""
+    if (found := statistics.skewness) is not None:
+        expected = f"{found.expected:.3f}, {100 * found.share:.0f} % resolved"
+        yield "skewness of the elevation", f"{found.specified or 0.0:.3f}", expected
 
 
 def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]:
@@ -136,7 +145,12 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
             "loop frequency error",
             f"{100 * error.rms:.1f} % rms, {100 * error.bias:+.1f} % bias{better}",
         )
+    if ocean.bound_waves is not None:
+        yield "second order", str(ocean.bound_waves.report)
     yield "folds", str(statistics.folding)
+    if ocean.rarity is not None:
+        yield "fixed values", str(ocean.rarity)
+        yield "", "they come back on every tile, and with every loop"
     assert ocean.sea is not None  # a job has a sea
     yield "wave height and steepness", str(plausibility(ocean.sea))
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):

@@ -4,7 +4,7 @@ Settings of an engine for an atlas of frames: Godot's `.import`, and pages for U
 Every figure, unit and rule of a page comes from the sidecar.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,6 +37,19 @@ def files_beside(profile: Profile, file: str, facts: Mapping[str, Any]) -> dict[
 def godot_import(across: int, down: int) -> bytes:
     """Return Godot's settings for cutting an atlas into a texture array."""
     return _GODOT.format(across=across, down=down).encode()
+
+
+def files_beside_frames(profile: Profile, frames: Iterable[str]) -> dict[str, bytes]:
+    """
+    Return the files beside the images of single frames in an engine's project, by path.
+
+    Args:
+        profile: conventions of the images.
+        frames: their paths.
+    """
+    if profile.name != "godot":
+        return {}
+    return {path + FRAME_SUFFIX: GODOT_FRAME for path in frames if path.endswith(".exr")}
 
 
 def _facts(facts: Mapping[str, Any]) -> str:
@@ -88,6 +101,35 @@ mipmaps/generate=false
 mipmaps/limit=-1
 slices/horizontal={across}
 slices/vertical={down}
+"""
+
+FRAME_SUFFIX = ".import"
+GODOT_FRAME = b"""[remap]
+
+importer="texture"
+type="CompressedTexture2D"
+
+[params]
+
+compress/mode=3
+compress/high_quality=false
+compress/lossy_quality=1.0
+compress/hdr_compression=0
+compress/normal_map=2
+compress/channel_pack=0
+mipmaps/generate=false
+mipmaps/limit=-1
+roughness/mode=0
+process/fix_alpha_border=false
+process/premult_alpha=false
+process/normal_map_invert_y=false
+process/hdr_as_srgb=false
+process/hdr_clamp_exposure=false
+process/size_limit=0
+detect_3d/compress_to=0
+"""
+"""
+Godot's settings for the image of one frame: data, uncompressed, also where a 3D material uses it.
 """
 
 _UNITY = """Unity: {file} as a Texture2DArray (not run in Unity: \

@@ -11,8 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fftocean.arrays import shortened
+from fftocean.constraints import constrained
 from fftocean.errors import JobError, ParameterError, ReaderError, described
 from fftocean.files import digest_of, path_of
+from fftocean.fixed_values import Crest, Fix
+from fftocean.job import fixed_tables
 from fftocean.job.parameters import BY_KEY, FOAM, PARAMETERS, WIND, Parameter
 from fftocean.job.wave_systems import measurement, systems_of, unknown_key, winds_of
 from fftocean.ocean import Ocean
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
     from fftocean.foam import Foam
     from fftocean.readers import Realised
 
-_KNOWN = (*BY_KEY, "sea.systems")
+_KNOWN = (*BY_KEY, "sea.systems", fixed_tables.CREST, fixed_tables.FIX)
 MAX_BYTES = 64 * 1024
 MAX_LINE = 2048  # the standard parser takes time quadratic in the length of a dotted key
 FIXED_THRESHOLD = 0.72  # of foam on a sea that names no wind; that of `Foam`
@@ -38,7 +41,7 @@ class Job:
     Settings of a bake: sea, tile, maps and files.
 
     `settings` holds every key of `parameters.PARAMETERS` with its value; `systems` the wave systems
-    besides the wind sea.
+    besides the wind sea; `crests` and `fixes` what the water is made to have at places and times.
 
     Make one with `Job.default()`, `Job.read(path)` or `Job.from_toml(text)`; change one with
     `job.replaced({"ocean.n": 512})`.
@@ -48,6 +51,8 @@ class Job:
     wind: bool  # True if there is a wind sea
     systems: tuple[Mapping[str, Any], ...]  # as in the file
     source: str = "job"
+    crests: tuple[Crest, ...] = ()  # [[ocean.crest]]
+    fixes: tuple[Fix, ...] = ()  # [[ocean.fix]]
 
     def __repr__(self) -> str:
         s, waves = (
@@ -139,8 +144,14 @@ class Job:
         """
         given: dict[str, Any] = {}
         systems: tuple[Mapping[str, Any], ...] = ()
+        crests: tuple[Crest, ...] = ()
+        fixes: tuple[Fix, ...] = ()
         for key, value in _flatten(tree):
-            if key == "sea.systems":
+            if key == fixed_tables.CREST:
+                crests = fixed_tables.crests_of(value, source)
+            elif key == fixed_tables.FIX:
+                fixes = fixed_tables.fixes_of(value, source)
+            elif key == "sea.systems":
                 if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
                     raise JobError(
                         f"{source}: sea.systems must be tables, written [[sea.systems]], "
@@ -157,7 +168,8 @@ class Job:
             else:
                 raise JobError(f"{source}: {unknown_key(key, _KNOWN)}")
         wind = not systems or _brings_wind(given, source)
-        job = cls({p.key: given.get(p.key, p.default) for p in PARAMETERS}, wind, systems, source)
+        settings = {p.key: given.get(p.key, p.default) for p in PARAMETERS}
+        job = cls(settings, wind, systems, source, crests, fixes)
         if at_sea:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # given once, when it is used
@@ -236,17 +248,16 @@ class Job:
                 f"{described(changes)}"
             )
         for key in changes:
-            if key == "sea.systems":
-                raise JobError("sea.systems must be given in a job file, as [[sea.systems]]")
+            if key in ("sea.systems", fixed_tables.CREST, fixed_tables.FIX):
+                raise JobError(f"{key} must be given in a job file, as [[{key}]]")
             if key not in BY_KEY:
                 raise JobError(unknown_key(key, BY_KEY))
         settings = {
             **self.settings,
             **{key: BY_KEY[key].check(value) for key, value in changes.items()},
         }
-        return Job(
-            settings, self.wind or _brings_wind(changes, self.source), self.systems, self.source
-        )
+        wind = self.wind or _brings_wind(changes, self.source)
+        return replace(self, settings=settings, wind=wind)
 
     def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
         """
@@ -292,7 +303,7 @@ class Job:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
 
     def ocean(self, *, dtype: str = "float32") -> Ocean:
-        """Return the ocean of the tile."""
+        """Return the ocean of the tile, with the crests and values that the job fixes."""
         s = self.settings
         low, high = s["ocean.band_low"], s["ocean.band_high"]
         if not low < high:
@@ -301,7 +312,7 @@ class Job:
                 f"{low:g} and {high:g} rad/m"
             )
         try:
-            return Ocean(
+            ocean = Ocean(
                 self.sea(),
                 n=s["ocean.n"],
                 size=s["ocean.size"],
@@ -314,10 +325,16 @@ class Job:
                 order=s["ocean.order"],
                 bound=s["ocean.bound"],
             )
+            return constrained(ocean, *self.fixed) if self.fixed else ocean
         except (JobError, ReaderError):
             raise
         except ParameterError as error:
             raise JobError(f"{self.source}: ocean: {error}") from None
+
+    @property
+    def fixed(self) -> tuple[Crest | Fix, ...]:
+        """Crests and single values that the water is made to have."""
+        return (*self.crests, *self.fixes)
 
     @property
     def frames(self) -> int:
@@ -427,7 +444,7 @@ class Job:
         dropped.
 
         Its samples lie on every `factor`-th of this job's. Height and displacement there are this
-        job's, low-passed; nothing is aliased.
+        job's, low-passed; nothing is aliased. Fixed values are those of the waves that are left.
 
         Raises:
             JobError: `factor` does not divide the samples.
@@ -510,7 +527,16 @@ class Job:
         """
         shown = {p.key: self.settings[p.key] for p in PARAMETERS if self.wind or p not in WIND}
         tree: dict[str, Any] = json.loads(
-            json.dumps(_worded({**shown, "sea.systems": list(self.systems)}), default=str)
+            json.dumps(
+                _worded(
+                    {
+                        **shown,
+                        "sea.systems": list(self.systems),
+                        **fixed_tables.described(self.crests, self.fixes),
+                    }
+                ),
+                default=str,
+            )
         )
         return tree
 

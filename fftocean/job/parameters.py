@@ -23,6 +23,7 @@ MAPS = (
     "jacobian",
     "foam",
     "velocity",
+    "surface_velocity",
     "slope_covariance",
 )
 FORMATS = ("exr", "exr-float", "exr-atlas", "png16", "r16", "npz", "bin", "ktx2", "zarr")

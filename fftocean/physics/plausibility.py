@@ -25,6 +25,7 @@ from fftocean.physics.sea import Sea, WaveSystem
 from fftocean.physics.spectra.growth import BREAKING
 
 _SLACK = 1.002  # of the quadrature below, and of a sea exactly at a limit
+_ROUNDED = 1.02  # of the limits of steepness, which are given as whole fractions
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +77,7 @@ def plausibility(sea: Sea) -> Plausibility:
             f"{sea.depth:g} m: above {BREAKING:g} most of such waves have broken"
         )
     for i, (value, limit) in enumerate(zip(steepness, limits, strict=True)):
-        if value > _SLACK * limit:
+        if value > _ROUNDED * limit:
             kind = type(sea.systems[i].spectrum).__name__
             notes.append(
                 f"the waves of systems[{i}] ({kind}) are steeper than those of real seas: "

@@ -1,6 +1,7 @@
 """All plots of an ocean on one sheet."""
 
 import math
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from fftocean.ocean import Ocean
@@ -30,10 +31,11 @@ def _draw_job(figure: "FigureBase", ocean: Ocean) -> None:
     grid = ocean.grid
     depth = f"{ocean.depth:g} m deep" if math.isfinite(ocean.depth) else "deep water"
     loop = f"repeats every {ocean.loop:g} s" if ocean.loop is not None else "never repeats in time"
-    figure.suptitle(
-        f"A tile of {grid.lx:g} × {grid.ly:g} m, {grid.nx} × {grid.ny} samples, {depth}; {loop}",
-        fontsize=14,
-    )
+    title = f"A tile of {grid.lx:g} × {grid.ly:g} m, {grid.nx} × {grid.ny} samples, {depth}; {loop}"
+    if ocean.rarity is not None:
+        what, _, how_rare = str(ocean.rarity).partition(": ")
+        title += "\n".join(["", *wrap(f"with {what}", width=130), *wrap(how_rare, width=130)])
+    figure.suptitle(title, fontsize=14)
     upper, lower = panels(figure, 2, 1, height_ratios=(1.0, 1.15), hspace=0.03)
     spectrum, directions = panels(upper, 1, 2, wspace=0.03)
     realised, relation = panels(lower, 1, 2, wspace=0.03)

@@ -117,7 +117,7 @@ class Realised:
                 raise ParameterError(
                     "a spectrum without directions needs direction (toward, "
                     "counter-clockwise from +x, degrees) and spreading "
-                    f"(DonelanBanner(), CosinePower(s=...), ...), got direction={direction!r}, "
+                    f"(CosineSquared(), CosinePower(s=...), ...), got direction={direction!r}, "
                     f"spreading={spreading!r}"
                 )
             total = np.asarray(spectrum["ef"].values[0])

@@ -74,6 +74,7 @@ def compose(
             "specified": describe.specified_state(source.sea, exact=quality == "exact"),
             "realised": describe.realised_state(waves, loop),
         },
+        **({} if first.rarity is None else {"constrained": first.rarity.as_plain()}),
         "slope_variance": describe.roughness(source, wind),
         "foam": describe.foam_for(source, wind)
         if foam is None

@@ -1,19 +1,13 @@
 """Kernels of an engine, and the tiles that it can transform."""
 
-import importlib
-from typing import Any
-
 from fftocean.engine_projects import KERNEL_SIDE, Engine
 from fftocean.errors import ParameterError
 from fftocean.grid import Grid
+from fftocean.runtime import shaders
 
 
 def kernels_of(engine: Engine) -> dict[str, bytes]:
     """Return the kernels of an engine's languages by file name."""
-    try:
-        shaders: Any = importlib.import_module(f"{__package__}.shaders")
-    except ModuleNotFoundError:
-        return {}
     found = {}
     for language in engine.languages:
         for name, data in shaders.files(language).items():

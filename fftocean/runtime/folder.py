@@ -6,6 +6,7 @@ that are there already, with the same bytes. Another one is refused, unless it m
 then, files that no package lists are left alone, and files of a project that were edited.
 """
 
+import contextlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -242,8 +243,12 @@ def _make_way(
             remove(folder / name)
     mark = {"document": document[CHECK], "files": list(files), "project": document.get("project")}
     write_whole(folder / MARK, as_json(sealed(mark)))
-    for name in sorted(replaced - set(added)):
+    gone = replaced - set(added)
+    for name in sorted(gone):
         remove(folder / name)
+    for inner in sorted(project.folders_of(gone), reverse=True):
+        with contextlib.suppress(OSError):  # something else is in it
+            (folder / inner).rmdir()
     if other:
         # last: until then it lists what is to be removed
         remove(folder / DOCUMENT)

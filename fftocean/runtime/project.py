@@ -5,7 +5,7 @@ The document lists them under `project`, apart from the package's own files: a c
 damage, and an export never replaces one that was edited.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -64,7 +64,7 @@ def listed_in(document: Mapping[str, Any]) -> dict[str, str]:
     }
 
 
-def folders_of(names: Mapping[str, Any]) -> set[str]:
+def folders_of(names: Iterable[str]) -> set[str]:
     """Return the folders that files are in, by relative path with slashes."""
     return {
         parent.as_posix()

@@ -3,6 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
+from fftocean.engine_projects import ENGINES
+from fftocean.runtime.layout import TWIDDLE
+
 
 def readme_of(document: Mapping[str, Any]) -> bytes:
     """Return the text of README.md for a document."""
@@ -11,6 +14,16 @@ def readme_of(document: Mapping[str, Any]) -> bytes:
         f"{tile['size'][0]:g} x {tile['size'][1]:g} m, {tile['waves']} waves"
         for i, tile in enumerate(document["tiles"])
     ]
+    names = [file["name"] for file in document["files"]]
+    if textures := [name for name in names if "_h0." in name or "_wave." in name]:
+        rows.append(f"- `{textures[0]}` ...: the same waves as textures of float32")
+    if TWIDDLE in names:
+        rows.append(f"- `{TWIDDLE}`: cosine and sine of 2 pi i/n, float32")
+    if kernels := [name for name in names if name.startswith("fftocean")]:
+        rows.append(f"- `{kernels[0]}` ...: kernels for a graphics processor")
+    if "project" in document:
+        engine = ENGINES[document["project"]["engine"]]
+        rows.append(f"- `{engine.readme}` and the other files: a project for {engine.caption}")
     tiles = "\n".join(rows)
     return f"""# A sea that loops after {document["loop"]:g} s
 

@@ -112,6 +112,7 @@ class MovingSeas:
             self._given is not None
             and state.has_random_numbers_of(self._given.state)
             and not state.has_waves_of(self._given.state)
+            and not (state.base.crests or state.base.fixes)  # each sea is constrained anew
         )
 
     def make(self, state: State, number: int) -> MadeSea:
@@ -170,13 +171,16 @@ def _foam_of(state: State, cascade: Cascade) -> Foam:
     """
     Return the foam of a sea: that of a job that bakes foam, else as much as its wind's whitecaps.
 
-    All waves count: the page's windows of foam take the tiles' samples as they are, unfiltered.
+    In still air nothing foams. Wave systems of a job, and measured spectra, may have had a wind
+    that is not known: without one they have the threshold of `Foam`. All waves count: the page's
+    windows of foam take the tiles' samples as they are, unfiltered.
     """
     own, wind = state.base.foam, _wind_of(state)
     fixed = "foam" in state.base.maps and not state.base.foam_follows_wind
-    if fixed or wind is None:
+    if fixed or (wind is None and state.base.systems):
         return Foam(**own)
-    return Foam.whitecaps(cascade, wind[0], tau=own["tau"], strength=own["strength"])
+    speed = 0.0 if wind is None else wind[0]
+    return Foam.whitecaps(cascade, speed, tau=own["tau"], strength=own["strength"])
 
 
 def _wind_of(state: State) -> tuple[float, float] | None:

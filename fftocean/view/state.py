@@ -18,13 +18,14 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from fftocean.cascade import Cascade, Tile, tile_jobs
+from fftocean.constraints import constrained
 from fftocean.errors import JobError, ParameterError, ReaderError, SeaWarning
 from fftocean.job.job import Job
+from fftocean.job.job_text import job_text, toml_value
 from fftocean.job.parameters import PARAMETERS as JOB_PARAMETERS
 from fftocean.job.parameters import WIND
 from fftocean.physics import dispersion
 from fftocean.physics.sea import Sea
-from fftocean.view.job_text import job_text, toml_value
 from fftocean.view.parameters import BY_NAME, SENT
 from fftocean.view.swell import Swell, swell_of, table_of
 
@@ -140,7 +141,7 @@ class State:
         else:
             sizes = _own_tile(job, n)
             values["tiles"] = 1
-        base = Job(settings, job.wind, systems, job.source)
+        base = Job(settings, job.wind, systems, job.source, job.crests, job.fixes)
         return cls(
             MappingProxyType({p.name: values[p.name] for p in SENT}),
             base,
@@ -234,7 +235,7 @@ class State:
         settings |= {"ocean.n": n, "ocean.size": size}
         for parameter in JOB_PARAMETERS:
             parameter.check(settings[parameter.key])
-        return Job(settings, wind, systems, base.source)
+        return Job(settings, wind, systems, base.source, base.crests, base.fixes)
 
     def sea(self) -> Sea:
         """
@@ -254,7 +255,7 @@ class State:
         """
         job, settings = self.job(), self.base.settings
         low, high = settings["ocean.band_low"], settings["ocean.band_high"]
-        return Cascade(
+        cascade = Cascade(
             job.sea(self.measured),
             self.tiles,
             bands=[(low, high)] if len(self.tiles) == 1 else None,
@@ -264,6 +265,7 @@ class State:
             amplitudes=settings["ocean.amplitudes"],
             dtype=dtype,
         )
+        return constrained(cascade, *job.fixed) if job.fixed else cascade
 
     def toml(self) -> str:
         """Return the job file of the sea."""
@@ -283,7 +285,7 @@ class State:
         Return the command line that bakes the sea: flags alone, or a job file and the command.
         """
         job = self.job()
-        if job.systems:
+        if job.systems or job.crests or job.fixes:
             text = self.toml()
             return (
                 f"cat > sea.toml <<'END_OF_JOB'\n{text}END_OF_JOB\n"

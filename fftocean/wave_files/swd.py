@@ -22,6 +22,7 @@ import numpy as np
 
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Complex, Integer
+from fftocean.bound_waves import ELEVATION, POTENTIAL
 from fftocean.cascade import Cascade
 from fftocean.constants import GRAVITY
 from fftocean.errors import ParameterError, described
@@ -57,7 +58,8 @@ def swd(
     readers compute omega from the dispersion relation of gravity waves. With `steps` it holds the
     amplitudes of one tile at equal steps of time (shape 4 in deep water, else 5), between which
     readers interpolate: for a loop, and for surface tension, whose omega is another. All numbers
-    are float32.
+    are float32. An ocean of order 2 has its waves of second order in the steps, elevation and
+    potential, as far as the grid of the tile holds them.
 
     Args:
         source: an `Ocean`; a `Cascade` or `Modes` (deep water), as a list of waves alone.
@@ -82,7 +84,8 @@ def swd(
     """
     file = path_of("path", path)
     texts = [_text(name, value) for name, value in (("date", date), ("comment", comment))]
-    require_linear(source, "an SWD file")
+    if steps is None:
+        require_linear(source, "a list of waves in an SWD file")
     waves = list_waves(source)
     if waves.model is not None and waves.model.tau > 0.0:
         raise ParameterError(
@@ -172,7 +175,8 @@ def _list_parts(waves: WaveList, date: str, comment: str) -> Iterator[bytes]:
 def _step_parts(ocean: Ocean, steps: int, dt: float, date: str, comment: str) -> Iterator[bytes]:
     """Yield the head and, at each step, h, dh/dt, c and dc/dt on the half plane of kx >= 0."""
     grid, depth, waves = ocean.grid, ocean.depth, list_waves(ocean)
-    yield _header(DEEP if math.isinf(depth) else FINITE, date, comment, steps, dt, 1)
+    shape = DEEP if math.isinf(depth) else FINITE
+    yield _header(shape, date, comment, steps, dt, ocean.order)
     half = grid.nx // 2, grid.ny // 2
     yield struct.pack("<iiff", *half, grid.dkx, grid.dky)
     if math.isfinite(depth):
@@ -183,8 +187,26 @@ def _step_parts(ocean: Ocean, steps: int, dt: float, date: str, comment: str) ->
     for step in range(steps):
         h: Complex = waves.amplitude * np.exp(1j * waves.phases(step * dt))
         rate: Complex = 1j * waves.omega * h
-        for values in (h, rate, to_potential * rate, 1j * waves.omega * to_potential * rate):
-            yield _half_plane(values, mx, my, half).tobytes()
+        linear = (h, rate, to_potential * rate, 1j * waves.omega * to_potential * rate)
+        for values, more in zip(linear, _second_order(ocean, step * dt, half), strict=True):
+            yield (_half_plane(values, mx, my, half) + more).tobytes()
+
+
+def _second_order(
+    ocean: Ocean, t: float, half: tuple[int, int]
+) -> tuple[Complex, Complex, Complex, Complex]:
+    """Return h, dh/dt, c and dc/dt of the waves of second order; 0 where there are none."""
+    none = np.zeros((half[0] + 1, 2 * half[1] + 1), np.complex64)
+    if ocean.bound_waves is None:
+        return none, none, none, none
+    grid, found = ocean.grid, []
+    for kind in (ELEVATION, POTENTIAL):
+        kx, ky, values = ocean.bound_waves.cells(kind, t, (0, 1))
+        mx = np.rint(kx / grid.dkx).astype(np.int64)
+        my = np.rint(ky / grid.dky).astype(np.int64)
+        found += [_half_plane(np.conj(value), mx, my, half) for value in values]
+    h, h_rate, c, c_rate = found
+    return h, h_rate, c, c_rate
 
 
 def _half_plane(values: Complex, mx: Integer, my: Integer, half: tuple[int, int]) -> Complex:

@@ -100,6 +100,7 @@ def test_a_bake_for_any_engine_is_well(engine, tmp_path):
         "normal",
         "derivative",
         "velocity",
+        "surface_velocity",
         "slope_covariance",
         "foam",
         "jacobian",

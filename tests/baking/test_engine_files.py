@@ -120,7 +120,7 @@ def test_check_and_repair_know_them(tmp_path):
 
 
 def test_a_manifest_that_lists_others_is_found(tmp_path):
-    """Whoever writes a path into the manifest does not make check read outside the folder."""
+    """A path in the manifest does not make check read outside the folder."""
     from fftocean.baking.folder.sealed import sealed
     from fftocean.files import as_json
 
@@ -168,7 +168,7 @@ def test_a_file_of_the_user_is_never_replaced(overwrite, tmp_path):
 
 
 def test_a_bake_without_its_manifest_has_no_finished_files(tmp_path, monkeypatch):
-    """They are written before the manifest: a bake that is stopped there resumes."""
+    """A bake that is stopped before they are written has no manifest, and resumes."""
     from fftocean.baking import bake as module
 
     def stopped(*_):
@@ -217,3 +217,31 @@ def test_the_players_are_of_known_engines():
     odd = {"nowhere": engine_files.PLAYERS["three"]}
     with pytest.raises(ImportError, match="nowhere"):
         engine_files.players_of(odd)
+
+
+def test_godot_imports_every_frame_as_data(tmp_path):
+    """
+    An `.import` beside each EXR, which Godot may add lines to; a changed one is found and restored.
+    """
+    asked = job("godot", "exr")
+    before = bake(asked, tmp_path)
+    beside = sorted(path.name for path in (tmp_path / "displacement").glob("*.import"))
+    assert beside == ["0000.exr.import", "0001.exr.import"]
+    path = tmp_path / "displacement" / beside[0]
+    text = path.read_text()
+    assert "compress/mode=3" in text
+    assert "detect_3d/compress_to=0" in text
+    assert fo.check(tmp_path) == ()
+    assert estimate(asked).files == sum(one.is_file() for one in tmp_path.rglob("*"))
+    path.write_text(text + 'path="res://.godot/imported/0000.exr-1.ctex"\n')
+    assert fo.check(tmp_path) == ()
+    path.write_text(text.replace("compress/mode=3", "compress/mode=2"))
+    (tmp_path / "displacement" / beside[1]).unlink()
+    found = {finding.path: finding.kind for finding in fo.check(tmp_path)}
+    assert found == {
+        "displacement/0000.exr.import": "changed",
+        "displacement/0001.exr.import": "missing",
+    }
+    assert repair(tmp_path, executor="serial") == before
+    bake(job("canonical"), tmp_path, overwrite=True)
+    assert not list(tmp_path.rglob("*.import"))

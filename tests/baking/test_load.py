@@ -53,7 +53,8 @@ def truth(sea_job, name, j):
         "derivative": [f.slope_x, f.slope_y, c * f.stretch_xx, c * f.stretch_yy],
         "stretch": [c * f.stretch_xx, c * f.stretch_xy, c * f.stretch_yy],
         "jacobian": [f.jacobian],
-        "velocity": [c * f.velocity_x, c * f.velocity_y, f.velocity_z],
+        "velocity": [f.velocity_x, f.velocity_y, f.velocity_z],
+        "surface_velocity": [c * f.velocity_x, c * f.velocity_y, f.velocity_z],
     }
     return np.stack([np.asarray(channel, dtype=np.float64) for channel in channels[name]], axis=-1)
 
@@ -77,6 +78,7 @@ def test_every_format_gives_back_what_was_put_in(name, tmp_path):
             "stretch",
             "jacobian",
             "velocity",
+            "surface_velocity",
         )
         if len(MAPS[m].names) in FORMATS[name].channels
     ]

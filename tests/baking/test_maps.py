@@ -81,8 +81,8 @@ def test_needed_is_each_field_once_and_known():
 
 def test_channels_are_the_fields(ocean, foam):
     """
-    The bits of the ocean's own arrays, displacement, stretches and horizontal velocity times
-    choppiness, in float32.
+    The bits of the ocean's own arrays, in float32; displacement, stretches and the horizontal
+    velocity of the surface, not that of the water, times choppiness.
     """
     f = ocean.frame(1.0, EVERY)
     c = ocean.choppiness
@@ -94,7 +94,8 @@ def test_channels_are_the_fields(ocean, foam):
         "stretch": [f.stretch_xx * c, f.stretch_xy * c, f.stretch_yy * c],
         "jacobian": [f.jacobian],
         "foam": [foam],
-        "velocity": [f.velocity_x * c, f.velocity_y * c, f.velocity_z],
+        "velocity": [f.velocity_x, f.velocity_y, f.velocity_z],
+        "surface_velocity": [f.velocity_x * c, f.velocity_y * c, f.velocity_z],
     }
     for name, channels in expected.items():
         picture = MAPS[name].channels(f, foam)
@@ -121,7 +122,7 @@ def test_the_derivative_map_gives_the_normal_of_one_wave():
     )
 
 
-def test_the_velocity_map_is_how_the_displacement_map_moves(ocean):
+def test_the_surface_velocity_map_is_how_the_displacement_map_moves(ocean):
     """
     Central differences 1e-3 s apart of a double precision twin: (omega dt)^2/6 = 1e-6 of some m/s,
     and roundings.
@@ -135,8 +136,32 @@ def test_the_velocity_map_is_how_the_displacement_map_moves(ocean):
         np.stack([frame[name] * factor for name, factor in scaled], -1)
         for frame in (twin.frame(1.0 - 1e-3, fields), twin.frame(1.0 + 1e-3, fields))
     )
-    velocity = MAPS["velocity"].channels(ocean.frame(1.0, EVERY))
+    velocity = MAPS["surface_velocity"].channels(ocean.frame(1.0, EVERY))
     assert np.allclose(velocity, (after - before) / 2e-3, atol=1e-5)
+
+
+@pytest.mark.parametrize("choppiness", [0.0, 0.6, 1.0])
+def test_the_velocity_map_is_that_of_the_water(choppiness):
+    """
+    Of one wave: a omega cos f along, a omega sin f up, in deep water, at any choppiness, and so by
+    rest position as by place.
+    """
+    a, size, t = 0.2, 10.0, 1.3
+    k = 2.0 * np.pi / size
+    omega = np.sqrt(9.80665 * k)
+    ocean = fo.Ocean.from_modes(
+        [(1, 0, a, 0.0)], n=32, size=size, choppiness=choppiness, dtype="float64"
+    )
+    needed = MAPS["velocity"].needs
+    euler = Eulerian(ocean)
+    by_place = euler.frame(t, needed)
+    for frame, x0 in (
+        (ocean.frame(t, needed), ocean.grid.x[None, :] + np.zeros((32, 1))),
+        (by_place, euler.positions[0]),
+    ):
+        f = k * x0 - omega * t
+        water = np.stack([np.cos(f), 0.0 * f, np.sin(f)], -1) * a * omega
+        assert np.allclose(MAPS["velocity"].channels(frame), water, atol=2e-5)
 
 
 def test_levels_of_heights_and_foam_keep_their_mean(ocean, foam):
@@ -188,10 +213,10 @@ def test_by_place_the_maps_are_those_of_a_height_field(ocean, foam):
         made / np.linalg.norm(made, axis=-1, keepdims=True), MAPS["normal"].channels(f), atol=1e-6
     )
     assert np.allclose(MAPS["jacobian"].channels(f)[..., 0], surface.jacobian, atol=5e-3)
-    velocity = np.stack(
-        [surface.velocity_x * 1.3, surface.velocity_y * 1.3, surface.velocity_z], -1
-    )
+    velocity = np.stack([surface.velocity_x, surface.velocity_y, surface.velocity_z], -1)
     assert np.allclose(MAPS["velocity"].channels(f), velocity, atol=5e-3)
+    velocity *= (1.3, 1.3, 1.0)
+    assert np.allclose(MAPS["surface_velocity"].channels(f), velocity, atol=6e-3)
     assert all(
         np.all(np.isfinite(level))
         for name in shown

@@ -15,7 +15,7 @@ from fftocean.bench import machine
 from fftocean.bench.results import Reading, answer, read
 
 FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
-QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake")
+QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake", "second_order")
 HELPERS = ("script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
 

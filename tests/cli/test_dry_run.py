@@ -71,18 +71,18 @@ def test_a_rate_and_a_part_of_the_loop_go_together(run):
 
 def test_estimates_name_container_and_video_memory(run):
     """
-    6 frames of 64 x 64 take 4 half floats a sample for displacement and one for height; building a
+    6 frames of 64 x 64 take 4 half floats a sample of each map, as in their files; building a
     container holds it twice.
     """
     flags = ("--n", "64", "--frames", "6", "--maps", "displacement,height", "--dry-run", "--json")
     told = json.loads(run("bake", "-o", "out", *flags, "--format", "bin")[1])
-    assert told["video"] == 6 * 64 * 64 * 2 * (4 + 1)  # graphics cards have no three channels
+    assert told["video"] == 6 * 64 * 64 * 2 * (4 + 4)
     assert told["container"] == 2 * 6 * 64 * 64 * 2 * 3
     assert json.loads(run("bake", "-o", "out", *flags)[1])["container"] == 0.0
     out = run("bake", "-o", "out", *flags[:-1], "--format", "bin")[1]
     assert "then 0.281 MiB for the container" in out
     assert (
-        "video memory of the maps in an engine: 0.234 MiB for 6 frames, 0.0391 MiB a frame" in out
+        "video memory of the maps in an engine: 0.375 MiB for 6 frames, 0.0625 MiB a frame" in out
     )
 
 

@@ -90,3 +90,56 @@ def test_a_sea_without_wind_says_so(run):
 def test_what_a_package_cannot_hold_is_refused_before_anything_is_written(run, arguments, words):
     message = refusal(run("export-sea", "-o", "out", *arguments))
     assert re.search(words, message)
+
+
+@pytest.mark.parametrize("form", ["bin", "ktx2", "exr"])
+def test_textures_are_in_the_format_that_was_asked_for(run, form):
+    assert run("export-sea", "-o", "out", *SMALL, "--textures", form, "--quiet") == (0, "", "")
+    assert {f"tile0_h0.{form}", f"tile0_wave.{form}"} <= {p.name for p in Path("out").iterdir()}
+    assert run("check", "out", "--quiet") == (0, "", "")
+
+
+def test_bare_textures_before_a_job_are_bin(run):
+    """`--textures` took no value once: a job after it is still the job."""
+    Path("swell.toml").write_text(SWELL)
+    assert run("export-sea", "-o", "out", *SMALL, "--quiet", "--textures", "swell.toml")[0] == 0
+    assert Path("out/tile0_h0.bin").is_file()
+    assert json.loads(Path("out/sea.json").read_text())["wind"] is None  # of the swell
+    other = run("export-sea", "swell.toml", "-o", "other", "--textures", "png")
+    message = refusal(other, folder="other")
+    assert "textures must be True, False or one of bin, ktx2, exr, got 'png'" in message
+
+
+def test_an_engine_has_its_project_and_a_next_step(run):
+    code, out, err = run("export-sea", "-o", "out", *SMALL, "--engine", "unity")
+    assert (code, err) == (0, "")
+    assert out.endswith(
+        "Unity 2021.3 or later: move the folder into Assets, and follow README.unity.md\n"
+    )
+    assert {"fftocean.hlsl", "README.unity.md", "SeaWaves.cs"} <= {
+        p.name for p in Path("out").iterdir()
+    }
+    assert run("check", "out") == (0, "no problems found: out\n", "")
+    Path("out/SeaFloat.cs").write_text("// mine")
+    code, out, _ = run("export-sea", "-o", "out", *SMALL, "--engine", "unity")
+    assert code == 0
+    assert "kept as edited: SeaFloat.cs\n" in out
+    assert Path("out/SeaFloat.cs").read_text() == "// mine"
+    assert run("check", "out", "--quiet") == (0, "", "")
+
+
+def test_an_engine_refuses_what_its_kernels_cannot_transform(run):
+    message = refusal(run("export-sea", "-o", "out", "--tiles", "1024:500", "--engine", "godot"))
+    assert "must be a power of two of at most 512 for engine godot" in message
+    code, _, err = run("export-sea", "-o", "out", "--engine", "quake")
+    assert code == 2
+    assert "invalid choice: 'quake'" in err
+    assert not Path("out").exists()
+
+
+def test_help_names_every_engine(run):
+    code, out, _ = run("export-sea", "--help")
+    assert code == 0
+    assert "{unity,unreal,godot,bevy,three,webgpu}" in out
+    assert "--engine godot" in out
+    assert "bin, ktx2, exr" in out

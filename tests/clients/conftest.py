@@ -42,13 +42,19 @@ def npm():
     return folder
 
 
-@pytest.fixture(scope="session")
-def browser(npm, tmp_path_factory):
-    """Start one headless Chromium and one server for all tests of the session."""
+def find_chromium():
+    """Return the command of Chromium; skip or fail the test if there is none."""
     chromium = next(
         filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
     )
     require(chromium, "Chromium is not installed")
+    return chromium
+
+
+@pytest.fixture(scope="session")
+def browser(npm, tmp_path_factory):
+    """Start one headless Chromium and one server for all tests of the session."""
+    chromium = find_chromium()
     bakes = tmp_path_factory.mktemp("bakes")
     with (
         Site({"npm": npm, "pages": HERE / "pages", "bakes": bakes, "live": LIVE}) as site,

@@ -1,5 +1,5 @@
 // A headless Chromium for the tests. Reads one JSON request a line on stdin and answers one JSON line on stdout; the browser is
-// started once and ends with stdin. Usage: node driver.mjs CHROMIUM NODE_MODULES
+// started once and ends with stdin. Usage: node driver.mjs CHROMIUM NODE_MODULES [webgl|webgpu]
 //
 // {url, args}: open the page, call its `run(args)`, close it; answer {value, log, failures}.
 // {open, url, width, height, reducedMotion, before}: open a page under the name `open` and keep it; `before` is a script that runs
@@ -16,13 +16,17 @@ import readline from 'node:readline';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { pathToFileURL } from 'node:url';
 
-const [executablePath, modules] = process.argv.slice(2);
+const [executablePath, modules, graphics = 'webgl'] = process.argv.slice(2);
+const GRAPHICS = {
+  webgl: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'], // WebGL 2 without a graphics card
+  webgpu: ['--enable-unsafe-webgpu'], // with the flags of the other there is no adapter
+};
 const { chromium } = await import(pathToFileURL(path.join(modules, 'playwright-core', 'index.mjs')));
 const browser = await chromium.launch({
   executablePath,
   args: [
     '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-    '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', // WebGL 2 without a graphics card
+    ...GRAPHICS[graphics],
     '--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1', // a page that asks for anything else fails, and says so
   ],
 });

@@ -58,7 +58,7 @@ def questions(count):
 
 @dataclass
 class Answers:
-    """What a reader answered."""
+    """Answers of a reader."""
 
     at: np.ndarray  # (points, 10): of all waves
     rest: np.ndarray
@@ -99,7 +99,7 @@ def require_right(found, folder, *, metres, unit):
     """
     x, y, t = points(len(found.at)).T
     sea = fo.load_sea(folder, dtype="float64")
-    expected = fo.Query(sea, mode="exact").at(x, y, t)
+    expected = fo.Query(sea, mode="exact", level="frame").at(x, y, t)
     assert not np.any(expected.folded)
     at = dict(zip(COLUMNS, found.at.T, strict=True))
     errors = {

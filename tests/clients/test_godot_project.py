@@ -234,7 +234,9 @@ def test_the_strongest_waves_are_those_of_the_package(godot):
     # single precision of a phase some tiles away
     assert np.abs(found - expected).max() <= 2e-4 * np.abs(expected).max()
     assert np.abs(np.array(answers["live rests"]) - expected[:40, :3]).max() <= 1e-6
-    query = fo.Query(ocean, mode="exact").at(rests[:40, 0], -rests[:40, 1], SEA["loop"] / 4)
+    query = fo.Query(ocean, mode="exact", level="frame").at(
+        rests[:40, 0], -rests[:40, 1], SEA["loop"] / 4
+    )
     assert np.abs(np.array(answers["live heights"]) - query.heights).max() <= 5e-3
 
 

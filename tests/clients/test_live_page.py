@@ -747,7 +747,7 @@ CUTS = """((first, second) => {
 def test_a_narrower_page_closes_its_panels_and_stretches_no_plot(page):
     page.do({"size": [1280, 720]})
     page.evaluate("for (const p of ['figures', 'controls']) fftocean.layout.toggle(p, true)")
-    page.until("fftocean.wasWide && fftocean.figures.plot.width > 0")
+    page.until("fftocean.wasWide && fftocean.panel?.plot.width > 0")
     page.do({"size": [390, 740]})
     page.until("fftocean.layout.figures.hidden && fftocean.layout.controls.hidden")
     page.evaluate("fftocean.layout.toggle('figures', true)")
@@ -755,7 +755,7 @@ def test_a_narrower_page_closes_its_panels_and_stretches_no_plot(page):
         page.do({"size": [width, 740]})
         page.until(
             f"fftocean.root.clientWidth === {width} && ((plot) => Math.abs(plot.width / plot.height"
-            " - plot.clientWidth / plot.clientHeight) < 0.02)(fftocean.figures.plot)"
+            " - plot.clientWidth / plot.clientHeight) < 0.02)(fftocean.panel.plot)"
         )
 
 

@@ -133,17 +133,19 @@ def test_no_sky_is_seen_below_the_horizon(show):
             assert plain.any()  # the sky is there where it belongs
 
 
-@pytest.mark.parametrize("height", [6.0, 60.0])
-def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
+@pytest.mark.parametrize(("height", "sun"), [(6.0, 60.0), (60.0, 60.0), (6.0, 215.0)])
+def test_a_small_picture_is_as_bright_as_a_large_one(show, height, sun):
     """
     Rows of a picture of a quarter of the size, against the same rows of the full one averaged
-    down: within 5 %.
+    down: within 5 %, but for what so few facets leave to chance.
 
     What filtering takes from the waves must come back as roughness, in the reflected sky, in the
-    share that is reflected and in what the water hides of itself. Rows are averaged over moments
-    far apart, for a row of the small picture holds no more than some crests.
+    share that is reflected and in what the water hides of itself. A row of the small picture holds
+    no more than some crests: rows are averaged over moments far apart, whose differences tell how
+    far the mean may be off. Toward the sun a few facets make most of the light: there one moment of
+    a row differs by 2 to 19 %, and 30 moments by 1.0 +- 0.3 % in the mean over rows.
     """
-    look = {"sunElevation": 30.0, "sunAzimuth": 60.0, "clouds": 0.0}
+    look = {"sunElevation": 30.0, "sunAzimuth": sun, "clouds": 0.0}
     camera = {"height": height, "yaw": 215.0, "pitch": -8.0, "fieldOfView": 50.0}
     pictures = [
         {
@@ -158,16 +160,23 @@ def test_a_small_picture_is_as_bright_as_a_large_one(show, height):
         for tick in TICKS
     ]
     answers = show("breeze", pictures, foam=None)
-    rows = [
-        luminance(answer, picture).mean(axis=1)
-        for answer, picture in zip(answers, pictures, strict=True)
-    ]
-    full = np.mean(rows[: len(TICKS)], axis=0).reshape(54, 4).mean(axis=1)
-    small = np.mean(rows[len(TICKS) :], axis=0)
+    seen = [luminance(a, picture) for a, picture in zip(answers, pictures, strict=True)]
+    moments = len(TICKS)
+    full = np.array(seen[:moments]).reshape(moments, 54, 4, 96, 4).mean(axis=4)
+    small = np.array(seen[moments:]).mean(axis=2)
     # rows whose upper edge lies a pixel below the horizon
     row = 27 - 27 * math.tan(math.radians(8.0)) / math.tan(math.radians(25.0))
     water = slice(math.ceil(row) + 2, None)
-    assert np.abs(small[water] / full[water] - 1).max() < 0.05
+    rows = full.mean(axis=(2, 3))[:, water]
+    apart = (small[:, water] - rows) / rows.mean(axis=0)
+    bias, scatter = apart.mean(axis=0), apart.std(axis=0, ddof=1)
+    toward_sun = sun == camera["yaw"]
+    chance = 3.0 * scatter / math.sqrt(moments) if toward_sun else 0.0
+    assert (np.abs(bias) < 0.05 + chance).all()
+    assert abs(bias.mean()) < (0.03 if toward_sun else 0.02)
+    # filtering beats the choice of one row of pixels in four
+    chosen = (full.mean(axis=3)[:, water] - rows[:, :, None]) / rows.mean(axis=0)[:, None]
+    assert scatter.mean() < np.sqrt((chosen**2).mean())
 
 
 def test_nothing_repeats_from_400_m(show):

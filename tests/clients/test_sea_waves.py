@@ -19,7 +19,7 @@ pytestmark = pytest.mark.client
 HERE = Path(__file__).resolve().parent
 READERS = HERE.parents[1] / "examples" / "readers"
 ASK = HERE / "readers"
-POINTS = {"javascript": 1000, "csharp": 1000, "cpp": 1000, "godot": 100}
+POINTS = {"javascript": 1000, "csharp": 1000, "cpp": 1000, "rust": 1000, "godot": 100}
 METRES = 1e-5
 """Largest error of a reader [m]: sums in double precision are good to 1e-9."""
 
@@ -61,6 +61,15 @@ def cpp(folder):
     return run(folder, "./ask").splitlines()
 
 
+def rust(folder):
+    if not shutil.which("rustc"):  # not among the clients that are installed for these tests
+        pytest.skip("rustc is not installed")
+    shutil.copy(READERS / "sea_waves.rs", folder)
+    shutil.copy(ASK / "ask.rs", folder)
+    run(folder, "rustc", "--edition=2021", "-O", "-D", "warnings", "ask.rs", "-o", "ask-rust")
+    return run(folder, "./ask-rust").splitlines()
+
+
 @pytest.fixture(scope="module")
 def packages(tmp_path_factory):
     """Return a folder with all packages, good and bad."""
@@ -78,7 +87,8 @@ def answers(packages, request):
 
     def of(language):
         if language in known:
-            assert known[language] is not None, "the reader could not be run"
+            if known[language] is None:
+                pytest.skip("the reader could not be run: see the first test of this language")
         else:
             known[language] = None  # until it has answered
             count = POINTS[language]

@@ -75,13 +75,14 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
 class Browser:
     """One headless Chromium, controlled by `driver.mjs`."""
 
-    def __init__(self, chromium, modules, site, *, log):
+    def __init__(self, chromium, modules, site, *, log, graphics="webgl"):
         self.site = site
         self._command = [
             "node",
             str(Path(__file__).with_name("driver.mjs")),
             chromium,
             str(modules),
+            graphics,
         ]
         self._log = log
         self._names = itertools.count(1)

@@ -81,7 +81,8 @@ def test_a_page_says_of_its_map_what_the_sidecar_says(engine, name):
     assert {**formulas, "values": values} == side["sampling"]
     assert dict(re.findall(r"^    (\w+) = (.+)$", channels, re.MULTILINE)) == side["world"]
     assert ", ".join(f"{letter}: {words}" for letter, words in side["channels"].items()) in text
-    unit = {"height": "m", "displacement": "m", "velocity": "m/s"}.get(name, "")
+    speeds = {"velocity": "m/s", "surface_velocity": "m/s"}
+    unit = {"height": "m", "displacement": "m", **speeds}.get(name, "")
     unit = unit.replace("m", "cm", 1) if engine == "unreal" else unit
     assert re.search(rf"^Unit +{unit or r'none .a pure number.'}; linear$", text, re.MULTILINE)
     assert ("cm" in re.sub(r"place at rest and sizes in cm|by 75 cm|by 125 cm", "", text)) == (

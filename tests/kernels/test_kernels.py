@@ -7,7 +7,7 @@ import pytest
 from fftocean.amplitudes import place_modes
 from fftocean.grid import Grid
 from fftocean.kernels import passes, surface
-from fftocean.ocean import _frequencies
+from fftocean.synthesis import _frequencies
 
 pytestmark = pytest.mark.nojit
 RNG = np.random.default_rng(11)

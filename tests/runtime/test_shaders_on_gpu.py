@@ -13,13 +13,15 @@ import warnings
 
 import numpy as np
 import pytest
+from builders import ROOT
 from kernel_layout import Foam
-from kernel_sources import KINDS, device, shaders
+from kernel_sources import KINDS, device, require_command, run, shaders
 
 import fftocean as fo
 from fftocean.cascade import from_oceans
 from fftocean.fields import EIGHT
 from fftocean.runtime import pack
+from fftocean.runtime.shaders import files
 
 pytestmark = pytest.mark.client
 
@@ -348,7 +350,7 @@ def test_heights_are_those_of_the_library(run_by, kind):
         x, y = rng.uniform(-400, 400, (2, count)).astype(np.float32).astype(float)
         gpu_sea.frame(tick, points=count, iterations=4, origin=origin)
         seen = gpu_sea.heights(x, y)
-        query = fo.Query(water, mode="exact")
+        query = fo.Query(water, mode="exact", level="frame")
         answer = query.at(x + origin[0], y + origin[1], LOOP * tick / ticks)
         assert not answer.folded.any()
         size = np.std(answer.heights)
@@ -375,6 +377,27 @@ def test_a_fold_is_told(run_by):
     assert crest[7] == pytest.approx(1 - 4.0 * k, abs=1e-5)
     assert trough[[2, 3, 7]] == pytest.approx([-4.0, 0.0, 1 + 4.0 * k], abs=1e-5)
     assert trough[4:7] == pytest.approx([0, 0, 1], abs=1e-6)
+
+
+@pytest.mark.parametrize("tiles", [1, 4])
+def test_the_shaders_of_the_page_compile_by_naga(gpu, tiles):
+    """Compile them with Firefox's compiler; Chromium's has them in tests/clients/test_webgpu.py."""
+    require_command("node")
+    page = ROOT / "examples" / "webgpu"
+    script = (
+        f"import('{(page / 'water.js').as_uri()}').then((m) => console.log(m.tileCode({tiles})))"
+    )
+    code = files("wgsl")["fftocean.wgsl"].decode() + (page / "draw.wgsl").read_text("utf-8")
+    module = gpu.create_shader_module(code=code + run("node", "--input-type=module", "-e", script))
+    rgba = [{"format": "rgba8unorm"}]
+    for vertex, fragment in (("sky_corner", "sky_colour"), ("mesh", "water_colour")):
+        gpu.create_render_pipeline(
+            layout="auto",
+            vertex={"module": module, "entry_point": vertex},
+            fragment={"module": module, "entry_point": fragment, "targets": rgba},
+        )
+    with pytest.raises(Exception, match="Shader"):
+        gpu.create_shader_module(code=code)  # without the functions of the tiles
 
 
 def test_the_sources_are_read(run_by):

@@ -32,7 +32,7 @@ def built():
 
 
 def test_the_list_is_that_of_the_files(built):
-    """What is served, and the two entries that Python puts into one script each."""
+    """The files are those that are served, and the two entries of pages that are one file."""
     assert set(built) == {*TYPES, "static.js", "widget.js"}
 
 

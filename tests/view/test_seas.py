@@ -39,6 +39,18 @@ def foam_of_wind(speed, **changes):
     return made, made.document["foam"]
 
 
+def test_in_still_air_nothing_foams():
+    """A swell alone makes no whitecaps; the systems of a job may have a wind that nobody told."""
+    made, foam = foam_of_wind(0.0, swell_speed=14.0)
+    assert made.document["wind"] is None
+    assert made.document["statistics"]["specified"]["hs"] > 1.0
+    assert mean_coverage(made.cascade, foam["threshold"]) == 0.0
+    spectrum = "{ kind = 'jonswap', hs = 2.0, tp = 11.0 }"
+    job = fo.Job.from_toml(f"[[sea.systems]]\nspectrum = {spectrum}\ndirection = 20.0\n")
+    told = State.of_job(job, n=16)
+    assert make_exact(told, 1, points=2).document["foam"]["threshold"] == fo.Foam().threshold
+
+
 def breaking_cells(made, foam, moments, cells=20_000):
     """
     Yield max(threshold - smallest eigenvalue, 0) in cells of the page at some moments.

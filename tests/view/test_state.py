@@ -14,7 +14,7 @@ import pytest
 import fftocean as fo
 from fftocean.cli import main
 from fftocean.errors import JobError, ParameterError
-from fftocean.view.job_text import toml_value
+from fftocean.job.job_text import toml_value
 from fftocean.view.numbered_seas import preset_rows
 from fftocean.view.state import State, peak_wavelength, power_of_two, tile_sizes
 from fftocean.view.swell import Swell, storm_height, swell_of, table_of

@@ -62,6 +62,26 @@ def test_steps_are_the_sea_at_their_times(tmp_path, depth, loop):
         assert np.max(np.abs(steps[-1] - steps[0])) < 1e-6 * np.max(np.abs(steps[0]))
 
 
+@pytest.mark.parametrize("depth", [math.inf, 20.0])
+def test_steps_have_waves_of_second_order(tmp_path, depth):
+    """Their potential falls off with |K|; the kinematics' pressure has -rho |u|^2/2 besides."""
+    source = ocean(depth, order=2, bound=40, n=(48, 40))
+    path = tmp_path / "sea.swd"
+    assert source.bound_waves.report.dropped == 0.0
+    fo.export.swd(source, path, steps=5, dt=0.5)
+    assert read(path)[0]["order"] == 2
+    where = points(np.arange(5) * 0.5)
+    found = [water(path, *point) for point in where]
+    below, linear = (fo.kinematics.at(source, *where.T, order=order) for order in (2, 1))
+    for i, name in enumerate(("heights", "velocities", "accelerations")):
+        values, second = getattr(below, name), getattr(below, name) - getattr(linear, name)
+        error = np.max(np.abs(np.array([w[i] for w in found]) - values))
+        assert error < 2e-5 * np.max(np.abs(values)) < 0.05 * np.max(np.abs(second))
+    speed = np.sum(linear.velocities**2, axis=1)
+    pressure = -WATER_DENSITY * (np.array([w[3] for w in found]) + 0.5 * speed)
+    assert np.max(np.abs(pressure - below.pressures)) < 2e-5 * np.max(np.abs(below.pressures))
+
+
 def test_rates_are_those_of_the_amplitudes(tmp_path):
     """dh/dt and dc/dt by central differences of the file's own steps."""
     path = tmp_path / "sea.swd"

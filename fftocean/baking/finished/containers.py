@@ -66,6 +66,9 @@ def assemble(
             hi=high,
             levels=scene.levels,
         )
+        if scene.form.scope == "frame":
+            images = [row["files"][name]["path"] for row in rows]
+            files |= recipes.files_beside_frames(scene.profile, images)
         entries = [
             {
                 "path": path,
@@ -124,8 +127,10 @@ def has_written_lines(contents: Contents, path: str, data: bytes) -> bool:
     """
     if not path.endswith(REWRITTEN):
         return False
-    across, down = formats.atlas(len(contents.frames), *contents.shape, contents.profile.gutter)
-    written = recipes.godot_import(across, down)
+    written = recipes.GODOT_FRAME
+    if contents.form.scope == "sequence":
+        tiles = formats.atlas(len(contents.frames), *contents.shape, contents.profile.gutter)
+        written = recipes.godot_import(*tiles)
     return set(written.split(b"\n")) <= set(data.replace(b"\r\n", b"\n").split(b"\n"))
 
 

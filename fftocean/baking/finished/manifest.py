@@ -72,6 +72,7 @@ def compose(
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
         "statistics": statistics.as_plain(),  # specified and realised
+        **({} if (rarity := scene.ocean.rarity) is None else {"constrained": rarity.as_plain()}),
         **(
             {}
             if scene.ocean.sea is None

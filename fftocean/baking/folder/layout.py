@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from fftocean.export.formats import FORMATS, Format
-from fftocean.export.recipes import PAGES
+from fftocean.export.recipes import FRAME_SUFFIX, PAGES
 from fftocean.job.parameters import MAPS
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
@@ -114,5 +114,5 @@ def bake_files(folder: Path) -> Iterator[Path]:
                 yield from (p for p in sorted(path.rglob("*")) if p.is_symlink() or not p.is_dir())
         inner = folder / name
         if inner.is_dir() and not inner.is_symlink():
-            for suffix in sorted(suffixes):
+            for suffix in sorted({*suffixes, f".exr{FRAME_SUFFIX}"}):
                 yield from sorted(inner.glob(f"[0-9]*{suffix}"))

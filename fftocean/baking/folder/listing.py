@@ -1,10 +1,11 @@
 """Job and list of a baked cascade, and their agreement with the manifests of its tiles."""
 
+import math
 import os
 import shutil
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +14,14 @@ from fftocean.baking.folder import engine_files, layout
 from fftocean.baking.folder.identity import differences
 from fftocean.baking.folder.ownership import engine_files_in, remove_workspace
 from fftocean.baking.folder.sealed import read_sealed
-from fftocean.cascade import tile_jobs
+from fftocean.cascade import from_oceans, tile_jobs
 from fftocean.cells import Band
+from fftocean.constraints import constrained
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
 from fftocean.files import digest, read_json, read_whole, remove, remove_temporary_files
+from fftocean.fixed_values import Rarity
 from fftocean.grid import Grid
+from fftocean.job import fixed_tables
 from fftocean.job.job import Job, finite_or_word
 from fftocean.job.parameters import PARAMETERS
 
@@ -39,6 +43,7 @@ class TileJob:
     seed: int
     band: Band
     job: Job
+    rarity: Rarity | None = None  # of the values that the sum of all tiles is made to have
 
     def row(self, data: bytes, manifest: Mapping[str, Any]) -> dict[str, Any]:
         """Return a tile's entry of the list, from its manifest and that file's bytes."""
@@ -54,9 +59,11 @@ class TileJob:
         }
 
 
-def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
+def jobs_of_tiles(job: Job, tiles: Sequence[Any], *, fixed: bool = True) -> list[TileJob]:
     """
-    Return the tiles of a cascade as jobs.
+    Return the tiles of a cascade as jobs, each with its share of the values that the job fixes.
+
+    Without `fixed`, no tile has any: to find the shares, the waves of all tiles are needed.
 
     Raises:
         JobError: tiles that cannot share a sea.
@@ -79,8 +86,49 @@ def jobs_of_tiles(job: Job, tiles: Sequence[Any]) -> list[TileJob]:
         }
         if index:
             own["ocean.order"] = 1  # as in a `Cascade`
-        jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, job.replaced(own)))
-    return jobs
+        tile = replace(job.replaced(own), crests=(), fixes=())
+        jobs.append(TileJob(layout.tile_folder(index), grid, seed, band, tile))
+    return _with_fixed_values(job, jobs) if fixed and job.fixed else jobs
+
+
+def _with_fixed_values(job: Job, jobs: list[TileJob]) -> list[TileJob]:
+    """
+    Return the tiles with their shares of the values that the job fixes for their sum.
+
+    Waves that are made to have those shares tile by tile are the waves of the constrained cascade.
+    """
+    settings = job.settings
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SeaWarning)  # given once, when the tiles are set up
+            free = from_oceans(
+                None, settings["ocean.seed"], tuple(tile.job.ocean() for tile in jobs)
+            )
+        cascade = constrained(free, *job.fixed)
+    except JobError:
+        raise
+    except ParameterError as error:
+        raise JobError(f"{job.source}: ocean: {error}") from None
+    return [
+        replace(tile, job=replace(tile.job, fixes=ocean.amplitudes.fixed), rarity=cascade.rarity)
+        for tile, ocean in zip(jobs, cascade.oceans, strict=True)
+    ]
+
+
+def _wrong_shares(listing: Mapping[str, Any], jobs: Sequence[Mapping[str, Any]]) -> str:
+    """Return what is wrong with the tiles' shares of the values that their sum has, or ""."""
+    values = listing.get("constrained", {}).get("values", [])
+    shares = [job.get(fixed_tables.FIX, []) for job in jobs]
+    if any(len(share) != len(values) for share in shares):
+        return f"the {len(values)} fixed values are not those of its tiles"
+    for value, *own in zip(values, *shares, strict=True):
+        if any({**part, "value": value["value"]} != value for part in own):
+            return f"the tiles do not have {value!r:.120}"
+        total = math.fsum(part["value"] for part in own)
+        size = max(abs(part["value"]) for part in own)
+        if abs(total - value["value"]) > 1e-9 * max(1.0, size):
+            return f"the tiles' shares of {value!r:.120} add up to {total!r}"
+    return ""
 
 
 SUMMED = ("sheet", "animation")
@@ -251,7 +299,7 @@ def inconsistencies(
         job, tiles = job_of(header, source=name, at_sea=False)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeaWarning)  # given when it was baked
-            jobs = jobs_of_tiles(job, tiles)
+            jobs = jobs_of_tiles(job, tiles, fixed=False)
         rows = listing["tiles"]
         edges = [edge for row in rows for edge in map(float, row["band"])]
     except (JobError, IntegrityError, KeyError, TypeError, ValueError) as error:
@@ -267,7 +315,7 @@ def inconsistencies(
     if [row.get("path") for row in rows] != [tile.path for tile in jobs]:
         yield name, f"its tiles are not the {len(jobs)} of its job"
         return
-    bounds = {"max_height": 0.0, "max_horizontal": 0.0}
+    bounds, found = {"max_height": 0.0, "max_horizontal": 0.0}, []
     for tile, row in zip(jobs, rows, strict=True):
         path = f"{tile.path}/{layout.MANIFEST_FILE}"
         data = read_whole(folder / path)
@@ -287,15 +335,19 @@ def inconsistencies(
                     name,
                     f"{key} of {tile.path} is listed as {row.get(key)!r:.80} and is {value!r:.80}",
                 )
-        if manifest["job"] != tile.job.describe():
+        described = {k: v for k, v in manifest["job"].items() if k != fixed_tables.FIX}
+        found.append(manifest["job"])
+        if described != tile.job.describe():
             yield (
                 path,
                 f"its job is not that of {tile.path}: "
-                f"{_first_difference(tile.job.describe(), manifest['job'])}",
+                f"{_first_difference(tile.job.describe(), described)}",
             )
         for key in ("version", "subset", "downsample", "inputs"):
             if manifest[key] != listing[key]:
                 yield path, f"{key} is {manifest[key]!r:.80}, and {listing[key]!r:.80} in {name}"
+    if len(found) == len(jobs) and (wrong := _wrong_shares(listing, found)):
+        yield name, wrong
     for key, total in bounds.items():
         if listing["extremes"][key] != total:
             yield (

@@ -32,6 +32,7 @@ from fftocean.baking.folder.layout import (
 from fftocean.baking.folder.sealed import is_sealed, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.export.formats import FORMATS
+from fftocean.export.recipes import FRAME_SUFFIX
 from fftocean.files import as_json, read_json, remove, remove_temporary_files, write_whole
 
 PREVIEW_FILES = {"sheet": SHEET, **PREVIEWS}
@@ -127,8 +128,9 @@ def _is_of(job: Mapping[str, Any], name: str) -> bool:
             return True
         if name.startswith(f"{m}{form.suffix}/"):
             return True  # a folder that is one container
-        number = name.removeprefix(f"{m}/").removesuffix(form.suffix)
-        if name == f"{m}/{number}{form.suffix}" and number.isdigit():
+        image = name.removesuffix(FRAME_SUFFIX) if job.get("bake.engine") == "godot" else name
+        number = image.removeprefix(f"{m}/").removesuffix(form.suffix)
+        if image == f"{m}/{number}{form.suffix}" and number.isdigit():
             return int(number[:9]) < int(job.get("bake.frames") or 0)
     return False
 

@@ -143,9 +143,16 @@ MAPS: dict[str, Map] = {
     ),
     "velocity": Map(
         ("velocity_x", "velocity_y", "velocity_z"), "vector",
+        ("x", "y", "z"), "m/s",
+        "velocity of the water at the surface, whatever the choppiness: what moves foam, particles "
+        "and hulls",
+        lambda m: (m.frame.velocity_x, m.frame.velocity_y, m.frame.velocity_z),
+    ),
+    "surface_velocity": Map(
+        ("velocity_x", "velocity_y", "velocity_z"), "vector",
         ("x, choppiness applied", "y, choppiness applied", "z"), "m/s",
-        "velocity of the water at the surface",
-        lambda m: (*_horizontal_velocity(m.frame), m.frame.velocity_z),
+        "rate of change of the displacement map: velocity of the drawn surface, for motion blur",
+        lambda m: (*_surface_velocity(m.frame), m.frame.velocity_z),
     ),
     "slope_covariance": Map(
         (), "covariance", ("slope_x slope_x", "slope_x slope_y", "slope_y slope_y"), "1",
@@ -163,8 +170,8 @@ Every map that can be baked. By lookup:
 to its position now. "eulerian": texel (i, j) describes the water that is NOW at x, y, and the
 surface is a height field over x and y: displacement is (0, 0, height) and the stretches of the
 derivative map are 0, so that these maps displace and light the same surface, and the slopes are its
-dz/dx and dz/dy. Normals are those of the surface; jacobian, foam and velocity those of the water at
-that place. A height field has no stretch map.
+dz/dx and dz/dy. Normals are those of the surface; jacobian, foam and velocities those of the water
+at that place. A height field has no stretch map.
 
 Of a cascade, only maps that add up over tiles can be baked (`adds`), and only by rest position: see
 `cascade_setup`.
@@ -236,8 +243,8 @@ def _moved(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
     return frame.displace_x * frame.choppiness, frame.displace_y * frame.choppiness
 
 
-def _horizontal_velocity(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
-    """Return the horizontal velocity, choppiness applied."""
+def _surface_velocity(frame: Frame | EulerianFrame) -> tuple[Real, Real]:
+    """Return the horizontal velocity of the displaced surface: choppiness applied."""
     return frame.velocity_x * frame.choppiness, frame.velocity_y * frame.choppiness
 
 

@@ -9,8 +9,9 @@ const WATER_ABSORPTION = [0.2644, 0.0565, 0.01006];
 const SCATTERING_AT_500 = 0.00288;
 const SCATTERING_SLOPE = -4.32;
 
-// Absorption of chlorophyll relative to that at 440 nm (Prieur & Sathyendranath 1981).
-const CHLOROPHYLL_ABSORPTION = [0.236, 0.357, 0.89];
+// Absorption of chlorophyll relative to that at 440 nm (Prieur & Sathyendranath 1981, every 10 nm;
+// the last is between 0.917 at 460 nm and 0.870 at 470 nm).
+const CHLOROPHYLL_ABSORPTION = [0.252, 0.357, 0.8935];
 
 /**
  * Return absorption and backscattering of sea water [1/m], each by channel.

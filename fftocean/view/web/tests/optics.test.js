@@ -15,12 +15,22 @@ test('absorbs and scatters like pure sea water where there is hardly any chlorop
   near(2 * backscattering[1], 0.0019, 1e-4);
 });
 
+test('absorbs by chlorophyll as Prieur and Sathyendranath (1981) measured, relative to 440 nm', () => {
+  // of what 1 mg/m^3 adds, between their values at the two nearest tens of nanometres
+  const clear = waterOptics(1e-12).absorption;
+  const added = waterOptics(1).absorption.map((a, i) => {
+    const yellow = 1 + 0.2 * Math.exp(-0.014 * ([610, 550, 465][i] - 440));
+    return (a - clear[i]) / yellow / 0.06;
+  });
+  [0.252, 0.357, (0.917 + 0.87) / 2].forEach((wanted, i) => near(added[i], wanted, 1e-3));
+});
+
 test('has the ratio of blue to green of the ocean by chlorophyll', () => {
-  // OC2 of O'Reilly et al. (1998), a fit to measurements at 490 and 555 nm. Our channels lie at 465
-  // and 550 nm, so that no more than the trend and the size can agree.
+  // OC2 as O'Reilly et al. (1998) print it, a fit to measurements at 490 and 555 nm. Our channels lie
+  // at 465 and 550 nm, so that no more than the trend and the size can agree.
   for (const ratio of [3.5, 2.3, 1.3, 0.8]) {
     const r = Math.log10(ratio);
-    const measured = 10 ** (0.2974 - 2.2429 * r + 0.8358 * r * r - 0.0077 * r ** 3) - 0.0929;
+    const measured = 10 ** (0.341 - 3.001 * r + 2.811 * r * r - 2.041 * r ** 3) - 0.04;
     const [red, green, blue] = reflectance(waterOptics(measured));
     const found = blue / green;
     assert.ok(found > ratio / 1.5 && found < ratio * 1.5, `${found}, not ${ratio}, at ${measured}`);

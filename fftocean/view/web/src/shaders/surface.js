@@ -240,8 +240,11 @@ void main() {
 
   // Foam: white patches, and the bubbles below them that make the water pale.
   vec3 foam = foam_at(rest);
-  float sunlit = smoothstep(-0.02, 0.06, sunward.z) * (0.3 + 0.7 * max(dot(facet, sunward), 0.0));
-  vec3 white = 0.55 / PI * foam.z * (sun_light * sunlit + sky_light);
+  // A low sun, which is red, hardly reaches them; part of its colour is taken away, as the eye does
+  // of what it knows to be white: taste, lest they look brown.
+  float sunlit = smoothstep(-0.02, 0.06, sunward.z) * max(dot(facet, sunward) + 0.03, 0.0) / 1.03;
+  vec3 paler = mix(sun_light, vec3(dot(sun_light, vec3(0.2126, 0.7152, 0.0722))), 0.4);
+  vec3 white = 0.55 / PI * foam.z * (paler * sunlit + sky_light);
   vec3 bubbles = body + 0.12 / PI * falling * exp(-(absorption + backscattering) * 5.0);
   radiance = mix(radiance, mix(radiance, bubbles, 0.75), smoothstep(0.0, 0.6, foam.x) * (1.0 - share) * 0.8);
   radiance = mix(radiance, white, foam.y * 0.9);

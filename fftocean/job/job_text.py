@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from fftocean.job.fixed_tables import described
 from fftocean.job.job import Job
 from fftocean.job.parameters import PARAMETERS, WIND
 
@@ -42,6 +43,9 @@ def job_text(
         lines += ["", "[[sea.systems]]"]
         for name, value in _renamed(system, files or {}).items():
             lines.append(f"{_key(name)} = {toml_value(value)}")
+    for key, tables in described(job.crests, job.fixes).items():
+        for row in tables:
+            lines += ["", f"[[{key}]]", *(f"{name} = {toml_value(row[name])}" for name in row)]
     return "\n".join(lines) + "\n"
 
 
