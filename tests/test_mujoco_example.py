@@ -218,7 +218,6 @@ from scene import Picture, model_of
 sea = fo.Ocean.from_modes([(1, 0, 0.4, 0.0), (1, 2, 0.2, 1.0)], n=32, size=40.0, choppiness=0.0)
 model = model_of({{"buoy": buoy()}}, {{"buoy": (3.0, -4.0)}}, size=40.0, cells=161)
 data = mujoco.MjData(model)
-mujoco.mj_forward(model, data)
 data.time = 1.3
 query = fo.Query(sea)
 with Picture(model, query, 96, 54) as picture:

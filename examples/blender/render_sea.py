@@ -151,6 +151,8 @@ def main():
     import look
 
     packed = (options.folder / "sea.json").is_file()
+    if not packed and not (options.folder / "manifest.json").is_file():
+        sys.exit(f"{options.folder} must hold sea.json (a package) or manifest.json (a bake)")
     frames = package_scene(options) if packed else bake_scene(options)
     look.sky(*options.sun, options.exposure)
     bpy.context.scene.frame_set(1)

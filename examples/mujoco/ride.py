@@ -11,8 +11,12 @@ as far as they do.
 
 import argparse
 import os
+import sys
 import time
 from pathlib import Path
+
+if sys.platform == "linux":
+    os.environ.setdefault("MUJOCO_GL", "egl")  # read where MuJoCo is imported
 
 import mujoco
 import numpy as np
@@ -27,20 +31,18 @@ PLACES = {"hull": (0.0, 0.0), "buoy": (3.2, -4.5)}
 HOLD = 20.0  # period of the spring that keeps a body in its place [s]
 
 
-def tiles_of(job: fo.Job, text: str | None) -> list[tuple[int, float]]:
-    """Return the tiles N:SIZE,... of a text; by default that of the job and one of a seventh."""
-    if text:
-        return [(int(n), float(size)) for n, _, size in (t.partition(":") for t in text.split(","))]
-    size = max(job.ocean().grid.lx, job.ocean().grid.ly)
-    return [(128, size), (128, size / 7.3)]
+def tiles(text: str) -> list[tuple[int, float]]:
+    """Return the tiles N:SIZE,... of a text."""
+    return [(int(n), float(size)) for n, size in (tile.split(":") for tile in text.split(","))]
 
 
-def sea_of(job: fo.Job, tiles: list[tuple[int, float]]) -> fo.Cascade:
-    """Return the sea of a job on tiles."""
+def sea_of(job: fo.Job, given: list[tuple[int, float]] | None = None) -> fo.Cascade:
+    """Return the sea of a job on tiles: those given, or one of its size and one of a seventh."""
     s = job.settings
+    size = float(np.max(s["ocean.size"]))
     return fo.Cascade(
         job.sea(),
-        tiles,
+        given or [(128, size), (128, size / 7.3)],
         seed=s["ocean.seed"],
         loop=s["ocean.loop"],
         choppiness=s["ocean.choppiness"],
@@ -109,7 +111,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("job", type=Path, nargs="?", help="TOML file of a sea")
-    parser.add_argument("--tiles", metavar="N:SIZE,...", help="tiles of the cascade")
+    parser.add_argument("--tiles", type=tiles, metavar="N:SIZE,...", help="tiles of the cascade")
     parser.add_argument("--seconds", type=float, default=30.0, help="default: 30")
     parser.add_argument(
         "--linear", action="store_true", help="sum all waves at each panel (fo.kinematics)"
@@ -119,10 +121,11 @@ def main() -> None:
     parser.add_argument("--rate", type=float, default=12.5, help="pictures a second of the film")
     parser.add_argument("--width", type=int, default=640, help="of a picture (default: 640)")
     options = parser.parse_args()
-    os.environ.setdefault("MUJOCO_GL", "egl")
 
     job = fo.Job.read(options.job) if options.job else fo.Job.default()
-    sea = sea_of(job, tiles_of(job, options.tiles))
+    sea = sea_of(job, options.tiles)
+    if options.film and not (sea.loop and sea.loop <= options.seconds):
+        parser.error(f"--film needs --seconds of the loop at least, got {options.seconds:g} s")
     water = (LinearWater if options.linear else SurfaceWater)(sea, shortest=3.0)
     ride = Simulation({"hull": hull(), "buoy": buoy(drag=0.6)}, water)
     ride.step()  # compiles the kernels
@@ -149,7 +152,7 @@ def main() -> None:
             film += [shot] if filmed else []
     points = sum(len(body.panels.areas) for body in ride.bodies.values())
     print(
-        f"{sea.hs:.2f} m sea" if hasattr(sea, "hs") else f"Hs {job.sea().hs:.2f} m",
+        f"Hs {job.sea().hs:.2f} m",
         f"on {len(sea.oceans)} tiles; {points} panels; {1e3 * spent / steps:.2f} ms a step, "
         f"{steps / RATE / spent:.1f} x real time at {RATE:g} Hz",
     )

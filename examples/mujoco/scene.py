@@ -147,6 +147,7 @@ class Picture:
 
     def take(self, data: mujoco.MjData) -> np.ndarray:
         """Return a picture, (height, width, 3) of bytes."""
+        mujoco.mj_kinematics(self.model, data)  # a step leaves the places before it
         found = self.lift(data.time)
         texture = self.model.texture("sea")
         colours = np.round(255.0 * water_colour(found.normals, self.view)).astype(np.uint8)
