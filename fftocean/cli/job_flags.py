@@ -1,6 +1,7 @@
 """Flags that make a job: a job file, keys with a flag of their own, --set for every key."""
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -142,7 +143,7 @@ def _given_job(options: argparse.Namespace) -> "Job":
             )
     if path is None:
         return Job.default()
-    return _baked_job(path, options) if path.is_dir() else Job.read(path)
+    return _baked_job(path, options) if os.path.isdir(path) else Job.read(path)  # noqa: PTH112
 
 
 def _baked_job(folder: Path, options: argparse.Namespace) -> "Job":

@@ -1,6 +1,7 @@
 """Jobs of other things than job files: a spectrum file, the folder of a bake."""
 
 import math
+import os
 import warnings
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,8 @@ RATE = 15  # frames a second, as in the embedded job
 
 def is_spectrum_file(path: Path) -> bool:
     """Return True for a file that is not named as a job; what it holds is read later."""
-    return path.suffix.lower() != ".toml" and path.is_file()
+    # of os.path, which takes a name that no system can have for one that does not exist
+    return path.suffix.lower() != ".toml" and os.path.isfile(path)  # noqa: PTH113
 
 
 def spectrum_job(
