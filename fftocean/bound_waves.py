@@ -80,6 +80,65 @@ class Report:
         )
 
 
+class _Totals:
+    """Sums over all pairs that a `Report` is made of."""
+
+    def __init__(self, amplitudes: Amplitudes, parents: Parents) -> None:
+        self._parents, self._reach = parents, amplitudes.grid.reach
+        squares = amplitudes.squares
+        self._m0 = amplitudes.variance
+        self._linear = float(np.sum(squares) + np.sum(squares[:, 1:]))  # sum of a^2/2
+        self._energy = 2.0 * np.abs(parents.h0) ** 2  # a^2/2 of each parent
+        self._elevation = self._shown = self._beyond = 0.0  # variances [m^2]
+        self._expected = self._realised = 0.0  # a third of <eta^3> [m^3]
+
+    def add(self, own: slice, sign: int, elevation: Real, shown: Real) -> None:
+        """
+        Add the pairs of a run with the waves before it and its own.
+
+        Args:
+            own: numbers of the waves of the run.
+            sign: of the second wave of each pair.
+            elevation: C of each pair, (run, waves up to its end), doubled for other runs.
+            shown: the same of what the ocean shows, C - c Cc.
+        """
+        p, energy, before = self._parents, self._energy, slice(0, own.stop)
+        row = np.arange(own.stop - own.start)
+        alone = row, own.start + row  # a wave with itself
+        # A pair of another run has a^2/2 = 2 (2 C |h0_i| |h0_j|)^2, given 2 C; one of this run has
+        # the same, given C twice; a wave with itself 2 (C |h0_i|^2)^2.
+        weight = np.ones(elevation.shape)
+        weight[:, own.start :] = 2.0
+        weight[alone] = 1.0
+        weight *= 0.5 * energy[own, None] * energy[before]
+        outside = (np.abs(p.mx[own, None] + sign * p.mx[before]) > self._reach[0]) | (
+            np.abs(p.my[own, None] + sign * p.my[before]) > self._reach[1]
+        )
+        variances = weight * shown**2
+        self._elevation += float(np.sum(weight * elevation**2))
+        self._shown += float(np.sum(variances))
+        self._beyond += float(np.sum(variances[outside]))
+        for name, e, gaussian in (
+            ("_realised", energy, False),
+            ("_expected", p.variance, p.gaussian),
+        ):
+            total = float(np.einsum("i,ij,j->", e[own], elevation, e[before]))
+            if not gaussian:  # a^4/4 = E^2, of which the Gaussian mean is 2 E^2
+                total -= 0.5 * float(np.sum(elevation[alone] * e[own] ** 2))
+            setattr(self, name, getattr(self, name) + total)
+
+    def report(self) -> Report:
+        """Return the report of all pairs that were added."""
+        linear, m0 = self._linear, self._m0
+        return Report(
+            waves=int(self._parents.mx.size),
+            ratio=math.sqrt(self._elevation / linear) if linear > 0.0 else 0.0,
+            dropped=self._beyond / self._shown if self._shown > 0.0 else 0.0,
+            skewness=3.0 * self._expected / float(m0**1.5) if m0 > 0.0 else 0.0,
+            realised=3.0 * self._realised / float(linear**1.5) if linear > 0.0 else 0.0,
+        )
+
+
 class BoundWaves:
     """
     The second-order waves of the strongest waves of a tile.
@@ -115,7 +174,9 @@ class BoundWaves:
         )
         self._layouts = _layouts(self.parents, self._runs)
         self._tables: dict[str, _Table] = {}
-        self.report = self._tabulate(SURFACE)
+        totals = _Totals(self.amplitudes, self.parents)
+        self._tables[SURFACE] = self._tabulate(SURFACE, totals)
+        self.report = totals.report()
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         """Pickle the arguments; tables are computed anew."""
@@ -139,62 +200,34 @@ class BoundWaves:
 
     def table(self, kind: str) -> _Table:
         """Return the factors of `SURFACE`, `ELEVATION` or `POTENTIAL`, computed at first use."""
+        if kind == ELEVATION and self.choppiness == 0.0:
+            kind = SURFACE  # the same
         if kind not in self._tables:
-            self._tabulate(kind)
+            self._tables[kind] = self._tabulate(kind)
         return self._tables[kind]
 
-    def _tabulate(self, kind: str) -> Report:
-        """Compute the factors of all pairs, and what they come to."""
+    def _tabulate(self, kind: str, totals: "_Totals | None" = None) -> _Table:
+        """Return the factors of all pairs, and add to the totals what the pairs come to."""
         p, (starts, counts) = self.parents, self._runs
-        grid, depth = self.amplitudes.grid, self.amplitudes.depth
-        c, k = self.choppiness, Components(p.mx * grid.dkx, p.my * grid.dky, p.omega)
+        grid, depth, c = self.amplitudes.grid, self.amplitudes.depth, self.choppiness
+        waves = Components(p.mx * grid.dkx, p.my * grid.dky, p.omega)
         chosen: Callable[[Interaction], Real] = {
             SURFACE: lambda pair: pair.elevation - c * pair.displaced,
             ELEVATION: lambda pair: pair.elevation,
             POTENTIAL: lambda pair: pair.potential,
         }[kind]
         tables = [np.empty(layout.entries, self.dtype) for layout in self._layouts]
-        energy = 2.0 * np.abs(p.h0) ** 2  # a^2/2
-        linear = float(np.sum(self.amplitudes.squares) + np.sum(self.amplitudes.squares[:, 1:]))
-        second = beyond = all_of_it = skewness = realised = 0.0
-        reach_x, reach_y = grid.reach
         for run, (start, count) in enumerate(zip(starts, counts, strict=True)):
             # This run with all waves before it and its own, of which each pair occurs twice.
-            stop = start + count
-            own, before = slice(start, stop), slice(0, stop)
-            ours, theirs = k.part(own).part((slice(None), None)), k.part(before)
-            twice = np.where(np.arange(stop) < start, 2.0, 1.0)
+            own, before = slice(start, start + count), slice(0, start + count)
+            ours, theirs = waves.part(own).part((slice(None), None)), waves.part(before)
+            twice = np.where(np.arange(start + count) < start, 2.0, 1.0)
             for sign, layout, table in zip((1, -1), self._layouts, tables, strict=True):
                 pair = interaction(ours, theirs if sign > 0 else theirs.conjugate, depth)
                 layout.store(table, run, chosen(pair) * twice, starts, counts)
-                # a^2/2 of a bound wave of amplitude 4 C |h0_i| |h0_j|, or of 2 C |h0_i|^2
-                weight = np.where(np.arange(stop) < start, 8.0, 4.0) * np.ones((count, 1))
-                own_pairs = np.arange(count), start + np.arange(count)
-                weight[own_pairs] = 2.0
-                moved = weight * energy[own, None] * energy[before] / 4.0
-                second += float(np.sum(moved * pair.elevation**2))
-                shown = moved * (pair.elevation - c * pair.displaced) ** 2
-                all_of_it += float(np.sum(shown))
-                outside = (np.abs(p.mx[own, None] + sign * p.mx[before]) > reach_x) | (
-                    np.abs(p.my[own, None] + sign * p.my[before]) > reach_y
-                )
-                beyond += float(np.sum(shown[outside]))
-                times = pair.elevation * twice
-                realised += float(np.einsum("i,ij,j->", energy[own], times, energy[before]))
-                realised -= 0.5 * float(np.sum(times[own_pairs] * energy[own] ** 2))
-                e = p.variance
-                skewness += float(np.einsum("i,ij,j->", e[own], times, e[before]))
-                if not p.gaussian:
-                    skewness -= 0.5 * float(np.sum(times[own_pairs] * e[own] ** 2))
-        self._tables[kind] = _Table(*tables)
-        m0 = self.amplitudes.variance
-        return Report(
-            waves=int(p.mx.size),
-            ratio=math.sqrt(second / linear) if linear > 0.0 else 0.0,
-            dropped=beyond / all_of_it if all_of_it > 0.0 else 0.0,
-            skewness=3.0 * skewness / m0**1.5 if m0 > 0.0 else 0.0,
-            realised=3.0 * realised / linear**1.5 if linear > 0.0 else 0.0,
-        )
+                if totals is not None:
+                    totals.add(own, sign, pair.elevation * twice, chosen(pair) * twice)
+        return _Table(*tables)
 
     def cells(
         self, kind: str, t: float, rates: Sequence[int] = (0,), *, beyond: bool = False

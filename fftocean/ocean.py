@@ -595,9 +595,10 @@ class Ocean:
 
     def __repr__(self) -> str:
         g = self.grid
+        order = "" if self._bound is None else f", order=2, bound={self.bound}"
         return (
             f"Ocean({g.nx} x {g.ny}, {g.lx:g} x {g.ly:g} m, depth={self.depth:g}, "
-            f"loop={self.loop}, dtype={self.dtype!r})"
+            f"loop={self.loop}, dtype={self.dtype!r}{order})"
         )
 
 

@@ -1,5 +1,6 @@
 """
-Time series at probes, which stand at fixed points of the water, by linear wave theory.
+Time series at probes, which stand at fixed points of the water, by linear wave theory or, of the
+surface, to second order.
 
 At one point a wave is a phasor that turns with its frequency. So the waves of equal frequency are
 added once a probe, whatever the number of times, and three ways lead from the sums to a series:
@@ -22,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Complex, Real, RealLike, brief_repr
+from fftocean.bound_waves import BoundWaves
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
 from fftocean.errors import OutputError, ParameterError
@@ -31,7 +33,8 @@ from fftocean.kernels import passes
 from fftocean.limits import Quantity
 from fftocean.ocean import Ocean
 from fftocean.physics import dispersion
-from fftocean.wave_list import WaveList, list_waves, require_linear
+from fftocean.physics.second_order import Components, interaction
+from fftocean.wave_list import WaveList, list_waves
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -69,6 +72,7 @@ _BLOCK = 256  # steps of time that one matrix turns
 _TOGETHER = 24  # blocks that it turns together
 _CHUNK = 2048  # frequencies that it turns at once
 _PHASORS = 2**21  # of waves at probes that are held at once
+_PAIRS = 2**18  # pairs of waves that are held at once
 _ROUNDINGS = 8.0 * np.finfo(np.float64).eps  # by which equal steps may differ, of the latest time
 _TURNS = 64  # most loops after which the steps come round
 
@@ -117,7 +121,7 @@ class Series:
                 for name, values in self.values.items()
             },
             coordinates,
-            {"Conventions": "CF-1.8", "source": "fftocean", "theory": "linear waves"},
+            {"Conventions": "CF-1.8", "source": "fftocean"},
         )
 
     def write(self, path: str | Path) -> None:
@@ -146,7 +150,8 @@ def series(
     shortest: float = 0.0,
 ) -> Series:
     """
-    Return time series of the water at fixed points, by linear wave theory.
+    Return time series of the water at fixed points, by linear wave theory; an ocean of order 2 adds
+    its waves of second order to height and slopes.
 
     Heights are those of the linear surface above (x, y), as of `kinematics.at`: the water is not
     displaced horizontally, and choppiness has no part in it. `Query` has the displaced surface, at
@@ -168,13 +173,13 @@ def series(
         shortest: wavelength below which waves are left out [m].
 
     Raises:
-        ParameterError: a source without waves, one of second order, or one that starts from rest;
-            an unknown field; a level above the surface or below the bed; values that are not finite
-            numbers; more than fits into memory.
+        ParameterError: a source without waves, or one that starts from rest; a source of second
+            order that does not loop, or fields below its surface; an unknown field; a level above
+            the surface or below the bed; values that are not finite numbers; more than fits into
+            memory.
 
     Pinned by tests/test_probe_series.py, against sums over the waves at each time.
     """
-    require_linear(source, "a series")
     waves = list_waves(source, depth=depth, shortest=shortest)
     if waves.model is not None and waves.model.tau > 0.0:
         raise ParameterError(
@@ -196,12 +201,16 @@ def series(
             f"{levels.max():g} m"
         )
     columns = _columns(fields, levels)
+    if waves.bound is not None:
+        _require_second_order(waves, columns)
     require_memory(
         f"series of {t.size} times at {px.size} probes", 16 * t.size * px.size * len(columns)
     )
     out = np.zeros((t.size, px.size, len(columns)))
     for tile in range(len(waves.loops)):
         _add_tile(waves, tile, px, py, columns, t, out)
+    if waves.bound is not None:
+        _add_bound(waves, waves.bound, px, py, columns, t, out)
     return Series(t, px, py, levels, _by_field(columns, out, levels.size))
 
 
@@ -279,6 +288,72 @@ def _add_tile(
         times_of = _turned(ranked[first], loop, summed, t)
         for rows, values in times_of:
             out[rows, here] += values.reshape(values.shape[0], -1, len(columns))
+
+
+def _require_second_order(waves: WaveList, columns: list[tuple[str, float]]) -> None:
+    """
+    Raise where waves of second order cannot have a series.
+
+    Raises:
+        ParameterError: water without a loop, or fields below the surface.
+    """
+    if waves.loops[0] is None:
+        raise ParameterError(
+            "a series of second order needs an ocean that loops, Ocean(..., loop=600.0), in which "
+            "pairs of waves share their frequencies; or give ocean.linear()"
+        )
+    below = [name for name, _ in columns if name not in SURFACE]
+    if below:
+        raise ParameterError(
+            f"fields of a series of second order must be of {', '.join(SURFACE)}, got "
+            f"{below[0]!r}: give ocean.linear(), or take kinematics.at"
+        )
+
+
+def _add_bound(
+    waves: WaveList,
+    bound: BoundWaves,
+    x: Real,
+    y: Real,
+    columns: list[tuple[str, float]],
+    t: Real,
+    out: Real,
+) -> None:
+    """
+    Add the second-order waves of one looping tile to (times, probes, columns).
+
+    With z = h0 e^{i(k.x - omega t)} they are 2 Re of the sum over ordered pairs of C z_i z_j and of
+    C z_i conj(z_j). At a probe all pairs of equal cycles are one number.
+    """
+    parents, grid = bound.parents, bound.amplitudes.grid
+    waves_of = Components(parents.mx * grid.dkx, parents.my * grid.dky, parents.omega)
+    cycles, loop = np.rint(parents.frequency).astype(np.int64), waves.loops[0]
+    most = int(np.max(cycles, initial=0))
+    near_x, near_y = np.fmod(x, grid.lx), np.fmod(y, grid.ly)
+    angle = waves_of.kx[:, None] * near_x + waves_of.ky[:, None] * near_y
+    z = parents.h0[:, None] * np.exp(1j * angle)
+    summed = np.zeros((3 * most + 1, x.size, len(columns)), dtype=np.complex128)
+    rows = max(1, _PAIRS // max(cycles.size, 1))
+    for start in range(0, cycles.size, rows):
+        ours = slice(start, start + rows)
+        first = waves_of.part((ours, None))
+        for sign in (1, -1):
+            second = waves_of if sign > 0 else waves_of.conjugate
+            factor = interaction(first, second, waves.depth).elevation
+            kx, ky = first.kx + second.kx, first.ky + second.ky
+            factor = np.where(np.hypot(kx, ky) * waves.shortest <= 2.0 * np.pi, factor, 0.0)
+            bins = (cycles[ours, None] + sign * cycles + most).ravel()
+            other = z if sign > 0 else np.conj(z)
+            for probe in range(x.size):
+                pairs = factor * z[ours, probe, None] * other[:, probe]
+                for i, (name, _) in enumerate(columns):
+                    along = {"height": 1.0, "slope_x": 1j * kx, "slope_y": 1j * ky}[name]
+                    product = (pairs * along).ravel()
+                    for part, turn in ((product.real, 1.0), (product.imag, 1j)):
+                        summed[:, probe, i] += turn * np.bincount(bins, part, summed.shape[0])
+    rate = np.arange(-most, 2 * most + 1, dtype=np.float64)
+    for times, values in _turned(rate, loop, 2.0 * summed.reshape(rate.size, -1), t):
+        out[times] += values.reshape(values.shape[0], x.size, -1)
 
 
 def _factor(name: str, z: float, kx: Real, ky: Real, omega: Real, depth: float) -> Any:

@@ -472,3 +472,15 @@ def test_waves_of_a_moving_sea_cannot_be_constrained_ones():
 def test_bad_input_is_refused(make, says):
     with pytest.raises(fo.ParameterError, match=says):
         make()
+
+
+def test_plots_say_what_was_fixed():
+    """The sheet of a job's ocean names the crest, and does not rate its height by chance."""
+    sea = fo.constrained(ocean(n=32), CREST)
+    sheet = fo.plots.plot_job(sea)
+    titles = [
+        sheet.get_suptitle(),
+        *(part.get_suptitle() for row in sheet.subfigs for part in row.subfigs),
+    ]
+    assert "with crest of 3.3 m at (123.4, 77.7) m, 13.1 s" in titles[0]
+    assert any(title.endswith("with fixed values in it") for title in titles)

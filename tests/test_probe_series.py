@@ -141,6 +141,30 @@ def test_tiles_of_a_cascade_add_up_each_on_its_own_loop():
     assert np.max(np.abs(found["height"][:, 2] - expected)) < 1e-9
 
 
+@pytest.mark.parametrize("depth", [DEPTH, math.inf])
+def test_second_order_is_that_of_kinematics(depth):
+    """
+    `kinematics` adds the bound waves cell by cell at each time; here the pairs of equal cycles are
+    one number, in whatever order: 1e-9 m are roundings. Slopes by central differences, 1e-6.
+    """
+    sea = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=depth)
+    tile = {"n": 24, "size": 90.0, "seed": 3, "loop": 40.0, "dtype": "float64"}
+    water = fo.Ocean(sea, order=2, bound=60, **tile)
+    linear = fo.series(water.linear(), X, Y, [0.0])["height"]
+    for t in (0.25 * np.arange(160), 3.0 + 0.1 * math.pi * np.arange(50), np.array([2.0, -7.7])):
+        found = fo.series(water, X, Y, t, ("height", "slope_x", "slope_y"))
+        some = np.arange(t.size)[:: max(1, t.size // 4)]
+        for probe in range(3):
+            expected = fo.kinematics.at(water, X[probe], Y[probe], 0.0, t[some]).heights
+            assert found["height"][some, probe] == pytest.approx(expected, abs=1e-9)
+        d = 1e-3
+        for name, (dx, dy) in {"slope_x": (d, 0.0), "slope_y": (0.0, d)}.items():
+            rise = [fo.series(water, X + s * dx, Y + s * dy, t)["height"] for s in (1.0, -1.0)]
+            assert found[name] == pytest.approx((rise[0] - rise[1]) / (2.0 * d), abs=1e-6)
+    second = fo.series(water, X, Y, [0.0])["height"] - linear
+    assert np.max(np.abs(second)) > 1e-3
+
+
 def test_many_probes_are_taken_in_turn(monkeypatch):
     monkeypatch.setattr(probe_series, "_PHASORS", 1)
     t = 0.25 * np.arange(160)
@@ -167,7 +191,11 @@ def test_waves_of_a_list_and_of_a_few_wave_model():
         ({"fields": ("depth",)}, "fields must be of height, slope_x"),
         ({"z": 0.1}, "z must be from the bed at -12 m to 0, got 0.1 to 0.1 m"),
         ({"z": -12.5}, "z must be from the bed"),
-        ({"source": fo.Ocean(SEA, n=8, size=90.0, order=2)}, r"give ocean\.linear\(\)"),
+        ({"source": fo.Ocean(SEA, n=8, size=90.0, order=2)}, "needs an ocean that loops"),
+        (
+            {"source": fo.Ocean(SEA, n=8, size=90.0, order=2, loop=40.0), "fields": ("pressure",)},
+            "must be of height, slope_x, slope_y, got 'pressure'",
+        ),
     ],
 )
 def test_bad_arguments_are_refused(change, rule):

@@ -96,7 +96,6 @@ def drawn(browser, name, scene, tick, size, foam):
         "foam": foam,
         "answer": "image",
     }
-    picture.update(scene.get("more", {}))
     (answer,), _ = browser.run("picture.html", {"pictures": [picture]})
     if answer["error"]:
         raise RuntimeError(f"{name}: WebGL error {answer['error']}")

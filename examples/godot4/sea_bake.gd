@@ -154,6 +154,8 @@ func _load(folder: String, map: String, manifest: Dictionary, images: Array[Imag
 					images.append(array.get_layer_data(i))
 			else:
 				var whole := _image(path)
+				if whole == null:
+					return "%s could not be read" % path
 				for i in count:
 					@warning_ignore("integer_division")
 					var corner := Vector2i(i % across * columns, i / across * rows)

@@ -12,6 +12,13 @@ var tiles: Array[Dictionary] = [] # n, size, h0, wave
 var strongest: Array[Dictionary] = [] # kx, ky, cycles, re, im, factor
 var neglected := 0.0 # rms of the height of the waves left out of `strongest` [m]
 var tick := 0
+# Of the strongest waves: wavenumber along X and Z [rad/m], 1/(k tanh kh) times choppiness [m], and
+# amplitude at the tick [m].
+var kx := PackedFloat64Array()
+var kz := PackedFloat64Array()
+var factor := PackedFloat64Array()
+var real := PackedFloat64Array()
+var imaginary := PackedFloat64Array()
 
 
 func _init(folder: String, most := 256) -> void:
@@ -38,6 +45,13 @@ func _read(folder: String, most: int) -> String:
 			return wrong
 	all.sort_custom(func(a: Dictionary, b: Dictionary) -> bool: return a["energy"] > b["energy"])
 	strongest = all.slice(0, most)
+	for wave in strongest:
+		kx.append(wave["kx"])
+		kz.append(-wave["ky"]) # Z is south
+		factor.append(wave["factor"] * float(document["choppiness"]))
+	real.resize(strongest.size())
+	imaginary.resize(strongest.size())
+	set_time(0.0)
 	for wave: Dictionary in all.slice(most):
 		neglected += 2.0 * wave["energy"]
 	neglected = sqrt(neglected)
@@ -95,10 +109,10 @@ func _read_tile(folder: String, index: int, all: Array[Dictionary]) -> String:
 			return "wave %d of %s must lie in the grid, got (%d, %d)" % [i, path, mx, my]
 		if not is_finite(re) or not is_finite(im):
 			return "wave %d of %s must be finite" % [i, path]
-		var kx := TAU * mx / lx
-		var ky := TAU * my / ly
-		var k := sqrt(kx * kx + ky * ky)
-		var factor := 1.0 / (k * (1.0 if depth == null else tanh(k * float(depth))))
+		var k_east := TAU * mx / lx
+		var k_north := TAU * my / ly
+		var k := sqrt(k_east * k_east + k_north * k_north)
+		var over := 1.0 / (k * (1.0 if depth == null else tanh(k * float(depth))))
 		var here := posmod(my, ny) * nx + posmod(mx, nx)
 		var there := posmod(-my, ny) * nx + posmod(-mx, nx)
 		h0[4 * here] = re
@@ -107,38 +121,42 @@ func _read_tile(folder: String, index: int, all: Array[Dictionary]) -> String:
 		h0[4 * there + 3] = -im
 		for one: int in [here, there]:
 			wave[2 * one] = cycles
-			wave[2 * one + 1] = factor
-		var row := {"kx": kx, "ky": ky, "cycles": cycles, "factor": factor, "re": re, "im": im}
+			wave[2 * one + 1] = over
+		var row := {"kx": k_east, "ky": k_north, "cycles": cycles, "factor": over, "re": re, "im": im}
 		row["energy"] = re * re + im * im
 		all.append(row)
 	tiles.append({"n": Vector2i(nx, ny), "size": Vector2(lx, ly), "h0": h0, "wave": wave})
 	return ""
 
 
-# Set the time [s], to a whole tick of the loop.
+# Set the time [s], to a whole tick of the loop. The phase of a wave there is exact for ever: cycles
+# times tick is a whole number.
 func set_time(seconds: float) -> void:
 	var ticks := int(document["ticks"])
 	tick = int(fposmod(seconds / float(document["loop"]), 1.0) * ticks) % ticks
-
-
-# Phase of a wave at the tick [radians], exact for ever: cycles times tick is a whole number.
-func phase_of(wave: Dictionary) -> float:
-	var ticks := int(document["ticks"])
-	return TAU * ((int(wave["cycles"]) * tick) % ticks) / ticks
+	for i in strongest.size():
+		var wave := strongest[i]
+		var phase := TAU * ((int(wave["cycles"]) * tick) % ticks) / ticks
+		var c := cos(phase)
+		var s := sin(phase)
+		real[i] = 2.0 * (wave["re"] * c + wave["im"] * s)
+		imaginary[i] = 2.0 * (wave["im"] * c - wave["re"] * s)
 
 
 # Displacement along X, Y (up), Z (south) of the water that rests at (x, z), of the strongest waves.
 func rest_at(x: float, z: float) -> Vector3:
-	var choppiness: float = document["choppiness"]
-	var sum := Vector3.ZERO
-	for wave in strongest:
-		var phase: float = wave["kx"] * x - wave["ky"] * z - phase_of(wave)
+	var moved_x := 0.0
+	var height := 0.0
+	var moved_z := 0.0
+	for i in kx.size():
+		var phase := kx[i] * x + kz[i] * z
 		var c := cos(phase)
 		var s := sin(phase)
-		var real: float = 2.0 * (wave["re"] * c - wave["im"] * s)
-		var imaginary: float = 2.0 * (wave["re"] * s + wave["im"] * c) * wave["factor"] * choppiness
-		sum += Vector3(-wave["kx"] * imaginary, real, wave["ky"] * imaginary)
-	return sum
+		height += real[i] * c - imaginary[i] * s
+		var across := factor[i] * (real[i] * s + imaginary[i] * c)
+		moved_x -= kx[i] * across
+		moved_z -= kz[i] * across
+	return Vector3(moved_x, height, moved_z)
 
 
 # Height of the water at a place of the world [m].
@@ -151,17 +169,10 @@ func height_at(x: float, z: float) -> float:
 	return moved.y
 
 
-# The strongest waves as texels, two a wave, for a shader that sums them: (kx, -ky, re, im) with the
-# phase of the tick in re and im, and (factor with choppiness, 0, 0, 0).
+# The strongest waves as texels, two a wave, for a shader that sums them: wavenumber along X and Z,
+# amplitude (re, im) at the tick; and 1/(k tanh kh) times choppiness.
 func texels() -> PackedFloat32Array:
 	var found := PackedFloat32Array()
-	var choppiness: float = document["choppiness"]
-	for wave in strongest:
-		var phase := phase_of(wave)
-		var c := cos(phase)
-		var s := sin(phase)
-		var re: float = 2.0 * (wave["re"] * c + wave["im"] * s)
-		var im: float = 2.0 * (wave["im"] * c - wave["re"] * s)
-		found.append_array([wave["kx"], -wave["ky"], re, im])
-		found.append_array([wave["factor"] * choppiness, 0.0, 0.0, 0.0])
+	for i in kx.size():
+		found.append_array([kx[i], kz[i], real[i], imaginary[i], factor[i], 0.0, 0.0, 0.0])
 	return found

@@ -127,7 +127,7 @@ fn web(at: vec2f) -> f32 {
 
 // Share of a pixel that foam covers: coverage, broken up.
 fn foam_at(rest: vec2f, pixel: f32) -> f32 {
-  let window = textureSampleBias(foam_map, repeating, view.foam.xy + rest * view.foam.z, 1.2).x;
+  let window = textureSampleBias(foam_map, repeating, view.foam.xy + rest * view.foam.z, 1.8).x;
   let edge = 2.0 * max(abs(rest.x), abs(rest.y)) * view.foam.z;
   let mean = textureLoad(foam_map, vec2u(0u), textureNumLevels(foam_map) - 1u).x;
   let cover = mix(window, mean, smoothstep(0.75, 0.98, edge));
@@ -135,7 +135,7 @@ fn foam_at(rest: vec2f, pixel: f32) -> f32 {
   let bend = vec2f(smooth_noise(at), smooth_noise(at + 37.0));
   let fine = 0.55 * web(at + bend) + 0.45 * web(3.0 * at + 2.0 * bend);
   let noise = 0.7 * fine + 0.3 * smooth_noise(0.5 * at);
-  let broken = smoothstep(0.0, 0.55, 1.3 * noise - 1.3 + 1.25 * pow(cover, 0.6));
+  let broken = smoothstep(0.0, 0.75, 1.4 * noise - 1.4 + 1.2 * pow(cover, 0.5));
   return mix(broken, cover, smoothstep(0.1, 0.6, pixel));
 }
 

@@ -12,7 +12,7 @@ from fftocean.baking.folder import engine_files, layout, listing
 from fftocean.baking.folder.journal import Listen, Progress
 from fftocean.baking.folder.layout import CASCADE_FILE, CASCADE_JOB, MANIFEST_FILE
 from fftocean.baking.folder.lock import locked, require_free
-from fftocean.baking.folder.ownership import engine_files_in
+from fftocean.baking.folder.ownership import files_of_bake
 from fftocean.baking.folder.sealed import sealed
 from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile
@@ -192,7 +192,7 @@ def _remove_earlier(folder: Path) -> None:
     if layout.is_cascade(folder):
         listing.remove_cascade(folder)
     if (folder / layout.JOB_FILE).is_file() or (folder / MANIFEST_FILE).is_file():
-        for path in (*layout.bake_files(folder), *engine_files_in(folder)):
+        for path in {*layout.bake_files(folder), *files_of_bake(folder)}:
             remove(path)
         remove(folder / MANIFEST_FILE)
         remove(folder / layout.JOB_FILE)

@@ -63,10 +63,10 @@ def print_loading(job: "Job") -> None:
 
 def print_video_memory(listed: Mapping[str, Any], frames: int) -> None:
     """Print the video memory of the maps of a bake or of all tiles of a cascade."""
-    held = listed["video_memory"]
+    held, s = listed["video_memory"], "s" * (frames != 1)
     print(
         f"video memory of the maps in an engine: {size_in_words(held['bytes'])} for {frames} "
-        f"frames; with mip levels {size_in_words(held['bytes_with_all_levels'])}"
+        f"frame{s}; with mip levels {size_in_words(held['bytes_with_all_levels'])}"
     )
 
 

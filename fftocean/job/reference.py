@@ -5,8 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from fftocean.fields import FIELDS
+from fftocean.job.fixed_tables import CREST, FIX
 from fftocean.job.parameters import PARAMETERS, Parameter
-from fftocean.limits import Count, Quantity
+from fftocean.limits import LENGTH, Count, Quantity
 from fftocean.physics import presets  # noqa: F401  registers the spectra of its numbers
 from fftocean.physics.kinds import Choice, Kind, Numbers, Part, Switch
 from fftocean.physics.spectra import SPECTRA
@@ -58,9 +60,34 @@ SYSTEM_ROWS = (
 )
 
 
+PLACE_ROWS = (
+    ("x", "m", "place along x"),
+    ("y", "m", "place along y"),
+    ("t", "s", "time; the crest or value comes back with every loop"),
+)
+FIXED_ROWS = (
+    Row(
+        f"{CREST}[].height",
+        f"{LENGTH.rule}, not 0",
+        "",
+        "height of a crest that the water is made to have, below 0 a trough; "
+        "fftocean info says how rare it is",
+    ),
+    *(Row(f"{CREST}[].{k}", f"a number of {unit}", "0", text) for k, unit, text in PLACE_ROWS),
+    Row(
+        f"{FIX}[].field",
+        f"one of {', '.join(FIELDS)}",
+        "",
+        "field of which the water is made to have one value",
+    ),
+    *(Row(f"{FIX}[].{k}", f"a number of {unit}", "0", text) for k, unit, text in PLACE_ROWS),
+    Row(f"{FIX}[].value", "a number, in the unit of the field", "", "that value"),
+)
+
+
 def key_rows() -> tuple[Row, ...]:
     """Return one row for each key of a job file, in the order of the table of parameters."""
-    return (*(_row(parameter) for parameter in PARAMETERS), *SYSTEM_ROWS)
+    return (*(_row(parameter) for parameter in PARAMETERS), *SYSTEM_ROWS, *FIXED_ROWS)
 
 
 def _row(parameter: Parameter) -> Row:

@@ -48,7 +48,7 @@ def draw_realised(figure: "FigureBase", ocean: Ocean) -> None:
         title = "Realised: the tile is exactly flat"
         write_message(figure, title, "No waves were specified, and the tile has none.")
         return
-    figure.suptitle(_headline(statistics), x=0.01, ha="left")
+    figure.suptitle(_headline(statistics, fixed=ocean.rarity is not None), x=0.01, ha="left")
     ax, below = figure.subplots(2, 1, height_ratios=(3.0, 1.15))
     realised = realised_spectrum(ocean)
     high = _highest_drawn(realised) if sea is None else energetic_band(sea)[1]
@@ -128,8 +128,12 @@ def _shade_outside(ax: "Axes", ocean: Ocean, high: float) -> None:
             ax.text(middle, 0.97, words, transform=transform, rotation=90, **_IN_SHADE)
 
 
-def _headline(statistics: Statistics) -> str:
-    """Return one line on how the realised height differs from the specified one, and why."""
+def _headline(statistics: Statistics, *, fixed: bool) -> str:
+    """
+    Return one line on how the realised height differs from the specified one, and why.
+
+    Waves with fixed values are no draw of the sea, to be rated by chance.
+    """
     hs = three_digits(statistics.hs)
     if statistics.specified is None:
         return f"Realised: the given waves, Hs {hs} m"
@@ -137,6 +141,8 @@ def _headline(statistics: Statistics) -> str:
     if statistics.resolved < 0.9 * statistics.specified.m0:
         lost = "the rest" if statistics.m0 > NEGLIGIBLE else "any of it"
         return f"{both}; this tile cannot hold {lost}"
+    if fixed:
+        return f"{both}, with fixed values in it"
     scatter = _scatter_of_hs(statistics)
     if scatter > 0.0:
         deviation = abs(statistics.hs - 4.0 * math.sqrt(statistics.resolved)) / scatter

@@ -14,11 +14,14 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Final
 
+import numpy as np
+
 from fftocean.cascade import Cascade, from_oceans
 from fftocean.errors import ParameterError, SeaWarning
 from fftocean.foam import Foam
 from fftocean.moving_amplitudes import MovingAmplitudes
 from fftocean.physics.sea import Sea
+from fftocean.polar_spectrum import polar_spectrum
 from fftocean.runtime import pack, to_bytes
 from fftocean.slope_variance import slope_variance
 from fftocean.view import protocol
@@ -28,6 +31,9 @@ from fftocean.view.worker import Worker
 REST: Final = 0.15  # seconds without a change, after which the exact sea is made
 PAUSE: Final = 0.05  # shortest time between two seas while values change [s]
 KEPT: Final = 2  # exact seas
+
+_POLAR_RINGS, _POLAR_SECTORS = 20, 36
+_POLAR_PEAKS = 5.0  # highest frequency of the polar plot, in peaks
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,6 +77,7 @@ def make_exact(
         )
         few = _few_waves_of(state, cascade.sea, package.document["ticks"])
     package.document.update(id=number, few_waves=few, slope_variance=_roughness_of(state, cascade))
+    _add_polar(package.document, cascade.sea)
     notes = tuple(
         dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, SeaWarning))
     )
@@ -78,6 +85,22 @@ def make_exact(
         notes = before.notes
     data = to_bytes(package)
     return MadeSea(number, state, "exact", data, package.document, notes, cascade)
+
+
+def _add_polar(document: dict[str, Any], sea: Sea | None) -> None:
+    """
+    Add the specified density by frequency and direction to a document's spectrum.
+
+    `highest` is the frequency at the outer edge of the last ring [Hz], where the first one begins
+    at 0; sectors begin at east, counter-clockwise; densities are relative to the largest one.
+    """
+    specified, spectrum = document["statistics"]["specified"], document["spectrum"]
+    if sea is None or spectrum is None or not specified["tp"] > 0.0:
+        return
+    highest = _POLAR_PEAKS / specified["tp"]
+    density = polar_spectrum(sea, highest, _POLAR_RINGS, _POLAR_SECTORS).density
+    relative = np.round(density / max(float(density.max()), 1e-300), 3)
+    spectrum["polar"] = {"highest": highest, "density": relative.tolist()}
 
 
 def _cascade_of(state: State, before: MadeSea | None) -> Cascade:

@@ -736,12 +736,12 @@ def test_impossible_water_is_refused_before_a_folder_is_made(tmp_path):
 
 @pytest.mark.usefixtures("quick")
 def test_a_frame_that_no_half_can_hold_is_an_output_error_that_names_it(tmp_path):
-    """Waves of 90 m in a film of water push it 300 km to and fro."""
-    swell = {"spectrum": {"kind": "jonswap", "hs": 90.0, "tp": 30.0}}
+    """Tides of 90 m in 160 m of water push it 200 km to and fro."""
+    tide = {"kind": "tabulated", "frequency": [5e-6, 1e-5, 2e-5], "density": [0.0, 7e7, 0.0]}
     film = fo.Job.from_tree(
         {
-            "sea": {"depth": 1e-6, "systems": [swell]},
-            "ocean": {"n": 8, "size": 0.4},
+            "sea": {"depth": 160.0, "systems": [{"spectrum": tide}]},
+            "ocean": {"n": 8, "size": 4e6},
             "bake": {"frames": 1},
         }
     )

@@ -245,3 +245,28 @@ def test_godot_imports_every_frame_as_data(tmp_path):
     assert repair(tmp_path, executor="serial") == before
     bake(job("canonical"), tmp_path, overwrite=True)
     assert not list(tmp_path.rglob("*.import"))
+
+
+def test_settings_that_godot_made_itself_are_the_users(tmp_path):
+    """Godot writes an `.import` beside every image: beside other engines' images it is no extra."""
+    bake(job("canonical", "exr"), tmp_path)
+    own = tmp_path / "displacement" / "0000.exr.import"
+    own.write_text("Godot's own")
+    assert fo.check(tmp_path) == ()
+    repair(tmp_path, executor="serial")
+    bake(job("blender", "exr"), tmp_path, overwrite=True)
+    assert own.read_text() == "Godot's own"
+
+
+@pytest.mark.parametrize(
+    ("engine", "form", "changes", "words"),
+    [
+        ("three", "bin", {}, "to play it with three: `npm install three`"),
+        ("three", "npz", {}, "no files to play it with three: they read exr, "),
+        ("three", "bin", {"bake__maps": ["foam"]}, "with three: they need one of displacement"),
+        ("three", "bin", {"bake__engine_files": False}, "bake.engine_files is false"),
+        ("houdini", "exr", {}, "no files to play it with houdini: docs/engines.md"),
+    ],
+)
+def test_a_bake_says_what_plays_it(engine, form, changes, words):
+    assert words in engine_files.in_words(job(engine, form, **changes).describe())

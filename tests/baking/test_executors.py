@@ -139,10 +139,10 @@ def test_work_that_kills_its_workers_is_given_up(tmp_path, monkeypatch):
 
 def test_an_error_of_a_worker_is_that_of_the_bake(tmp_path):
     """Its kind, its words and its exit code; no worker is left."""
-    swell = {"spectrum": {"kind": "jonswap", "hs": 90.0, "tp": 30.0}}
+    tide = {"kind": "tabulated", "frequency": [5e-6, 1e-5, 2e-5], "density": [0.0, 7e7, 0.0]}
     film = {
-        "sea": {"depth": 1e-6, "systems": [swell]},
-        "ocean": {"n": 8, "size": 0.4},
+        "sea": {"depth": 160.0, "systems": [{"spectrum": tide}]},
+        "ocean": {"n": 8, "size": 4e6},
         "bake": {"frames": 4, "maps": ["displacement"]},
     }
     with pytest.raises(

@@ -86,7 +86,7 @@ def test_any_folder_name_is_accepted(run):
         code, out, err = run("bake", "-o", name, *SMALL)
         assert (code, err) == (0, "")
         assert Path(name, "manifest.json").exists()
-        assert len(out.splitlines()) == 4
+        assert len(out.splitlines()) == 5
 
 
 @pytest.mark.usefixtures("fast_bakes")

@@ -2,8 +2,8 @@
 // started once and ends with stdin. Usage: node driver.mjs CHROMIUM NODE_MODULES [webgl|webgpu]
 //
 // {url, args}: open the page, call its `run(args)`, close it; answer {value, log, failures}.
-// {open, url, width, height, reducedMotion, before}: open a page under the name `open` and keep it; `before` is a script that runs
-// before the page's own.
+// {open, url, width, height, reducedMotion, before, empty}: open a page under the name `open` and keep it; `before` is a script that
+// runs before the page's own; modules whose address matches `empty` are empty.
 // {page, steps}: do steps on a page that is open; answer {value: one result a step, log, failures, requests} since the last answer.
 // {close}: close a page. A step is one of
 //   {evaluate} an expression, and its value            {until} an expression that must come true; its value
@@ -36,7 +36,7 @@ answer({ browser: browser.version() });
 const POLL = 50; // [ms] between two looks at a condition; it costs a page under a strict policy nothing
 
 /** Return a new page with lists of what it says, what fails and what it asks for. */
-async function newPage({ width = 320, height = 200, reducedMotion, before }) {
+async function newPage({ width = 320, height = 200, reducedMotion, before, empty }) {
   const log = [], failures = [], requests = [];
   const options = { viewport: { width, height }, reducedMotion: reducedMotion ? 'reduce' : 'no-preference' };
   const context = await browser.newContext(options);
@@ -51,10 +51,12 @@ async function newPage({ width = 320, height = 200, reducedMotion, before }) {
   page.on('websocket', (socket) => requests.push(socket.url()));
   page.on('download', (file) => requests.push(`download: ${file.suggestedFilename()}`));
   if (before) await page.addInitScript(before);
+  const nothing = { contentType: 'text/javascript', body: 'export {};' };
+  if (empty) await page.route(new RegExp(empty), (route) => route.fulfill(nothing));
   return { context, page, log, failures, requests };
 }
 
-const PATIENCE = 40e3; // [ms] less than the test's own, so that one that waits in vain does not take the browser with it
+const PATIENCE = 150e3; // [ms] less than the test's own, so that one that waits in vain does not take the browser with it
 
 /** Return the value of an expression once it is true. */
 async function until(page, expression) {

@@ -6,16 +6,19 @@ sight. The server's state is read by a client of its own.
 
 import base64
 import contextlib
+import io
 import json
 import re
 import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from conftest import ROOT, require
+from PIL import Image
 
-from fftocean.view.page_files import TYPES
+from fftocean.view.page_files import PARTS, TYPES
 
 pytest.importorskip("websockets")
 from websockets.sync.client import connect  # after the skip
@@ -138,6 +141,54 @@ def test_the_page_asks_for_its_own_files_alone(server, page):
     assert all(url.startswith((site, site.replace("http", "ws"))) for url in page.requests)
     assert paths <= {"/", "/parameters.json", "/socket", *(f"/{name}" for name in TYPES)}
     assert server.address.split("#")[1] not in "".join(url.split("#")[0] for url in page.requests)
+
+
+def test_the_core_alone_shows_the_sea(browser, server):
+    """With all parts of the page empty, even its interface, the sea is there."""
+    parts = "|".join(name.removesuffix(".js") for name in PARTS)
+    options = {**SMALL, "empty": f"/(?:{parts})\\.js$"}
+    with browser.page(server.address, **options) as page:
+        page.until("document.querySelector('canvas.sea')?.width !== 300")  # of a canvas not drawn
+        page.until(
+            "document.querySelector('.without-scripts')"
+        )  # what says that the rest is missing
+        image = Image.open(io.BytesIO(page.screenshot())).convert("L")
+        sky, water = (np.asarray(image.crop((0, top, 320, top + 60))) for top in (10, 100))
+        assert sky.mean() > water.mean() + 20
+        assert np.abs(np.diff(water.astype(float), axis=1)).mean() > 1.0  # waves
+        scripts = {url.rsplit("/", 1)[1] for url in page.requests if url.endswith(".js")}
+        assert scripts - set(PARTS) == {"page.js", "core.js"}
+
+
+def test_short_names_are_none_of_the_browser_s(page):
+    """No property that becomes short in the bundle, and no constant, is another in the browser."""
+    web = PAGE.parent / "web"
+    short = json.loads((web / "short_names.json").read_text())["properties"]
+    clash = page.evaluate(
+        f"""(() => {{
+          const seen = new Set(), names = new Set();
+          const visit = (one, depth) => {{
+            if (one === null || !['object', 'function'].includes(typeof one)) return;
+            if (seen.has(one) || depth > 5) return;
+            seen.add(one);
+            for (const [name, about] of Object.entries(Object.getOwnPropertyDescriptors(one))) {{
+              names.add(name);
+              if ('value' in about) visit(about.value, depth + 1);
+            }}
+            visit(Object.getPrototypeOf(one), depth + 1);
+          }};
+          for (const name of Object.getOwnPropertyNames(globalThis)) {{
+            if (name !== 'fftocean' && /^[A-Z]/.test(name)) visit(globalThis[name], 0);
+          }}
+          return {json.dumps(short)}.filter((name) => names.has(name));
+        }})()"""
+    )
+    assert clash == []
+    constants = json.loads((web / "gl_constants.json").read_text())
+    known = page.evaluate(
+        f"{json.dumps([*constants])}.map((name) => [name, WebGL2RenderingContext[name]])"
+    )
+    assert dict(known) == constants
 
 
 def test_a_still_picture_stays_and_a_moving_one_changes(page):

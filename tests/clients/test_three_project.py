@@ -238,6 +238,41 @@ def test_a_bake_plays_at_once(browser, npm, format_):
     assert foam.max() > 0.1
 
 
+@pytest.mark.parametrize(
+    ("format_", "maps"),
+    [("bin", ["displacement", "normal"]), ("exr", ["normal", "height"]), ("bin", ["displacement"])],
+)
+def test_a_bake_without_slopes_is_lit_by_what_it_has(browser, npm, format_, maps):
+    """By its normals, which are those of the displaced surface; else by differences over texels."""
+    label = "-".join(maps)
+    asked, folder = baked(browser, "three", format_, maps, label)
+    with_three(folder, npm)
+    water, size = truth(asked), asked.settings["ocean.size"]
+    rests, j, i = samples(N, size)
+    with opened(browser, folder) as (page, said):
+        assert said == "ready"
+        found = probed(page, rests, LOOP / FRAMES)
+    fields = {key: values[1] for key, values in water.items()}
+    if "normal" in maps:
+        slopes = [-fields[f"normal_{axis}"] / fields["normal_z"] for axis in "xy"]
+        stretch = np.zeros_like(slopes[0])
+    else:
+        steps = [side / count for side, count in zip(size, N, strict=True)]
+        slopes = [
+            central(fields["z"], axis, step) for axis, step in zip((1, 0), steps, strict=True)
+        ]
+        stretch = central(fields["x"], 1, steps[0])
+    expected = np.stack([slopes[0][j, i], -slopes[1][j, i], stretch[j, i]], axis=1)
+    steep = np.abs(expected).max()
+    assert np.abs(found[:, 4:7] - expected).max() <= 0.01 * steep
+    assert steep > 0.1
+
+
+def central(field, axis, step):
+    """Return the central difference along an axis of a periodic field."""
+    return (np.roll(field, -1, axis) - np.roll(field, 1, axis)) / (2.0 * step)
+
+
 def test_a_bake_of_several_tiles_is_summed(browser, npm):
     """The sums of the water are those that `fo.load(...).summed` makes of the same files."""
     folder = browser.site.folders["bakes"] / "three-project-tiles"

@@ -42,6 +42,21 @@ SEND = """(async () => {
   return found;
 })()"""
 
+HEIGHTS = """(async () => {
+  const { sea } = await globalThis.ready, { STORAGE, COPY_SRC, COPY_DST } = GPUBufferUsage;
+  const places = new Float32Array(PLACES), points = places.length / 2;
+  const make = (size) => sea.device.createBuffer({ size, usage: STORAGE | COPY_SRC | COPY_DST });
+  const given = make(places.byteLength), answers = make(32 * points);
+  sea.device.queue.writeBuffer(given, 0, places);
+  sea.set({ tick: 54321, points });
+  const others = { 7: { buffer: answers }, 8: { buffer: given } };
+  const numbers = await sea.read(7, (pass) => {
+    sea.frame(pass);
+    sea.dispatch(pass, 'heights', [Math.ceil(points / 64)], others);
+  }, answers);
+  return Array.from(numbers);
+})()"""
+
 PLATFORM = """(async () => {
   const { Sea } = await import('./sea.js'), { selfCheck } = await import('./check.js');
   const changed = (text) => text.replace(/fn phasor\\([^]*?\\n}/,
@@ -119,6 +134,21 @@ def test_every_field_equals_that_of_python(page, water, seas):
                 size = np.linalg.norm(frame[name])
                 assert np.linalg.norm(seen - frame[name]) <= FIELDS * size, (tick, name)
     assert not sent
+
+
+def test_heights_at_points_are_those_of_the_library(page, water, seas):
+    """Beside the sum of all waves; between samples the kernel interpolates the shortest ones."""
+    opened, _ = page
+    x, y = np.random.default_rng(4).uniform(-200, 200, (2, 100)).astype(np.float32).astype(float)
+    places = json.dumps(np.stack([x, y], axis=-1).ravel().tolist())
+    seen = np.reshape(opened.evaluate(HEIGHTS.replace("PLACES", places)), (100, 8))
+    ticks = json.loads((seas / "whole" / "sea.json").read_text(encoding="utf-8"))["ticks"]
+    answer = fo.Query(water, mode="exact").at(x, y, LOOP * 54321 / ticks)
+    calm = ~answer.folded & (seen[:, 7] > 0.3)
+    assert calm.sum() > 90
+    apart = (seen[:, 2] - answer.heights)[calm]
+    assert np.sqrt(np.mean(apart**2)) <= 0.005 * np.std(answer.heights)
+    assert seen[calm, 3].max() <= 1e-3
 
 
 def test_the_picture_shows_sky_water_glitter_and_foam(page):

@@ -126,8 +126,8 @@ class Browser:
 
         Args:
             url: any address.
-            options: `width` and `height` of the window, `reducedMotion`, and `before`, a script
-                that runs before the page's own.
+            options: `width` and `height` of the window, `reducedMotion`, `before`, a script that
+                runs before the page's own, and `empty`, a pattern of modules that are empty.
         """
         name = f"page {next(self._names)}"
         opened = Page(self, name)

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 from builders import job_text
-from fftocean.view.job_text import job_text as text_of
 
 import fftocean as fo
+from fftocean.job.job_text import job_text as text_of
 
 SMALL = {"ocean__n": 32, "ocean__size": 100.0, "ocean__loop": 40.0, "sea__wind__speed": 8.0}
 CREST = "[[ocean.crest]]\nheight = 1.2\nx = 30\ny = 20.5\nt = 3.0\n"

@@ -100,7 +100,7 @@ def rogue_sea(row):
     variance = (density * np.gradient(f))[:, None] * (spread / spread.sum())
     k = fo.dispersion.wavenumber(2.0 * np.pi * f, depth)
     waves = components(k[:, None] * np.cos(theta), k[:, None] * np.sin(theta), depth)
-    return waves.part(variance > 1e-7 * variance.max()), variance[variance > 1e-7 * variance.max()]
+    return waves.part(variance > 1e-5 * variance.max()), variance[variance > 1e-5 * variance.max()]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: "-".join(row.values()))

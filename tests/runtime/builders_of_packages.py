@@ -71,5 +71,9 @@ def put(package, folder):
 
 
 def tree(folder):
-    """Return the contents of every file of a folder by name."""
-    return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+    """Return the contents of every file in a folder and below it, by path with slashes."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }

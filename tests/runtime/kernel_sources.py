@@ -84,9 +84,11 @@ def device():
     except ImportError:
         wgpu = None
     require(wgpu, "the package wgpu is not installed")
-    try:
-        adapter = wgpu.gpu.request_adapter_sync()
-    except RuntimeError:
-        adapter = None
-    require(adapter, "there is no graphics processor, and no software Vulkan (lavapipe)")
-    return adapter.request_device_sync()
+    # wgpu falls back to OpenGL, whose shaders it cannot write in every case
+    adapters = [
+        adapter
+        for adapter in wgpu.gpu.enumerate_adapters_sync()
+        if adapter.info["backend_type"] != "OpenGL"
+    ]
+    require(adapters, "there is no graphics processor, and no software Vulkan (lavapipe)")
+    return adapters[0].request_device_sync()

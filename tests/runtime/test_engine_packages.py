@@ -26,15 +26,6 @@ INSTALLED = [
 ]
 
 
-def tree(folder):
-    """Return the contents of every file in a folder and below it, by path with slashes."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }
-
-
 @pytest.fixture
 def toy(tmp_path, monkeypatch):
     """Put a small project of two files and a README in the place of Unity's."""
@@ -66,7 +57,7 @@ def test_an_engine_gets_its_kernels_and_its_project(name, tmp_path):
     """
     engine = ENGINES[name]
     document = fo.export_sea(build.cascade(), tmp_path / "one", engine=name)
-    found = tree(tmp_path / "one")
+    found = build.tree(tmp_path / "one")
     listed = {row["name"]: row for row in document["files"]}
     kernels = {}
     for language in engine.languages:
@@ -92,7 +83,7 @@ def test_an_engine_gets_its_kernels_and_its_project(name, tmp_path):
     for one, other in zip(loaded.loop_frame(3, 8), plain.loop_frame(3, 8), strict=True):
         assert all((one[field] == other[field]).all() for field in EIGHT)
     fo.export_sea(build.cascade(), tmp_path / "two", engine=name)
-    assert tree(tmp_path / "two") == found
+    assert build.tree(tmp_path / "two") == found
 
 
 @pytest.mark.parametrize("name", ["unity", "unreal", "bevy"])
@@ -192,7 +183,7 @@ def test_a_project_leaves_with_its_engine_but_for_edited_files(tmp_path):
     fo.export_sea(ocean(), out, engine="unity")
     (out / "Main.cs").write_text("class Mine {}")
     fo.export_sea(ocean(), out, overwrite=True)
-    assert set(tree(out)) == {"Main.cs", "README.md", "check.json", "sea.json", "tile0.waves"}
+    assert set(build.tree(out)) == {"Main.cs", "README.md", "check.json", "sea.json", "tile0.waves"}
     (found,) = fo.check(out)
     assert (found.kind, found.path) == ("extra", "Main.cs")
 
@@ -205,7 +196,7 @@ def test_a_file_in_the_place_of_a_project_is_never_replaced(tmp_path):
     for overwrite in (False, True):
         with pytest.raises(OutputError, match=r"holds inner/Deep\.cs, which is not listed"):
             fo.export_sea(ocean(), out, engine="unity", overwrite=overwrite)
-    assert tree(out) == {"inner/Deep.cs": b"mine"}
+    assert build.tree(out) == {"inner/Deep.cs": b"mine"}
 
 
 @pytest.mark.usefixtures("toy")
@@ -231,7 +222,7 @@ def test_an_export_that_was_stopped_is_finished_by_the_same_call(earlier, tmp_pa
     With an earlier sea in the folder, one of whose files was edited, the edit is kept.
     """
     fo.export_sea(ocean(0.2), tmp_path / "calm", engine="unity")
-    expected = tree(tmp_path / "calm")
+    expected = build.tree(tmp_path / "calm")
     if earlier:
         expected["Main.cs"] = b"class Mine {}"
     real = os.fsync
@@ -254,11 +245,11 @@ def test_an_export_that_was_stopped_is_finished_by_the_same_call(earlier, tmp_pa
                 break
             except Stopped:
                 pass
-        if tree(out) != expected:
+        if build.tree(out) != expected:
             with pytest.raises(fo.IntegrityError):
                 fo.load_sea(out)
             fo.export_sea(ocean(0.2), out, engine="unity", overwrite=earlier)
-        assert tree(out) == expected
+        assert build.tree(out) == expected
         assert not [name for name in expected if name.endswith(".tmp")]
     assert n > 6
 

@@ -267,21 +267,24 @@ real, calls = os.fsync, []
 def fsync(descriptor):
     real(descriptor)
     calls.append(descriptor)
-    if len(calls) == 3:
+    if len(calls) == int(sys.argv[2]):
         os.kill(os.getpid(), signal.SIGKILL)
 os.fsync = fsync
 waves = [(1, 0, 0.1, 0.0), (-1, 2, 0.05, 1.0)]
-fo.export_sea(fo.Ocean.from_modes(waves, n=8, size=50.0, loop=20.0), sys.argv[1])
+ocean = fo.Ocean.from_modes(waves, n=8, size=50.0, loop=20.0)
+fo.export_sea(ocean, sys.argv[1], engine=sys.argv[3] or None)
 """
 
 
 @pytest.mark.process
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no such signal here")
-def test_killed_it_leaves_no_package_and_goes_on_to_the_same_bytes(tmp_path):
-    fo.export_sea(ocean(), tmp_path / "calm")
+@pytest.mark.parametrize(("flushes", "engine"), [(3, ""), (9, "unity")])
+def test_killed_it_leaves_no_package_and_goes_on_to_the_same_bytes(flushes, engine, tmp_path):
+    """While it writes its waves; and while it writes an engine's project."""
+    fo.export_sea(ocean(), tmp_path / "calm", engine=engine or None)
     out = tmp_path / "out"
     done = subprocess.run(
-        [sys.executable, "-c", KILLED, str(out)],
+        [sys.executable, "-c", KILLED, str(out), str(flushes), engine],
         env={**os.environ, "PYTHONPATH": str(Path(fo.__file__).parent.parent)},
         timeout=600,
         check=False,
@@ -289,5 +292,5 @@ def test_killed_it_leaves_no_package_and_goes_on_to_the_same_bytes(tmp_path):
     assert done.returncode == -signal.SIGKILL
     assert any(name.endswith(".tmp") for name in build.tree(out))
     assert [f.kind for f in fo.check(out)] == ["unfinished"]
-    fo.export_sea(ocean(), out)
+    fo.export_sea(ocean(), out, engine=engine or None)
     assert build.tree(out) == build.tree(tmp_path / "calm")

@@ -32,6 +32,23 @@ def test_slopes_of_tiles_and_beyond_are_those_of_the_wind():
     )
 
 
+def test_the_specified_density_by_direction_has_the_sea():
+    """Summed over its sectors, the polar density follows S(f); it turns with the wind."""
+    found = {}
+    for direction in (0.0, 90.0):
+        state = small_state(wind_direction=direction, swell_speed=0.0)
+        made = make_exact(state, 1)
+        polar = made.document["spectrum"]["polar"]
+        density = np.array(polar["density"])
+        assert density.max() == 1.0
+        middles = (np.arange(20) + 0.5) / 20 * polar["highest"]
+        expected = 2 * np.pi * state.sea()(2 * np.pi * middles)
+        by_ring = density.sum(axis=1)
+        assert np.corrcoef(by_ring, expected)[0, 1] > 0.98  # rings are wider than the peak
+        found[direction] = density
+    np.testing.assert_allclose(found[90.0], np.roll(found[0.0], 9, axis=1), atol=2e-3)
+
+
 def foam_of_wind(speed, **changes):
     """Return the exact sea of a wind without swell on the page's own 3 x 64^2, and its foam."""
     state = State.default(n=64).changed({"wind_speed": speed, "swell_speed": 0.0, **changes})

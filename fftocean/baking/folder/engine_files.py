@@ -158,11 +158,11 @@ def in_words(described: Mapping[str, Any]) -> str:
     """Return in a sentence which files play a bake in its engine, or why there are none."""
     engine, player = described["bake.engine"], PLAYERS.get(described["bake.engine"])
     if player is None:
-        return f"files to play it in {engine}: none; docs/engines.md has the steps"
+        return f"no files to play it with {engine}: docs/engines.md has the steps"
     if described["bake.engine_files"] is not True:
-        return f"files to play it in {engine}: none, as bake.engine_files is false"
+        return f"no files to play it with {engine}: bake.engine_files is false"
     if described["bake.format"] not in player.formats:
-        return f"files to play it in {engine}: none; they read {', '.join(player.formats)}"
+        return f"no files to play it with {engine}: they read {', '.join(player.formats)}"
     if player_for(described) is None:
-        return f"files to play it in {engine}: none; they need one of {', '.join(player.maps)}"
-    return f"to play it in {engine}: {player.start}"
+        return f"no files to play it with {engine}: they need one of {', '.join(player.maps)}"
+    return f"to play it with {engine}: {player.start}"

@@ -114,5 +114,15 @@ def bake_files(folder: Path) -> Iterator[Path]:
                 yield from (p for p in sorted(path.rglob("*")) if p.is_symlink() or not p.is_dir())
         inner = folder / name
         if inner.is_dir() and not inner.is_symlink():
-            for suffix in sorted({*suffixes, f".exr{FRAME_SUFFIX}"}):
+            for suffix in sorted(suffixes):
                 yield from sorted(inner.glob(f"[0-9]*{suffix}"))
+
+
+def frame_settings(folder: Path) -> Iterator[Path]:
+    """
+    Yield every file of an engine's settings beside a frame's image, a bake's or the engine's own.
+    """
+    for name in MAPS:
+        inner = folder / name
+        if inner.is_dir() and not inner.is_symlink():
+            yield from sorted(inner.glob(f"[0-9]*.exr{FRAME_SUFFIX}"))

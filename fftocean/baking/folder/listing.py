@@ -12,7 +12,7 @@ from typing import Any
 import fftocean
 from fftocean.baking.folder import engine_files, layout
 from fftocean.baking.folder.identity import differences
-from fftocean.baking.folder.ownership import engine_files_in, remove_workspace
+from fftocean.baking.folder.ownership import engine_files_in, files_of_bake, remove_workspace
 from fftocean.baking.folder.sealed import read_sealed
 from fftocean.cascade import from_oceans, tile_jobs
 from fftocean.cells import Band
@@ -254,7 +254,7 @@ def remove_bake(folder: Path) -> None:
     Raises:
         OutputError: a file cannot be removed.
     """
-    for path in engine_files_in(folder):
+    for path in files_of_bake(folder):
         remove(path)
     remove(folder / layout.MANIFEST_FILE)
     remove_workspace(folder)

@@ -28,6 +28,7 @@ from fftocean.baking.folder.layout import (
     WORK_FOLDER,
     bake_files,
     folders_of,
+    frame_settings,
 )
 from fftocean.baking.folder.sealed import is_sealed, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError
@@ -85,7 +86,8 @@ def files_of_bake(folder: Path) -> list[Path]:
         name = path.relative_to(folder).as_posix()
         return name in listed or any(_is_of(job, name) for job in jobs)
 
-    found = [path for path in bake_files(folder) if is_listed(path)]
+    candidates = (*bake_files(folder), *frame_settings(folder))
+    found = [path for path in candidates if is_listed(path)]
     return [*found, *engine_files_in(folder)]
 
 

@@ -77,6 +77,7 @@ const scenes = {
     const model = new Model(values, () => {});
     const { el, own, end } = await shown(model);
     const { app } = own;
+    await until(() => el.querySelector('.verdict')); // it has checked itself
     app.clock.paused = true;
     await app.alone(() => app.stage.step(12345, 1));
     const fields = await app.stage.simulation.readFields(0);

@@ -158,10 +158,14 @@ struct FRDGBuilder {
     void Execute() {}
 };
 inline FRDGBufferRef CreateStructuredBuffer(FRDGBuilder&, const TCHAR*, uint32, uint32, const void*, uint32) { return nullptr; }
-inline void AddClearUAVFloatPass(FRDGBuilder&, FRDGBufferUAV*, float) {}
+inline void AddClearUAVPass(FRDGBuilder&, FRDGBufferUAV*, uint32) {}
 struct FShaderType {};
 class FGlobalShader {};
 struct FGlobalShaderMap {};
+enum EShaderPlatform { SP_PCD3D_SM6 };
+namespace ERHIFeatureLevel { enum Type { SM5 }; }
+struct FGlobalShaderPermutationParameters { EShaderPlatform Platform; };
+inline bool IsFeatureLevelSupported(EShaderPlatform, ERHIFeatureLevel::Type) { return true; }
 inline FGlobalShaderMap* GetGlobalShaderMap(int) { return nullptr; }
 static const int GMaxRHIFeatureLevel = 0;
 template <typename T> struct TShaderMapRef { explicit TShaderMapRef(FGlobalShaderMap*) {} };

@@ -6,6 +6,9 @@ import { isFlat } from './statistics.js';
 const SECTORS = 36;
 const RINGS = 14;
 
+/** Shares of the largest specified energy of a cell that lines are drawn around. */
+const CONTOURS = [0.08, 0.5];
+
 /**
  * Return the energy of the waves in bins of frequency and direction.
  * Wave k adds 2 |h0(k)|^2 to the variance; its frequency is cycles / loop.
@@ -196,8 +199,7 @@ function drawPolar(pen, box, sea, edges, colours) {
   const top = Math.max(...energy, 1e-30);
   const half = Math.PI / SECTORS;
   for (let ring = 0; ring < RINGS; ring += 1) {
-    const inner = radius * (0.12 + (0.88 * ring) / RINGS);
-    const outer = radius * (0.12 + (0.88 * (ring + 1)) / RINGS);
+    const [inner, outer] = [ring, ring + 1].map((edge) => radius * radiusOf(edge));
     for (let sector = 0; sector < SECTORS; sector += 1) {
       const share = Math.sqrt(energy[ring * SECTORS + sector] / top);
       if (share < 0.03) continue;
@@ -211,6 +213,8 @@ function drawPolar(pen, box, sea, edges, colours) {
     }
   }
   pen.globalAlpha = 1;
+  const polar = sea.document.spectrum?.polar;
+  if (polar) drawContours(pen, { cx, cy, radius }, energyOfPolar(polar, rings), colours.line);
   pen.strokeStyle = colours.grid;
   pen.lineWidth = 1;
   for (const share of [0.5, 1]) {
@@ -228,6 +232,68 @@ function drawPolar(pen, box, sea, edges, colours) {
   pen.textBaseline = 'middle';
   pen.fillText('N', cx, cy - radius - 5);
   pen.fillText('E', cx + radius + 5, cy);
+}
+
+/** Return the radius of an edge of rings, as a share of the plot's. */
+function radiusOf(edge) {
+  return 0.12 + (0.88 * edge) / RINGS;
+}
+
+/**
+ * Return the energy, but for a factor, that a specified density has in each ring and sector.
+ *
+ * @param {{highest: number, density: number[][]}} polar even rings from 0 to `highest` [Hz], and
+ *   sectors that begin at east
+ * @param {Float64Array} rings frequencies of the edges of the plot's rings [Hz]
+ */
+export function energyOfPolar({ highest, density }, rings) {
+  return Array.from({ length: rings.length - 1 }, (_, i) => {
+    const [low, high] = [rings[i], rings[i + 1]];
+    const place = ((low + high) / 2 / highest) * density.length - 0.5; // in middles of its rings
+    const at = Math.min(Math.max(Math.floor(place), 0), density.length - 2);
+    const share = Math.min(Math.max(place - at, 0), 1);
+    return density[at].map(
+      (value, sector) => (value + share * (density[at + 1][sector] - value)) * (high - low),
+    );
+  });
+}
+
+/** Draw lines around the cells that have more than some shares of the largest energy. */
+function drawContours(pen, { cx, cy, radius }, energy, colour) {
+  const sectors = energy[0].length;
+  const top = Math.max(...energy.flat(), 1e-30);
+  const turn = (sector) => (-2 * Math.PI * sector) / sectors;
+  pen.strokeStyle = colour;
+  pen.lineWidth = 1;
+  for (const level of CONTOURS) {
+    const inside = (ring, sector) =>
+      (energy[ring]?.[(sector + sectors) % sectors] ?? 0) > level * top;
+    pen.beginPath();
+    energy.forEach((row, ring) => {
+      const [inner, outer] = [ring, ring + 1].map((edge) => radius * radiusOf(edge));
+      row.forEach((_, sector) => {
+        if (!inside(ring, sector)) return;
+        for (const [beside, edge] of [
+          [ring - 1, inner],
+          [ring + 1, outer],
+        ]) {
+          if (inside(beside, sector)) continue;
+          pen.moveTo(cx + edge * Math.cos(turn(sector)), cy + edge * Math.sin(turn(sector)));
+          pen.arc(cx, cy, edge, turn(sector), turn(sector + 1), true);
+        }
+        for (const [beside, edge] of [
+          [sector - 1, sector],
+          [sector + 1, sector + 1],
+        ]) {
+          if (inside(ring, beside)) continue;
+          const [x, y] = [Math.cos(turn(edge)), Math.sin(turn(edge))];
+          pen.moveTo(cx + inner * x, cy + inner * y);
+          pen.lineTo(cx + outer * x, cy + outer * y);
+        }
+      });
+    });
+    pen.stroke();
+  }
 }
 
 /** Return the frequencies of the polar plot's inner and outer edge [Hz]. */

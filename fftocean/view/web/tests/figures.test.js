@@ -7,6 +7,7 @@ import { statisticsRows, tilesText } from '../src/heads_up.js';
 import {
   densityOfEnergy,
   edgesOfLoop,
+  energyOfPolar,
   energyOfWaves,
   geometricEdges,
 } from '../src/spectrum_plot.js';
@@ -109,4 +110,16 @@ test('one wave is in the singular', () => {
     '2 waves',
     '12\u2009345 waves',
   ]);
+});
+
+test('a density by frequency and direction gives the energy of wider rings', () => {
+  // density f in one sector and 2 f in the other: the mean over a ring is that of its middle
+  const density = Array.from({ length: 10 }, (_, i) => [i + 0.5, 2 * (i + 0.5)]);
+  const rings = Float64Array.of(0.2, 0.3, 0.5, 0.85);
+  const energy = energyOfPolar({ highest: 1, density }, rings);
+  [0.25, 0.4, 0.675].forEach((middle, i) => {
+    const wanted = 10 * middle * (rings[i + 1] - rings[i]);
+    assert.ok(Math.abs(energy[i][0] - wanted) < 1e-12);
+    assert.ok(Math.abs(energy[i][1] - 2 * wanted) < 1e-12);
+  });
 });

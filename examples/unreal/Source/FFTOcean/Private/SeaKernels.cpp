@@ -35,6 +35,10 @@ END_SHADER_PARAMETER_STRUCT()
 		DECLARE_GLOBAL_SHADER(Name); \
 		SHADER_USE_PARAMETER_STRUCT(Name, FGlobalShader); \
 		using FParameters = FSeaParameters; \
+		static bool ShouldCompilePermutation(const FGlobalShaderPermutationParameters& Parameters) \
+		{ \
+			return IsFeatureLevelSupported(Parameters.Platform, ERHIFeatureLevel::SM5); \
+		} \
 	}; \
 	IMPLEMENT_GLOBAL_SHADER(Name, "/FFTOcean/Sea.usf", Entry, SF_Compute);
 
@@ -75,7 +79,7 @@ FRDGBufferRef Empty(FRDGBuilder& Graph, TRefCountPtr<FRDGPooledBuffer>& Kept, co
 {
 	if (Kept.IsValid()) return Graph.RegisterExternalBuffer(Kept);
 	FRDGBufferRef Buffer = Graph.CreateBuffer(FRDGBufferDesc::CreateStructuredDesc(16, Count), Name);
-	AddClearUAVFloatPass(Graph, Graph.CreateUAV(Buffer), 0.f);
+	AddClearUAVPass(Graph, Graph.CreateUAV(Buffer), 0u);
 	Kept = Graph.ConvertToExternalBuffer(Buffer);
 	return Buffer;
 }
