@@ -354,7 +354,11 @@ def _about_file(message: str, name: str, source: str) -> str:
     if not found:
         return message
     if rest.startswith("the file has no directions"):
-        rest += "; start `fftocean view` with such a job"
+        # the flags of other commands are not those of the page
+        rest = (
+            rest.removesuffix("; without a job file, --toward")
+            + "; start `fftocean view` with such a job"
+        )
     return f"{source} {rest}" if rest.startswith(("must ", "cannot ")) else f"{source}: {rest}"
 
 
