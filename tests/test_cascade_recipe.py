@@ -117,6 +117,7 @@ def baked(tmp_path_factory):
             "ocean.seed": 5,
             "bake.frames": FRAMES,
             "bake.format": "exr-float",
+            "bake.foam.threshold": 0.72,  # much foam, so that its error is seen
             "bake.pictures": [],
             "sea.wind.speed": 9.0,
             "sea.wind.direction": 40.0,
