@@ -180,7 +180,7 @@ pub fn sha256(bytes: &[u8]) -> String {
     let mut h: Vec<u32> = primes[..8].iter().map(|p| part(f64::from(*p).sqrt())).collect();
     let mut data = bytes.to_vec();
     data.push(128);
-    data.resize((data.len() + 8).div_ceil(64) * 64 - 8, 0);
+    data.resize((data.len() + 71) / 64 * 64 - 8, 0);
     data.extend((bytes.len() as u64 * 8).to_be_bytes());
     for block in data.chunks(64) {
         let mut w: Vec<u32> = block
