@@ -143,7 +143,7 @@ def test_heights_at_points_are_those_of_the_library(page, water, seas):
     places = json.dumps(np.stack([x, y], axis=-1).ravel().tolist())
     seen = np.reshape(opened.evaluate(HEIGHTS.replace("PLACES", places)), (100, 8))
     ticks = json.loads((seas / "whole" / "sea.json").read_text(encoding="utf-8"))["ticks"]
-    answer = fo.Query(water, mode="exact").at(x, y, LOOP * 54321 / ticks)
+    answer = fo.Query(water, mode="exact", level="frame").at(x, y, LOOP * 54321 / ticks)
     calm = ~answer.folded & (seen[:, 7] > 0.3)
     assert calm.sum() > 90
     apart = (seen[:, 2] - answer.heights)[calm]
