@@ -1,6 +1,7 @@
 """`fftocean export-sea`: write the waves of a sea for programs that run it."""
 
 import argparse
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -59,10 +60,15 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write a sea as a run-time package."""
     from fftocean.engine_projects import TEXTURES
+    from fftocean.errors import JobError
     from fftocean.runtime.folder import export_sea
 
     if options.textures not in (None, *TEXTURES) and options.job is None:
         # `--textures JOB.toml`: a bare flag before the job
+        if not options.textures.lower().endswith(".toml") and not os.path.exists(options.textures):  # noqa: PTH110
+            raise JobError(
+                f"--textures must be one of {', '.join(TEXTURES)}, got {options.textures!r:.60}"
+            )
         options.job, options.textures = path(options.textures), "bin"
     with json_events(options.json) as print_json:
         job = job_of(options)

@@ -191,8 +191,10 @@ def water_of(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Casc
                 f"{job.source}: {key} must be left out where there are tiles, "
                 "whose bands follow from their sizes"
             )
+    from fftocean.constraints import constrained
+
     try:
-        return Cascade(
+        water = Cascade(
             job.sea(),
             tiles,
             seed=s["ocean.seed"],
@@ -202,6 +204,7 @@ def water_of(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Casc
             order=s["ocean.order"],
             bound=s["ocean.bound"],
         )
+        return constrained(water, *job.fixed) if job.fixed else water
     except JobError:
         raise
     except ParameterError as error:

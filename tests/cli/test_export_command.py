@@ -5,6 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import fftocean as fo
+
 SMALL = ("--n", "16", "--loop", "20")
 
 
@@ -53,3 +55,18 @@ def test_refusals_name_the_rule(run, arguments, message):
     assert (code, out) == (2, "")
     assert message in err
     assert not list(Path().iterdir())
+
+
+def test_a_crest_is_kept_on_several_tiles(run):
+    """Every command that takes tiles writes the waves that the job constrains."""
+    text = "[[ocean.crest]]\nheight = 1.5\nx = 40.0\ny = 30.0\nt = 7.0\n[ocean]\nloop = 20.0\n"
+    Path("job.toml").write_text(text)
+    tiles = ("--tiles", "16:100,16:37", "--quiet")
+    assert run("export", "components", "job.toml", "-o", "waves.csv", *tiles)[0] == 0
+    f, _, a, phase, kx, ky = np.loadtxt("waves.csv", delimiter=",", skiprows=1).T
+    angle = kx * 40.0 + ky * 30.0 - 2.0 * np.pi * f * 7.0 - phase
+    assert np.sum(a * np.cos(angle)) == pytest.approx(1.5, abs=1e-9)
+    assert run("export-sea", "job.toml", "-o", "sea", *tiles)[0] == 0
+    sea = fo.load_sea("sea")
+    found = fo.kinematics.at(sea, 40.0, 30.0, 0.0, 7.0).heights
+    assert float(found) == pytest.approx(1.5, abs=1e-6)
