@@ -178,34 +178,4 @@ def water_of(job: "Job", tiles: list[tuple[int, float]] | None) -> "Ocean | Casc
     Raises:
         JobError: tiles that cannot share the sea, or a band beside tiles.
     """
-    if not tiles:
-        return job.ocean()
-    from fftocean.cascade import Cascade
-    from fftocean.errors import JobError, ParameterError
-    from fftocean.job.parameters import BY_KEY
-
-    s = job.settings
-    for key in ("ocean.band_low", "ocean.band_high"):
-        if s[key] != BY_KEY[key].default:
-            raise JobError(
-                f"{job.source}: {key} must be left out where there are tiles, "
-                "whose bands follow from their sizes"
-            )
-    from fftocean.constraints import constrained
-
-    try:
-        water = Cascade(
-            job.sea(),
-            tiles,
-            seed=s["ocean.seed"],
-            loop=s["ocean.loop"],
-            choppiness=s["ocean.choppiness"],
-            amplitudes=s["ocean.amplitudes"],
-            order=s["ocean.order"],
-            bound=s["ocean.bound"],
-        )
-        return constrained(water, *job.fixed) if job.fixed else water
-    except JobError:
-        raise
-    except ParameterError as error:
-        raise JobError(f"{job.source}: {error}") from None
+    return job.cascade(tiles) if tiles else job.ocean()

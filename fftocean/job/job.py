@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fftocean.arrays import shortened
+from fftocean.cascade import Cascade, Tile
 from fftocean.constraints import constrained
 from fftocean.errors import JobError, ParameterError, ReaderError, described
 from fftocean.files import digest_of, path_of
@@ -330,6 +331,40 @@ class Job:
             raise
         except ParameterError as error:
             raise JobError(f"{self.source}: ocean: {error}") from None
+
+    def cascade(self, tiles: Iterable[Tile]) -> Cascade:
+        """
+        Return the cascade of the sea on some tiles, with the crests and values that the job fixes.
+
+        Args:
+            tiles: (n, size) of each, from the largest to the smallest, instead of the job's own.
+
+        Raises:
+            JobError: tiles that cannot share the sea, or a band beside tiles.
+        """
+        s = self.settings
+        for key in ("ocean.band_low", "ocean.band_high"):
+            if s[key] != BY_KEY[key].default:
+                raise JobError(
+                    f"{self.source}: {key} must be left out where there are tiles, "
+                    "whose bands follow from their sizes"
+                )
+        try:
+            cascade = Cascade(
+                self.sea(),
+                tiles,
+                seed=s["ocean.seed"],
+                loop=s["ocean.loop"],
+                choppiness=s["ocean.choppiness"],
+                amplitudes=s["ocean.amplitudes"],
+                order=s["ocean.order"],
+                bound=s["ocean.bound"],
+            )
+            return constrained(cascade, *self.fixed) if self.fixed else cascade
+        except JobError:
+            raise
+        except ParameterError as error:
+            raise JobError(f"{self.source}: {error}") from None
 
     @property
     def fixed(self) -> tuple[Crest | Fix, ...]:
