@@ -6,11 +6,11 @@ its shaders compiled by glslang.
 import re
 import shutil
 import struct
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from builders import run
 from conftest import require
 
 import fftocean as fo
@@ -32,20 +32,6 @@ def project(tmp_path_factory):
     cascade = fo.Cascade(SEA, tiles, loop=64.0, seed=3, choppiness=0.9)
     fo.export_sea(cascade, folder, textures=True, engine="unity")
     return folder
-
-
-def run(*command, cwd):
-    done = subprocess.run(
-        list(map(str, command)),
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        stdin=subprocess.DEVNULL,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 def levels(nx, ny):

@@ -7,11 +7,11 @@ import json
 import re
 import shutil
 import struct
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from builders import run
 from conftest import require
 
 import fftocean as fo
@@ -47,20 +47,6 @@ def headers(project, tmp_path_factory):
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).write_text(f'#include "{STUBS / "Unreal.h"}"\n')
     return folder
-
-
-def run(*command, cwd):
-    done = subprocess.run(
-        list(map(str, command)),
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        stdin=subprocess.DEVNULL,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.mark.parametrize("name", ["FFTOceanModule.cpp", "SeaComponent.cpp", "SeaKernels.cpp"])

@@ -5,11 +5,11 @@ The Bevy project, without Bevy: its Rust that needs no crates compiled and run, 
 
 import re
 import shutil
-import subprocess
 import tomllib
 
 import numpy as np
 import pytest
+from builders import run
 from kernel_layout import Layout, lifts_of
 from kernel_sources import device, shaders
 
@@ -35,20 +35,6 @@ def project(cascade, tmp_path_factory):
     folder = tmp_path_factory.mktemp("bevy") / "sea"
     fo.export_sea(cascade, folder, textures=True, engine="bevy")
     return folder
-
-
-def run(*command, cwd):
-    done = subprocess.run(
-        list(map(str, command)),
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        stdin=subprocess.DEVNULL,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 @pytest.mark.skipif(shutil.which("rustc") is None, reason="rustc is not installed")
