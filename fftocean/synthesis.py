@@ -188,9 +188,8 @@ def root_mean_squares(amplitudes: Amplitudes) -> dict[str, float]:
 
     def size(field: Field) -> float:
         energy = sources[field.of, field.dt]
-        return math.sqrt(
-            float(np.sum(np.sum(energy * kx ** (2 * field.dx), axis=1) * ky ** (2 * field.dy)))
-        )
+        along_x = np.einsum("yx,x->y", energy, kx ** (2 * field.dx))
+        return math.sqrt(float(np.sum(along_x * ky ** (2 * field.dy))))
 
     return {name: size(field) for name, field in FIELDS.items()}
 
