@@ -6,7 +6,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.physics.kinds import Way
-from fftocean.physics.spreading.base import SPREADINGS, wrapped
+from fftocean.physics.spreading.base import SPREADINGS
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,8 +18,10 @@ class CosineSquared:
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `theta`, [1/rad]."""
-        omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
-        return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.square(np.cos(theta)), 0.0)
+        ahead = np.maximum(np.cos(np.asarray(theta, dtype=np.float64)), 0.0)
+        shape = np.broadcast_shapes(np.shape(omega), ahead.shape)
+        density: Real = np.broadcast_to((2.0 / np.pi) * np.square(ahead), shape)
+        return density
 
 
 SPREADINGS.add("cosine-squared", CosineSquared, Way(CosineSquared))
