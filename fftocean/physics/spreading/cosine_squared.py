@@ -6,7 +6,7 @@ import numpy as np
 
 from fftocean.arrays import Real, RealLike
 from fftocean.physics.kinds import Way
-from fftocean.physics.spreading.base import SPREADINGS
+from fftocean.physics.spreading.base import SPREADINGS, wrapped
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,10 +18,10 @@ class CosineSquared:
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `theta`, [1/rad]."""
-        ahead = np.maximum(np.cos(np.asarray(theta, dtype=np.float64)), 0.0)
-        shape = np.broadcast_shapes(np.shape(omega), ahead.shape)
-        density: Real = np.broadcast_to((2.0 / np.pi) * np.square(ahead), shape)
-        return density
+        theta = wrapped(theta)
+        density = np.where(np.abs(theta) < 0.5 * np.pi, np.square(np.cos(theta)), 0.0)
+        shape = np.broadcast_shapes(np.shape(omega), density.shape)
+        return np.broadcast_to((2.0 / np.pi) * density, shape)
 
 
 SPREADINGS.add("cosine-squared", CosineSquared, Way(CosineSquared))
