@@ -37,7 +37,7 @@ FLOORS = {
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss", "constraints", "mean_motion"),
-        *("summed_waves", "interpolated_tiles", "query"),
+        *("summed_waves", "interpolated_tiles", "wave_rings", "query"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
         *("wave_files", "probe_series"),
     ],
@@ -76,7 +76,7 @@ STAIRS = [
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"]],
     [
-        ["mean_motion", "summed_waves", "interpolated_tiles"],
+        ["mean_motion", "summed_waves", "interpolated_tiles", "wave_rings"],
         ["kinematics", "query"],
         ["constraints"],
     ],
