@@ -52,7 +52,9 @@ class Tiles(NamedTuple):
 
     sizes: Real  # (tiles, 2): lx, ly [m]
     layout: Integer  # (tiles, 3): first texel, nx, ny of each tile
-    texels: Real  # (4 all,): displace_x, displace_y, height and nothing: 16 bytes if single
+    # (4 all,): displace_x, displace_y, height and nothing: 16 bytes if single; each tile is framed
+    # as by `interpolate.frame_texels`
+    texels: Real
     first: Integer  # (tiles + 1,): number of the first wave of each tile
     waves: Real  # (5, all): kx, ky [rad/m], amplitude [m], potential [m^2], phase [rad]
 

@@ -134,8 +134,9 @@ def test_texels_and_waves_of_several_tiles_add_up():
             )
             / response
         )
-        flat.append(np.tile(row, (n, 1, 1)).ravel())
-    layout = np.array([[0, n, n], [n * n, n, n]])
+        tile = np.pad(np.tile(row, (n, 1, 1)), ((1, 2), (1, 2), (0, 0)), mode="wrap")
+        flat.append(tile.ravel())
+    layout = np.array([[0, n, n], [(n + 3) ** 2, n, n]])
     x, y = RNG.uniform(-50, 50, (2, 30))
     expected = invert(waves, x, y, 1.0, sizes=sizes, first=np.array([0, 1, 2]))
     offsets, (heights, residuals, jacobians) = np.empty((30, 2)), np.empty((3, 30))
