@@ -37,7 +37,7 @@ FLOORS = {
     6: [
         *("products", "foam_coverage", "foam", "slope_variance", "eulerian", "mips"),
         *("kinematics", "statistics", "blend_loss", "constraints", "mean_motion"),
-        *("summed_waves", "interpolated_tiles", "query"),
+        *("summed_waves", "interpolated_tiles", "wave_rings", "query", "query_budget"),
         *("polar_spectrum", "realised_spectrum", "measured_dispersion"),
         *("wave_files", "probe_series"),
     ],
@@ -73,10 +73,10 @@ STAIRS = [
     [["wisdom"], ["transforms"]],
     [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
-    [["summed_waves", "interpolated_tiles"], ["query"]],
+    [["summed_waves", "interpolated_tiles", "query_budget"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"]],
     [
-        ["mean_motion", "summed_waves", "interpolated_tiles"],
+        ["mean_motion", "summed_waves", "interpolated_tiles", "wave_rings", "query_budget"],
         ["kinematics", "query"],
         ["constraints"],
     ],
