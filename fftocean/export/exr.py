@@ -55,28 +55,34 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
     planes = np.empty(words[..., :1, :].size * order.size * 2, np.uint8)
     byte_planes.differences(words, order, ROWS, planes)
     head = _header(rows, columns, "RGBA"[: order.size], pixels.dtype, periodic)
-    blocks, offsets = [], []
+    blocks: list[bytes] = []
+    offsets: list[int] = []
     place = len(head) + 8 * -(-rows // ROWS)
     for top in range(0, rows, ROWS):
         size = planes.size * min(ROWS, rows - top) // rows
         start = planes.size * top // rows
-        data = _deflated(planes[start : start + size].data)
-        if len(data) >= size:  # a reader takes a block of full size for one without compression
-            data = _plain(pixels[top : top + ROWS, :, order])
-        blocks.append(struct.pack("<ii", top, len(data)) + data)
+        parts = _deflated(planes[start : start + size].data)
+        if (length := sum(map(len, parts))) >= size:
+            # a reader takes a block of full size for one without compression
+            parts, length = [_plain(pixels[top : top + ROWS, :, order])], size
+        blocks += (struct.pack("<ii", top, length), *parts)
         offsets.append(place)
-        place += len(blocks[-1])
+        place += 8 + length
     return b"".join((head, struct.pack(f"<{len(offsets)}Q", *offsets), *blocks))
 
 
-def _deflated(planes: memoryview) -> bytes:
-    """Return a zlib stream in which low and high bytes have a code table each."""
+def _deflated(planes: memoryview) -> list[bytes]:
+    """Return the parts of a zlib stream in which low and high bytes have a code table each."""
     from isal import isal_zlib
 
     middle = len(planes) // 2
     stream = isal_zlib.compressobj(LEVEL)
-    low = stream.compress(planes[:middle]) + stream.flush(isal_zlib.Z_SYNC_FLUSH)
-    return low + stream.compress(planes[middle:]) + stream.flush()
+    return [
+        stream.compress(planes[:middle]),
+        stream.flush(isal_zlib.Z_SYNC_FLUSH),
+        stream.compress(planes[middle:]),
+        stream.flush(),
+    ]
 
 
 def _plain(pixels: npt.NDArray[Any]) -> bytes:
