@@ -86,17 +86,21 @@ def folds(xx: Real, xy: Real, yy: Real, choppiness: float, out: Real) -> None:
     The eigenvalue is that of the displacement gradient; float64. A sample is folded if the smallest
     eigenvalue of the deformation gradient, 1 + c times that, is below 0.
     """
-    folded = 0
-    least = np.inf
-    lowest = np.inf
-    for j in range(xx.shape[0]):
-        for i in range(xx.shape[1]):
-            a, b, d = np.float64(xx[j, i]), np.float64(xy[j, i]), np.float64(yy[j, i])
-            eigenvalue = 0.5 * (a + d) - np.hypot(0.5 * (a - d), b)
-            lowest = min(lowest, eigenvalue)
-            if 1.0 + choppiness * eigenvalue < 0.0:
-                folded += 1
-            least = min(
-                least, (1.0 + choppiness * a) * (1.0 + choppiness * d) - (choppiness * b) ** 2
+    rows, n = xx.shape
+    # of each column, so that there is no sum or minimum along the loop, which is then vectorised
+    folded, least, lowest = np.zeros(n), np.full(n, np.inf), np.full(n, np.inf)
+    one, two = np.float64(1.0), np.float64(2.0)
+    for j in range(rows):
+        a, b, d = xx[j], xy[j], yy[j]
+        for i in range(n):
+            p, q, r = np.float64(a[i]), np.float64(b[i]), np.float64(d[i])
+            eigenvalue = (p + r - np.sqrt((p - r) * (p - r) + two * q * (two * q))) / two
+            lowest[i] = min(lowest[i], eigenvalue)
+            folded[i] += one if one + choppiness * eigenvalue < 0.0 else 0.0
+        for i in range(n):
+            p, q, r = np.float64(a[i]), np.float64(b[i]), np.float64(d[i])
+            area = (one + choppiness * p) * (one + choppiness * r) - (choppiness * q) * (
+                choppiness * q
             )
-    out[0], out[1], out[2] = folded, least, lowest
+            least[i] = min(least[i], area)
+    out[0], out[1], out[2] = folded.sum(), least.min(), lowest.min()

@@ -49,9 +49,7 @@ def _libraries(job: Job, backend: str) -> dict[str, str]:
     """Return the libraries whose next version may give other bits, by their purpose."""
     numba = "numba (off)" if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0") else "numba"
     encoder = (
-        {"encoder": f"OpenEXR {_version('openexr')}"}
-        if FORMATS[job.format].suffix == ".exr"
-        else {}
+        {"encoder": f"isal {_version('isal')}"} if FORMATS[job.format].suffix == ".exr" else {}
     )
     return {
         "fft": library(backend) or backend,

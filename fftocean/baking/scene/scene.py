@@ -92,7 +92,11 @@ class Scene:
         if isinstance(frame, EulerianFrame):
             moved, water = 0.0, self.ocean.loop_frame(j, self._count, STRETCHES)
         else:
-            moved, water = float(np.max(np.hypot(frame.displace_x, frame.displace_y))), frame
+            square = np.square(frame.displace_x)
+            square += np.square(frame.displace_y)
+            most = np.unravel_index(np.argmax(square), square.shape)
+            moved = math.hypot(frame.displace_x[most], frame.displace_y[most])
+            water = frame
         folds = folding(water)
         return {
             "min_jacobian": folds.min_jacobian,
@@ -100,7 +104,7 @@ class Scene:
             "largest_choppiness": None
             if math.isinf(folds.largest_choppiness)
             else folds.largest_choppiness,
-            "max_height": float(np.max(np.abs(frame.height))),
+            "max_height": max(-float(frame.height.min()), float(frame.height.max())),
             "max_horizontal": frame.choppiness * moved,
         }
 
@@ -276,9 +280,11 @@ def _write_map(
 
 def _channel_ranges(values: Real) -> list[tuple[float, float]]:
     """Return the least and the greatest value of each channel."""
-    return [
-        (float(values[..., c].min()), float(values[..., c].max())) for c in range(values.shape[-1])
-    ]
+    rows, channels = values.shape[0], values.shape[-1]
+    lines = values.reshape(rows, -1)  # along rows first, where numbers lie side by side
+    low = lines.min(axis=0).reshape(-1, channels).min(axis=0)
+    high = lines.max(axis=0).reshape(-1, channels).max(axis=0)
+    return list(zip(low.tolist(), high.tolist(), strict=True))
 
 
 def _range_of(levels: list[Real]) -> list[float]:
