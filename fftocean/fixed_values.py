@@ -7,7 +7,7 @@ from typing import Any
 
 from scipy.special import gammaincc
 
-from fftocean.errors import ParameterError, described
+from fftocean.errors import ParameterError, described, suggestion
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
 
@@ -44,6 +44,7 @@ class Fix:
         if not isinstance(self.field, str) or self.field not in FIELDS:
             raise ParameterError(
                 f"field must be one of {', '.join(FIELDS)}, got {described(self.field)}"
+                f"{suggestion(self.field, FIELDS)}"
             )
         keep_checked(self, x=PLACE, y=PLACE, t=TIME, value=VALUE)
 
