@@ -13,6 +13,8 @@ Exceptions and warnings of the package, in one tree.
 A message names parameter, rule and value: `fetch must be between 1 and 5e+07 m, got -3.0`.
 """
 
+from collections.abc import Iterable
+
 
 class FFTOceanError(Exception):
     """Base class of all exceptions that the package raises on purpose."""
@@ -75,6 +77,15 @@ def described(value: object) -> str:
     if text.startswith((f"{kind}(", f"<{kind}")):
         return text if len(text) <= 60 else f"{text[:57]}..."
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
+def suggestion(word: object, names: Iterable[str], cutoff: float = 0.7) -> str:
+    """Return "; did you mean godot?" for the name most like a misspelt word; "" if none is."""
+    import difflib  # not before a word is wrong
+
+    given = word.strip().casefold() if isinstance(word, str) else ""
+    near = difflib.get_close_matches(given, list(names), n=1, cutoff=cutoff)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def how_to_install(extra: str) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from fftocean.errors import ParameterError, described
+from fftocean.errors import ParameterError, described, suggestion
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
 
@@ -42,6 +42,7 @@ class Fix:
         if not isinstance(self.field, str) or self.field not in FIELDS:
             raise ParameterError(
                 f"field must be one of {', '.join(FIELDS)}, got {described(self.field)}"
+                f"{suggestion(self.field, FIELDS)}"
             )
         keep_checked(self, x=PLACE, y=PLACE, t=TIME, value=VALUE)
 

@@ -15,7 +15,7 @@ from fftocean.arrays import Real, RealLike
 from fftocean.bound_waves import BoundWaves, PhaseFunction, Shown, bound_waves
 from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
-from fftocean.errors import ParameterError, SeaWarning, described
+from fftocean.errors import ParameterError, SeaWarning, described, suggestion
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
 from fftocean.fixed_values import Rarity
 from fftocean.forks import Process, in_child, no_fork
@@ -643,7 +643,10 @@ def check_fields(
         ) from None
     for name in names:
         if name not in known:
-            raise ParameterError(f"a field must be one of {', '.join(known)}, got {name!r:.80}")
+            raise ParameterError(
+                f"a field must be one of {', '.join(known)}, got {name!r:.80}"
+                f"{suggestion(name, known)}"
+            )
     return names
 
 

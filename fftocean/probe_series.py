@@ -26,7 +26,7 @@ from fftocean.arrays import Complex, Real, RealLike, brief_repr
 from fftocean.bound_waves import BoundWaves
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
-from fftocean.errors import OutputError, ParameterError
+from fftocean.errors import OutputError, ParameterError, suggestion
 from fftocean.files import path_of, write_parts, write_whole
 from fftocean.host import require_memory
 from fftocean.kernels import passes
@@ -231,7 +231,9 @@ def _columns(fields: Sequence[str], levels: Real) -> list[tuple[str, float]]:
     columns: list[tuple[str, float]] = []
     for name in dict.fromkeys(fields):
         if name not in UNITS:
-            raise ParameterError(f"fields must be of {', '.join(UNITS)}, got {name!r:.60}")
+            raise ParameterError(
+                f"fields must be of {', '.join(UNITS)}, got {name!r:.60}{suggestion(name, UNITS)}"
+            )
         columns += [(name, 0.0)] if name in SURFACE else [(name, level) for level in levels]
     return columns
 
@@ -300,13 +302,15 @@ def _require_second_order(waves: WaveList, columns: list[tuple[str, float]]) -> 
     if waves.loops[0] is None:
         raise ParameterError(
             "a series of second order needs an ocean that loops, Ocean(..., loop=600.0), in which "
-            "pairs of waves share their frequencies; or give ocean.linear()"
+            "pairs of waves share their frequencies; or give ocean.linear(), on the command line "
+            "--order 1"
         )
     below = [name for name, _ in columns if name not in SURFACE]
     if below:
         raise ParameterError(
             f"fields of a series of second order must be of {', '.join(SURFACE)}, got "
-            f"{below[0]!r}: give ocean.linear(), or take kinematics.at"
+            f"{below[0]!r}: give ocean.linear(), on the command line --order 1, or take "
+            "kinematics.at"
         )
 
 

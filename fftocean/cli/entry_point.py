@@ -10,15 +10,18 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NoReturn
 
 from fftocean.cli.console import note, plain
-from fftocean.cli.parser import build_parser
+from fftocean.cli.parser import COMMANDS, build_parser
 from fftocean.errors import FFTOceanError, OutputError, SeaWarning
+from fftocean.job.parameters import spelled
 
 FIRST_STEPS = """\
 usage: fftocean COMMAND [options]
 
 try:
   fftocean bake -o sea        bake the default sea (preview: sea/preview.png)
-  fftocean info               describe it: waves, tile, loop, files, memory, time
+  fftocean view               see a sea live in the browser (extra `view`)
+  fftocean info               describe a sea: waves, tile, loop, files, memory, time
+  fftocean keys wind          find what a job file can say about the wind
   fftocean bake --help        list every option of a command
   fftocean --help             list all commands
 """
@@ -39,6 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if not given and "_ARGCOMPLETE" not in os.environ:  # which a shell sets that completes
                 print(FIRST_STEPS, end="", file=sys.stderr)
                 return 2
+            if given:  # the name of a command, whatever its case
+                given = [spelled(given[0], (c.name for c in COMMANDS)) or given[0], *given[1:]]
             options = build_parser().parse_args(given)
             code: int = options.run(options)
             if sys.stdout:

@@ -22,6 +22,7 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--dtype",
+        type=str.lower,
         choices=("float32", "float64"),
         default="float64",
         help="precision (default: float64)",

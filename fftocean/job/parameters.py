@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fftocean import limits
-from fftocean.errors import JobError, ParameterError
+from fftocean.errors import JobError, ParameterError, suggestion
 from fftocean.limits import Count, Quantity
 
 MAPS = (
@@ -122,15 +122,6 @@ class Parameter:
 def spelled(word: str, names: Iterable[str]) -> str | None:
     """Return the name that equals a word apart from case; None if there is none."""
     return next((name for name in names if name.casefold() == word.strip().casefold()), None)
-
-
-def suggestion(word: Any, names: Iterable[str]) -> str:
-    """Return "; did you mean godot?" for the name most like a misspelt word; "" if none is."""
-    import difflib  # not before a word is wrong: the command line's help loads this module
-
-    given = word.strip().casefold() if isinstance(word, str) else ""
-    near = difflib.get_close_matches(given, list(names), n=1, cutoff=0.7)
-    return f"; did you mean {near[0]}?" if near else ""
 
 
 WIND = (
