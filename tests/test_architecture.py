@@ -18,7 +18,7 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: [
         *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
-        *("example_projects", "engine_projects", "notebook_html"),
+        *("example_projects", "engine_projects", "notebook_html", "shader_files"),
     ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields", "fixed_values"],
