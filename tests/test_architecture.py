@@ -25,8 +25,10 @@ FLOORS = {
     3: ["kernels", "wisdom", "transforms", "export"],
     4: [
         "computation",
+        "phases",
         "bound_waves",
         "synthesis",
+        "gpu",
         "frame",
         "lookahead",
         "ocean",
@@ -71,7 +73,12 @@ STAIRS = [
     ],
     [["cells", "fields"], ["fixed_values"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
-    [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
+    [
+        ["computation", "phases", "frame", "bound_waves"],
+        ["synthesis", "lookahead"],
+        ["gpu"],
+        ["ocean"],
+    ],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"]],
@@ -111,6 +118,11 @@ INNER = {
         ["cascade_setup", "estimate"],
         ["cascade"],
         ["dry_run", "repair"],
+    ],
+    "gpu": [
+        ["device", "stages", "readback"],
+        ["kernels", "device_frame"],
+        ["synthesis"],
     ],
     "runtime": [
         ["layout", "shaders"],
