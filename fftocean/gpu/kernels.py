@@ -27,8 +27,11 @@ All have the first of their group, used or not: without it lavapipe of Mesa 22.3
 _UNIFORM = {(0, 0), (1, 0), (1, 1), (1, 2), (1, 3), (1, 12)}
 _WRITTEN = {(1, 6), (1, 9), (1, 10), (1, 11), (1, 18)}
 
+Part = tuple[Any, int, int]
+"""A buffer, the first byte that is bound, and the number of bytes."""
+
 Buffers = Mapping[tuple[int, int], Any]
-"""Buffers by group and binding; or (buffer, offset, size), for a part of one."""
+"""Buffers, or parts of them, by group and binding."""
 
 
 @cache
@@ -73,11 +76,25 @@ def _kind(at: tuple[int, int]) -> str:
     return "storage" if at in _WRITTEN else "read-only-storage"
 
 
-class Dispatches:
-    """Kernels in the order in which they are given; each sees what those before it wrote."""
+class Kept:
+    """Groups of bindings that are made once, of buffers that live as long as this."""
 
-    def __init__(self, device: Device) -> None:
-        self._device = device
+    def __init__(self) -> None:
+        self.buffers: set[int] = set()  # their `id`
+        self.groups: dict[tuple[Any, ...], Any] = {}
+
+
+class Dispatches:
+    """
+    Kernels in the order in which they are given; each sees what those before it wrote.
+
+    Args:
+        device: it runs them.
+        kept: bindings of earlier dispatches.
+    """
+
+    def __init__(self, device: Device, kept: Kept) -> None:
+        self._device, self._kept = device, kept
         self._encoder = device.handle.create_command_encoder()
         self._pass = self._encoder.begin_compute_pass()
 
@@ -86,14 +103,23 @@ class Dispatches:
         pipeline, layouts = _pipeline(self._device, kernel)
         self._pass.set_pipeline(pipeline)
         for group, layout in enumerate(layouts):
-            entries = [
-                {"binding": at[1], "resource": _resource(buffers[at])}
-                for at in BINDINGS[kernel]
-                if at[0] == group
-            ]
-            bound = self._device.handle.create_bind_group(layout=layout, entries=entries)
-            self._pass.set_bind_group(group, bound)
+            parts = {at[1]: _part(buffers[at]) for at in BINDINGS[kernel] if at[0] == group}
+            self._pass.set_bind_group(group, self._bound(kernel, layout, group, parts))
         self._pass.dispatch_workgroups(groups)
+
+    def _bound(self, kernel: str, layout: Any, group: int, parts: Mapping[int, Part]) -> Any:
+        """Return a group of bindings: an earlier one, if all its buffers are kept."""
+        key = (kernel, group, *((id(part[0]), *part[1:]) for part in parts.values()))
+        if (found := self._kept.groups.get(key)) is not None:
+            return found
+        entries = [
+            {"binding": at, "resource": {"buffer": buffer, "offset": offset, "size": size}}
+            for at, (buffer, offset, size) in parts.items()
+        ]
+        made = self._device.handle.create_bind_group(layout=layout, entries=entries)
+        if all(id(part[0]) in self._kept.buffers for part in parts.values()):
+            self._kept.groups[key] = made
+        return made
 
     def submit(self) -> None:
         """Start all of them."""
@@ -101,6 +127,6 @@ class Dispatches:
         self._device.handle.queue.submit([self._encoder.finish()])
 
 
-def _resource(buffer: Any) -> dict[str, Any]:
-    whole, offset, size = buffer if isinstance(buffer, tuple) else (buffer, 0, buffer.size)
-    return {"buffer": whole, "offset": offset, "size": size}
+def _part(buffer: Any) -> Part:
+    """Return a buffer with its first byte and size."""
+    return buffer if isinstance(buffer, tuple) else (buffer, 0, buffer.size)

@@ -21,7 +21,7 @@ from fftocean.errors import DeviceError, ParameterError
 from fftocean.fields import FIELDS, POINTWISE, potential_factor
 from fftocean.gpu import readback
 from fftocean.gpu.device import Device, device, errors, forget
-from fftocean.gpu.kernels import Buffers, Dispatches
+from fftocean.gpu.kernels import Buffers, Dispatches, Kept
 from fftocean.gpu.stages import stages, twiddles
 from fftocean.phases import Moment
 from fftocean.physics import dispersion
@@ -44,7 +44,7 @@ Pairs are computed whole, so a field has the same bits whatever is asked beside 
 SIDE = 4096
 """Samples a side, at most."""
 _REACH = 90  # a power of two: see `balancing_weight`
-_GROUPS = 4096  # of the kernels that take any number of samples a thread
+_GROUPS = 4096  # workgroups, at most, of the kernels that loop over entries
 _PIECE = 2**22  # samples of a dispatch of normals, whose binding would else be too large
 _SEA_BYTES = 1120  # of the uniform block of fftocean.wgsl, which tells the number of twiddles
 
@@ -161,8 +161,8 @@ class DeviceSynthesis:
                 continue
             second = self._sum_bound_waves(tables, moment, rate)
             tables.set_moment(_block(moment, self._amplitudes.loop, rate, second, choppiness))
-            dispatches = Dispatches(tables.device)
-            dispatches.add("advance", _GROUPS, tables.common)
+            dispatches = Dispatches(tables.device, tables.kept)
+            dispatches.add("advance", _groups(self.columns * self.shape[0]), tables.common)
             for pair in pairs:
                 self._transform(dispatches, tables, pair, own)
             if rate == 0:
@@ -204,7 +204,7 @@ class DeviceSynthesis:
         for first, count, piece in tables.pieces:
             part = output, 4 * channels * first, 4 * channels * count
             bound = {**tables.common, **inputs, (1, 12): piece, (1, 18): part}
-            dispatches.add(name, min(_GROUPS, -(-count // 256)), bound)
+            dispatches.add(name, _groups(count), bound)
 
     def _sum_bound_waves(self, tables: "_Tables", moment: Moment, rate: int) -> bool:
         """Upload the waves of second order, which the processor sums; False if there are none."""
@@ -284,7 +284,7 @@ class _Tables:
 
     def __init__(self, made_for: Device, synthesis: DeviceSynthesis) -> None:
         wgpu = import_module("wgpu")
-        self.device = made_for
+        self.device, self.kept = made_for, Kept()
         use = wgpu.BufferUsage
         self._storage = use.STORAGE | use.COPY_SRC | use.COPY_DST | use.VERTEX
         self._uniform = use.UNIFORM | use.COPY_DST
@@ -301,8 +301,8 @@ class _Tables:
             (1, 1): self._filled(synthesis.patch_block(), self._uniform),
             (1, 4): self._filled(synthesis.wave_table()),
             (1, 5): self._filled(synthesis.pace_table()),
-            (1, 6): self._empty(8 * half),
-            (1, 7): self._empty(8 if synthesis._bound is None else 8 * half),
+            (1, 6): self._keep(self._empty(8 * half)),
+            (1, 7): self._keep(self._empty(8 if synthesis._bound is None else 8 * half)),
         }
         self.pairs = {
             pair: self._filled(synthesis.pair_block(pair), self._uniform) for pair in PAIRS
@@ -315,14 +315,14 @@ class _Tables:
             for first in range(0, self._samples, _PIECE)
             for n in (min(_PIECE, self._samples - first),)
         ]
-        self.work = (self._empty(8 * self._samples), self._empty(8 * self._samples))
-        self.spare, self.nothing = self._empty(4 * self._samples), self._empty(4)
+        self.work = [self._keep(self._empty(8 * self._samples)) for _ in range(2)]
+        self.spare, self.nothing = (self._keep(self._empty(4 * n)) for n in (self._samples, 1))
         self._fields: dict[str, Any] = {}
 
     def own(self, name: str) -> Any:
         """Return the buffer of a field that the next frame overwrites."""
         if name not in self._fields:
-            self._fields[name] = self.new(name)
+            self._fields[name] = self._keep(self.new(name))
         return self._fields[name]
 
     def new(self, name: str) -> Any:
@@ -338,9 +338,16 @@ class _Tables:
         self.device.handle.queue.write_buffer(self.common[1, 7], 0, np.ascontiguousarray(spectrum))
 
     def _filled(self, data: Any, usage: int | None = None) -> Any:
-        return self.device.handle.create_buffer_with_data(
-            data=data, usage=self._storage if usage is None else usage
+        return self._keep(
+            self.device.handle.create_buffer_with_data(
+                data=data, usage=self._storage if usage is None else usage
+            )
         )
+
+    def _keep(self, buffer: Any) -> Any:
+        """Return a buffer that lives as long as these tables, for bindings to be made once."""
+        self.kept.buffers.add(id(buffer))
+        return buffer
 
     def _empty(self, size: int) -> Any:
         return self.device.handle.create_buffer(size=size, usage=self._storage)
@@ -357,6 +364,11 @@ def _block(moment: Moment, loop: float | None, rate: int, second: bool, choppine
     block[6] = second
     block[7] = np.float32(choppiness).view(np.uint32)
     return block.tobytes()
+
+
+def _groups(count: int) -> int:
+    """Return the workgroups of a kernel with a loop over `count` entries."""
+    return min(_GROUPS, -(-count // 256))
 
 
 def _require_side(n: int, name: str) -> None:
