@@ -6,6 +6,7 @@ Exceptions and warnings of the package, in one tree.
         JobError                       a job file or a flag that cannot be carried out    exit 2
         ReaderError                    an input file that is not what it should be        exit 3
       FieldError (AttributeError)      a field that was not computed for this frame
+      DeviceError (RuntimeError)       a graphics processor that was lost                 exit 2
       OutputError (OSError)            a file that could not be written                   exit 4
         FolderInUseError               a folder that another process writes to            exit 6
       IntegrityError                   a file that was changed after it was written       exit 5
@@ -38,6 +39,10 @@ class ReaderError(ParameterError):
 
 class FieldError(FFTOceanError, AttributeError):
     """A field that was not computed for this frame."""
+
+
+class DeviceError(FFTOceanError, RuntimeError):
+    """A graphics processor that was lost, or has too little memory, also on a second try."""
 
 
 class OutputError(FFTOceanError, OSError):

@@ -18,15 +18,17 @@ PACKAGE = Path(__file__).resolve().parents[1] / "fftocean"
 FLOORS = {
     0: [
         *("constants", "errors", "host", "forks", "arrays", "limits", "files"),
-        *("example_projects", "engine_projects", "notebook_html"),
+        *("example_projects", "engine_projects", "notebook_html", "shader_files"),
     ],
     1: ["physics", "grid", "noise"],
     2: ["cells", "amplitudes", "readers", "fields", "fixed_values"],
     3: ["kernels", "wisdom", "transforms", "export"],
     4: [
         "computation",
+        "phases",
         "bound_waves",
         "synthesis",
+        "gpu",
         "frame",
         "lookahead",
         "ocean",
@@ -72,7 +74,12 @@ STAIRS = [
     [["cells", "fields"], ["fixed_values"], ["amplitudes"]],
     [["wisdom"], ["transforms"]],
     [["kernels"], ["export"]],
-    [["computation", "frame", "bound_waves"], ["synthesis", "lookahead"], ["ocean"]],
+    [
+        ["computation", "phases", "frame", "bound_waves"],
+        ["synthesis", "lookahead"],
+        ["gpu"],
+        ["ocean"],
+    ],
     [["cascade"], ["moving_amplitudes", "wave_list", "window"]],
     [["summed_waves", "interpolated_tiles", "query_budget"], ["query"]],
     [["products"], ["statistics", "polar_spectrum"]],
@@ -112,6 +119,11 @@ INNER = {
         ["cascade_setup", "estimate"],
         ["cascade"],
         ["dry_run", "repair"],
+    ],
+    "gpu": [
+        ["device", "stages", "readback"],
+        ["kernels", "device_frame"],
+        ["synthesis"],
     ],
     "runtime": [
         ["layout", "shaders"],

@@ -303,9 +303,18 @@ class Job:
         except ParameterError as error:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
 
-    def ocean(self, *, dtype: str = "float32") -> Ocean:
-        """Return the ocean of the tile, with the crests and values that the job fixes."""
+    def ocean(self, *, dtype: str = "float32", backend: str | None = None) -> Ocean:
+        """
+        Return the ocean of the tile, with the crests and values that the job fixes.
+
+        Args:
+            dtype: of the fields; float64 is computed on the CPU, whatever the job's backend.
+            backend: as in `Ocean`, instead of the job's; the waves do not depend on it.
+        """
         s = self.settings
+        if backend is None:
+            on_device = s["ocean.backend"] in ("gpu", "gpu-or-cpu")
+            backend = "auto" if on_device and dtype == "float64" else s["ocean.backend"]
         low, high = s["ocean.band_low"], s["ocean.band_high"]
         if not low < high:
             raise JobError(
@@ -325,6 +334,7 @@ class Job:
                 band=(low, high),
                 order=s["ocean.order"],
                 bound=s["ocean.bound"],
+                backend=backend,
             )
             return constrained(ocean, *self.fixed) if self.fixed else ocean
         except (JobError, ReaderError):
@@ -359,6 +369,7 @@ class Job:
                 amplitudes=s["ocean.amplitudes"],
                 order=s["ocean.order"],
                 bound=s["ocean.bound"],
+                backend=s["ocean.backend"],
             )
             return constrained(cascade, *self.fixed) if self.fixed else cascade
         except JobError:

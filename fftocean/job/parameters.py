@@ -40,6 +40,7 @@ ENGINES = (
     "babylon",
     "houdini",
 )
+BACKENDS = ("auto", "mkl", "pyfftw", "scipy", "gpu", "gpu-or-cpu")
 GROWTHS = ("jonswap", "kahma-calkoen", "young-verhagen")
 PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # repeated here so that the command line's help need not import the modules that define them; those
@@ -194,6 +195,14 @@ TILE = (
         1000,
         "number of waves whose pairs have second-order waves, the strongest",
         limits.BOUND_WAVES,
+    ),
+    Parameter(
+        "ocean.backend",
+        "auto",
+        "FFT library, auto for the fastest that is installed; or gpu, a graphics processor; or "
+        "gpu-or-cpu, auto where that cannot compute",
+        choices=BACKENDS,
+        flag="backend",
     ),
 )
 OUTPUT = (

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from builders import require
 
+import fftocean as fo
 from fftocean import host
 from fftocean.bench import machine
 from fftocean.bench.results import Reading, answer, read
@@ -25,7 +27,7 @@ QUESTIONS = (
     "bake",
     "second_order",
 )
-HELPERS = ("script", "fresh", "report", "all")
+HELPERS = ("gpu", "script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -484,3 +486,20 @@ def test_json_holds_the_machine_and_the_settings(script, tmp_path):
     assert tree["settings"]["n"] == [8, 16]
     assert tree["machine"] == machine.describe()
     assert tree["before"]["utc"] <= tree["after"]["utc"]
+
+
+@pytest.mark.client
+def test_gpu_answers(script, tmp_path):
+    """On whatever adapter there is; each reading names it."""
+    try:
+        adapter = fo.gpu.adapter()
+    except fo.ParameterError as error:
+        require(False, str(error))
+    result, picture = asked(script, "gpu", tmp_path, "--n", "16", "32", "--seconds", "0")
+    assert picture[:8] == PNG
+    for n in (16, 32):
+        kept = result.find("full frame, kept on the device", n=n)
+        assert (kept.clock, kept.at["adapter"]) == ("wall", str(adapter))
+        assert result.find("reading back alone", n=n).median > 0.0
+        ratio = result.find("full frame on the CPU / full frame, read back", n=n)
+        assert (ratio.unit, ratio.count) == ("x", 3)
