@@ -1,6 +1,7 @@
 """Entry point of the command line: exit codes, signals, warnings."""
 
 import contextlib
+import io
 import os
 import signal
 import sys
@@ -35,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: the words after `fftocean`; None for those of this process.
     """
     try:
-        with _sigterm_as_exit(), warnings.catch_warnings():
+        with _sigterm_as_exit(), _any_text(), warnings.catch_warnings():
             warnings.simplefilter("always", SeaWarning)
             warnings.showwarning = _note_printer()
             given = sys.argv[1:] if arguments is None else arguments
@@ -80,6 +81,25 @@ def _sigterm_as_exit() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, signal.SIG_DFL if before is None else before)
+
+
+@contextlib.contextmanager
+def _any_text() -> Iterator[None]:
+    """
+    Let stdout take any text, with escapes for what its encoding lacks, as stderr does.
+
+    A Windows console or pipe often has 256 characters only.
+    """
+    stream = sys.stdout
+    if not isinstance(stream, io.TextIOWrapper) or stream.errors != "strict":
+        yield
+        return
+    stream.reconfigure(errors="backslashreplace")
+    try:
+        yield
+    finally:
+        with contextlib.suppress(ValueError, OSError):  # closed, or the disk is full
+            stream.reconfigure(errors="strict")
 
 
 def _exit_on_sigterm(*_: object) -> NoReturn:

@@ -118,7 +118,9 @@ class Scene:
             yield from (None for _ in frames)
             return
         span = frames[0] // foam_module.SPAN
-        start = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)[span]
+        starts = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)
+        start = np.array(starts[span])
+        del starts  # a mapped file cannot be removed on Windows
         for j, state in self.foam.states(
             self.ocean, self._count, start, span * foam_module.SPAN, frames[-1] + 1
         ):
