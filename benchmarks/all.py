@@ -43,6 +43,8 @@ QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "startup": ("--runs", "2", "--cold", "1", "--n", "64"),
     "bake": ("--n", "64", "--frames", "8"),
     "second_order": ("--n", "64", "--waves", "20", "50", "--seconds", "0"),
+    "series": ("--n", "32", "--hours", "0.05", "--probes", "2", "--seconds", "0"),
+    "robots": ("--n", "16", "--points", "1", "5", "--tiles", "1", "--seconds", "0"),
 }
 
 

@@ -15,7 +15,10 @@ from fftocean.bench import machine
 from fftocean.bench.results import Reading, answer, read
 
 FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
-QUESTIONS = ("frame", "direct_sum", "scaling", "memory", "startup", "bake", "second_order")
+QUESTIONS = (
+    *("frame", "direct_sum", "scaling", "memory", "startup", "bake", "second_order"),
+    *("series", "robots"),
+)
 HELPERS = ("script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -473,3 +476,15 @@ def test_json_holds_the_machine_and_the_settings(script, tmp_path):
     assert tree["settings"]["n"] == [8, 16]
     assert tree["machine"] == machine.describe()
     assert tree["before"]["utc"] <= tree["after"]["utc"]
+
+
+def test_series_answer(script, tmp_path):
+    flags = ("--n", "16", "--hours", "0.02", "--probes", "2", "--seconds", "0")
+    result, picture = asked(script, "series", tmp_path, *flags)
+    assert picture[:8] == PNG
+    for loop in (True, False):
+        for fields in ("height", "all"):
+            assert result.find("series", n=16, loop=loop, fields=fields).clock == "cpu"
+        assert result.find("direct sum", loop=loop).median > 0.0
+        error = result.find("largest error / largest height", loop=loop)
+        assert 0.0 <= error.median < 1e-9
