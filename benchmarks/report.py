@@ -17,14 +17,8 @@ from fftocean.bench.results import Condition, Reading, Result, read
 HERE = Path(__file__).resolve().parent
 RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
 QUESTIONS = (
-    "frame",
-    "direct_sum",
-    "scaling",
-    "memory",
-    "startup",
-    "seeding",
-    "bake",
-    "second_order",
+    *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
+    *("series", "robots"),
 )
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
@@ -171,6 +165,16 @@ def goals() -> list[Goal]:
         what = f"second order of {waves} waves in a frame, 256 x 256"
         at = {"n": 256, "waves": waves}
         found.append(Goal(what, "<=", bound, "second_order", "second order adds", at))
+    for loop, words in ((True, "on a loop"), (False, "without a loop")):
+        what = f"10 probes, 3 hours at 5 Hz, all fields, 256 x 256, {words}"
+        at = {"n": 256, "loop": loop, "fields": "all"}
+        found.append(Goal(what, "<=", 5000.0, "series", "series", at))
+        what = f"series {words}, error to the direct sum"
+        at = {"n": 256, "loop": loop}
+        found.append(Goal(what, "<=", 1e-9, "series", "largest error / largest height", at))
+    what = "`kinematics.at`, 200 points, waves of 3 m and more on 3 tiles of 128 x 128"
+    at = {"n": 128, "tiles": 3, "points": 200}
+    found.append(Goal(what, "<=", 5.0, "robots", "below the surface", at))
     return found
 
 

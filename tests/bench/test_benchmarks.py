@@ -18,14 +18,8 @@ from fftocean.bench.results import Reading, answer, read
 
 FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
 QUESTIONS = (
-    "frame",
-    "direct_sum",
-    "scaling",
-    "memory",
-    "startup",
-    "seeding",
-    "bake",
-    "second_order",
+    *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
+    *("series", "robots"),
 )
 HELPERS = ("gpu", "script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -503,3 +497,15 @@ def test_gpu_answers(script, tmp_path):
         assert result.find("reading back alone", n=n).median > 0.0
         ratio = result.find("full frame on the CPU / full frame, read back", n=n)
         assert (ratio.unit, ratio.count) == ("x", 3)
+
+
+def test_series_answer(script, tmp_path):
+    flags = ("--n", "16", "--hours", "0.02", "--probes", "2", "--seconds", "0")
+    result, picture = asked(script, "series", tmp_path, *flags)
+    assert picture[:8] == PNG
+    for loop in (True, False):
+        for fields in ("height", "all"):
+            assert result.find("series", n=16, loop=loop, fields=fields).clock == "cpu"
+        assert result.find("direct sum", loop=loop).median > 0.0
+        error = result.find("largest error / largest height", loop=loop)
+        assert 0.0 <= error.median < 1e-9
