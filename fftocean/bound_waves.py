@@ -405,11 +405,15 @@ class BoundSpectrum:
         """Sum over the pairs of one part."""
         self._sums.sum(part, [self._rate + rate for rate in rates])
 
-    def add(self, rate: int, first: int, real: Real, imag: Real) -> None:
-        """Add the spectrum, in the unit, to the columns first, first + 1, ... of the tile's."""
-        g_real, g_imag = self._sums.results[self._rate + rate]
-        gain, own, scale = self._gain, self._own, self._scale
-        kernels.add_folded(g_real, g_imag, first, gain, own, scale, real, imag)
+    def summed(self) -> tuple[bool, float, Real, Real, Real, Real, Real]:
+        """
+        Return the sums of height and rate, to be added to a spectrum in the unit.
+
+        They are as `kernels.whole_passes.Bound` has them; those that were not asked for are empty.
+        """
+        empty = np.empty((0, 0), self._gain.dtype)
+        height, rate = (self._sums.results.get(self._rate + r, (empty, empty)) for r in (0, 1))
+        return (self._own, self._scale, *height, *rate, self._gain)
 
 
 class _Layout:

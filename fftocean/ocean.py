@@ -12,7 +12,7 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike
-from fftocean.bound_waves import BoundWaves, PhaseFunction, Shown, bound_waves
+from fftocean.bound_waves import BoundWaves, Shown, bound_waves
 from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
 from fftocean.errors import ParameterError, SeaWarning, described
@@ -22,7 +22,6 @@ from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
 from fftocean.grid import Grid
 from fftocean.host import require_memory
-from fftocean.kernels import passes
 from fftocean.limits import (
     BAND_EDGE,
     BAND_START,
@@ -37,7 +36,7 @@ from fftocean.lookahead import run_in_order
 from fftocean.physics import dispersion
 from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
-from fftocean.synthesis import Synthesis
+from fftocean.synthesis import Moment, Synthesis
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -422,11 +421,7 @@ class Ocean:
         """
         t = TIME.check("t", t)
         moment = t if self.loop is None else math.fmod(t, self.loop) / self.loop
-
-        def phase(frequency: Real, out: Real) -> None:
-            passes.phases_at(frequency, moment, out)
-
-        return self._render(t, fields, out, phase)
+        return self._render(t, fields, out, Moment(0, moment))
 
     def loop_frame(
         self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None
@@ -452,14 +447,9 @@ class Ocean:
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
-
-        def phase(frequency: Real, out: Real) -> None:
-            if count <= 2**26 and self._few_cycles:
-                passes.phases_in_loop(frequency, float(step), float(count), out)
-            else:
-                passes.phases_in_fine_loop(frequency, step, count, out)
-
-        return self._render(self.loop * step / count, fields, out, phase)
+        kind = 1 if count <= 2**26 and self._few_cycles else 2
+        moment = Moment(kind, float(step), float(count))
+        return self._render(self.loop * step / count, fields, out, moment)
 
     def frames(
         self,
@@ -511,13 +501,11 @@ class Ocean:
             (partial(self.loop_frame, j, count, fields) for j in steps), ahead, reuse
         )
 
-    def _render(
-        self, t: float, fields: Sequence[str], out: Frame | None, phase: PhaseFunction
-    ) -> Frame:
+    def _render(self, t: float, fields: Sequence[str], out: Frame | None, moment: Moment) -> Frame:
         fields = check_fields(fields)
         arrays = self._outputs(fields, out)
         with no_fork(), self._locked():
-            self._synthesis.run(phase, arrays, self.choppiness)
+            self._synthesis.run(moment, arrays, self.choppiness)
         frame = Frame(t, self.grid, self.choppiness, arrays)
         if out is not None:
             out._become(frame)  # its t and fields are the new ones
