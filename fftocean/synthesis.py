@@ -18,8 +18,8 @@ along y and four along x.
                                                                                       second pass
 
 Both passes run over blocks that stay in cache, each compiled whole: see `kernels.whole_passes`.
-Threads take the blocks in turns. `fields.FIELDS` has the derivative of each field; `Plan` says which
-transforms a set of fields takes.
+Threads take the blocks in turns. `fields.FIELDS` has the derivative of each field; `Plan` says
+which transforms a set of fields takes.
 
 Two numbers keep single precision in range. Waves are divided by the largest of them (a power of
 two, which rounds nothing), and the second pass multiplies it back. And since two fields of a packed
