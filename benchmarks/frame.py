@@ -99,7 +99,7 @@ def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
     copy = Entry("copy of the outputs", copy_of_outputs(own), {"n": n})
     for full in [entry for entry in entries if entry.what == "full frame"]:
         pairs += [Pair(f"{other.what} / full frame", other, full) for other in usual]
-        pairs.append(Pair("full frame / copy of the outputs", full, copy))
+        pairs.append(Pair("copy of the outputs / full frame", copy, full))
     return race([*entries, *usual, copy], pairs, clock="cpu", seconds=seconds)
 
 
