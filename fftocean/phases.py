@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from fftocean.arrays import Real
 from fftocean.kernels import passes
+from fftocean.kernels.whole_passes import Moment as Numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +16,12 @@ class AtTime:
 
     def __call__(self, frequency: Real, out: Real) -> None:
         """Write the phases of waves in cycles, -1/2 to 1/2."""
-        passes.phases_at(frequency, self.time, out)
+        passes.phases(*self.numbers, frequency, out)
+
+    @property
+    def numbers(self) -> Numbers:
+        """The time as compiled loops take it: see `passes.phases`."""
+        return 0, self.time, 1.0
 
     @property
     def exact(self) -> Fraction:
@@ -33,10 +39,13 @@ class InLoop:
 
     def __call__(self, frequency: Real, out: Real) -> None:
         """Write the phases of waves in cycles, -1/2 to 1/2."""
-        if self.count <= 2**26 and self.few_cycles:
-            passes.phases_in_loop(frequency, float(self.step), float(self.count), out)
-        else:
-            passes.phases_in_fine_loop(frequency, self.step, self.count, out)
+        passes.phases(*self.numbers, frequency, out)
+
+    @property
+    def numbers(self) -> Numbers:
+        """The step as compiled loops take it: see `passes.phases`."""
+        kind = 1 if self.count <= 2**26 and self.few_cycles else 2
+        return kind, float(self.step), float(self.count)
 
     @property
     def exact(self) -> Fraction:
