@@ -1,5 +1,5 @@
 """
-What `help()` shows of every public name: units, shapes, errors.
+Text that `help()` shows of every public name: units, shapes, errors.
 
 The rule is read from the code: a function that takes or returns numbers names a unit, one that
 returns an array names its shape, one that raises or checks an argument has the section "Raises", in
@@ -53,7 +53,7 @@ def missing_errors(function, text):
 
 
 def missing(function, text):
-    """Return what the docstring of a function does not say."""
+    """Return the parts that the docstring of a function lacks."""
     kinds = {name: str(kind) for name, kind in inspect.get_annotations(function).items()}
     found = []
     if any(NUMBERS.search(kind) for kind in kinds.values()) and not UNIT.search(text):
