@@ -250,7 +250,7 @@ class Ocean:
 
         Args:
             amplitudes: the scaled waves, on their own grid.
-            gain: factor on the waves of second order, (ny, nx // 2 + 1) of that grid.
+            gain: factor on the waves of second order [-], (ny, nx // 2 + 1) of that grid.
             rate: time derivatives of the waves of second order.
             planning, threads: as in `Ocean`; None for those of this ocean.
         """

@@ -87,12 +87,19 @@ class Series:
     Time series at probes; `series["height"]` is one of them. float64, SI.
 
     Fields of the surface are (times, probes), those below it (times, probes, levels).
+
+    Args:
+        times: (times,) [s].
+        x: (probes,) [m].
+        y: (probes,) [m].
+        z: (levels,) up from the still-water level [m].
+        values: series by the name of their field, in SI units.
     """
 
-    times: Real  # (times,) [s]
-    x: Real  # (probes,) [m]
-    y: Real  # (probes,) [m]
-    z: Real  # (levels,) up from the still-water level [m]
+    times: Real
+    x: Real
+    y: Real
+    z: Real
     values: Mapping[str, Real]
 
     __repr__ = brief_repr

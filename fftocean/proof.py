@@ -29,22 +29,31 @@ _FRAMES = 48
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One comparison: an error, its tolerance, and the reason for that tolerance."""
+    """
+    One comparison: an error, its tolerance, and the reason for that tolerance.
 
-    name: str  # the quantity
-    against: str  # its independent value
-    error: float  # relative to the scale that `verify` documents [-], or a count
-    tolerance: float  # the largest error that passes
+    Args:
+        name: the quantity.
+        against: its independent value.
+        error: relative to the scale that `verify` documents [-], or a count.
+        tolerance: the largest error that passes, in the unit of `error`.
+        reason: where the tolerance comes from.
+    """
+
+    name: str
+    against: str
+    error: float
+    tolerance: float
     reason: str
 
     @property
     def figure(self) -> float:
-        """The error: the earlier name of `error`."""
+        """The error, in the unit of `error` [-]: its earlier name."""
         return self.error
 
     @property
     def bound(self) -> float:
-        """The tolerance: the earlier name of `tolerance`."""
+        """The tolerance, in the unit of `error` [-]: the earlier name of `tolerance`."""
         return self.tolerance
 
     @property

@@ -89,7 +89,7 @@ class Answer:
 
     @property
     def heights(self) -> Real:
-        """Height of the surface above the still-water level, or the frame's zero (`level`) [m]."""
+        """Height above the still-water level or the frame's zero (`level`) [m], shaped like x."""
         return self["heights"]
 
     @property
