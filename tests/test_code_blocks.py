@@ -191,7 +191,7 @@ def run_page(blocks):
 
 
 @pytest.fixture
-def desk(tmp_path, monkeypatch):
+def checkout(tmp_path, monkeypatch):
     """Return a folder as a reader has it: the checkout's examples, buoy files, a job of a gale."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
@@ -215,7 +215,7 @@ RUNNABLE = [
 
 
 @pytest.mark.parametrize("page", RUNNABLE)
-@pytest.mark.usefixtures("desk")
+@pytest.mark.usefixtures("checkout")
 @pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 def test_the_code_of_a_page_runs(page):
     run_page(read(page))
