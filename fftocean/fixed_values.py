@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from fftocean.arrays import shortened
 from fftocean.errors import ParameterError, described, suggestion
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
@@ -125,6 +126,9 @@ class Rarity:
     m0: float  # variance of the height over seeds, without the fixed values [m^2]
     period: float  # mean zero-upcrossing period at a place, 2 pi sqrt(m0/m2) [s]
     min_jacobian: float  # least Jacobian of the surface at the times of the values [-]
+
+    def __repr__(self) -> str:
+        return shortened(f"Rarity({self})")
 
     @property
     def probability(self) -> float:

@@ -42,7 +42,7 @@ REASONS = {
     "part of a program": "the lines around it are the reader's own",
     "takes minutes": "the same code is run by a test at a smaller size",
 }
-RUN_BY_CI = ("run", "test")  # the two commands of the README, which .ci/run takes from there
+RUN_BY_CI = ("test",)  # the README's second command, which .ci/run takes from there
 
 NOT_OURS = {
     "pip": "installs packages",
@@ -127,7 +127,9 @@ def smaller(words):
     if isinstance(own.get("job"), Path) and own["job"].is_dir():
         return words
     few = ["--n", str(FEW)] if "n" in own else []
-    if words[0] == "bake" and own["fps"] is None and ":" not in (own["frames"] or ""):
+    if words[0] == "bake" and own["fps"] is not None:
+        few += ["--loop", "1"]
+    elif words[0] == "bake" and ":" not in (own["frames"] or ""):
         few += ["--frames", "4"]
     return [*words, *few]
 
