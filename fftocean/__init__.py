@@ -95,7 +95,7 @@ if TYPE_CHECKING:
     from fftocean.statistics import measure as measure
     from fftocean.window import Window as Window
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _NAMES_BY_MODULE = {
     "fftocean.baking.bake": ("bake",),

@@ -22,6 +22,10 @@ class FFTOceanError(Exception):
 
     exit_code = 2
 
+    def __str__(self) -> str:
+        """Return the message on one line, as a value in it may have several: an array, a text."""
+        return " ".join(line.strip() for line in super().__str__().splitlines())
+
 
 class ParameterError(FFTOceanError, ValueError):
     """A parameter out of range."""

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from fftocean.arrays import shortened
 from fftocean.errors import ParameterError, described, suggestion
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
@@ -136,6 +137,9 @@ class Rarity:
     m0: float
     period: float
     min_jacobian: float
+
+    def __repr__(self) -> str:
+        return shortened(f"Rarity({self})")
 
     @property
     def probability(self) -> float:

@@ -27,7 +27,7 @@ from fftocean.arrays import Complex, Real, RealLike, brief_repr
 from fftocean.bound_waves import BoundWaves
 from fftocean.cascade import Cascade
 from fftocean.constants import WATER_DENSITY
-from fftocean.errors import OutputError, ParameterError, suggestion
+from fftocean.errors import OutputError, ParameterError, described, suggestion
 from fftocean.files import path_of, write_parts, write_whole
 from fftocean.host import require_memory
 from fftocean.kernels import passes
@@ -232,9 +232,15 @@ def _list_of(name: str, values: RealLike, quantity: Quantity) -> Real:
 
 def _columns(fields: Sequence[str], levels: Real) -> list[tuple[str, float]]:
     """Return each field, and below the surface each level of it, as (name, level)."""
-    if isinstance(fields, str) or not fields:
+    if (
+        isinstance(fields, str)
+        or not isinstance(fields, Sequence)
+        or not fields
+        or not all(isinstance(name, str) for name in fields)
+    ):
         raise ParameterError(
-            f"fields must be a list of names such as ('height', 'pressure'), got {fields!r:.60}"
+            "fields must be a list of names such as ('height', 'pressure'), got "
+            f"{described(fields)}"
         )
     columns: list[tuple[str, float]] = []
     for name in dict.fromkeys(fields):

@@ -42,7 +42,7 @@ REASONS = {
     "part of a program": "the lines around it are the reader's own",
     "takes minutes": "the same code is run by a test at a smaller size",
 }
-RUN_BY_CI = ("run", "test")  # the two commands of the README, which .ci/run takes from there
+RUN_BY_CI = ("test",)  # the README's second command, which .ci/run takes from there
 
 NOT_OURS = {
     "pip": "installs packages",
@@ -127,7 +127,9 @@ def smaller(words):
     if isinstance(own.get("job"), Path) and own["job"].is_dir():
         return words
     few = ["--n", str(FEW)] if "n" in own else []
-    if words[0] == "bake" and own["fps"] is None and ":" not in (own["frames"] or ""):
+    if words[0] == "bake" and own["fps"] is not None:
+        few += ["--loop", "1"]
+    elif words[0] == "bake" and ":" not in (own["frames"] or ""):
         few += ["--frames", "4"]
     return [*words, *few]
 
@@ -191,7 +193,7 @@ def run_page(blocks):
 
 
 @pytest.fixture
-def desk(tmp_path, monkeypatch):
+def checkout(tmp_path, monkeypatch):
     """Return a folder as a reader has it: the checkout's examples, buoy files, a job of a gale."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
@@ -215,7 +217,7 @@ RUNNABLE = [
 
 
 @pytest.mark.parametrize("page", RUNNABLE)
-@pytest.mark.usefixtures("desk")
+@pytest.mark.usefixtures("checkout")
 @pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 def test_the_code_of_a_page_runs(page):
     run_page(read(page))

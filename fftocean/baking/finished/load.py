@@ -67,6 +67,9 @@ class BakedCascade:
     tiles: tuple[Bake, ...]
     manifest: Mapping[str, Any]
 
+    def __repr__(self) -> str:
+        return shortened(f"BakedCascade({', '.join(map(repr, self.tiles))})")
+
     def __len__(self) -> int:
         """Return the number of tiles."""
         return len(self.tiles)
