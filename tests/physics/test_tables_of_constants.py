@@ -34,7 +34,8 @@ ROUNDINGS = 1e-12  # a handful of operations, powers up to 5 among them
 def test_water_and_gravity():
     """
     Surface tension by IAPWS R1-76 (2014) and the factor of salt of Nayar et al. 2014, density by
-    EOS-80 (UNESCO 1981), at 15 degrees C and 35 g/kg. The constants are rounded to 1 % and 1 kg/m^3.
+    EOS-80 (UNESCO 1981), at 15 degrees C and 35 g/kg. The constants are rounded, to 1 % and to
+    1 kg/m^3.
     """
     tau = 1.0 - 288.15 / 647.096
     fresh = 235.8e-3 * tau**1.256 * (1.0 - 0.625 * tau)
