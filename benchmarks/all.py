@@ -41,6 +41,7 @@ QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "scaling": ("--n", "64", "100", "127", "128", "256", "--seconds", "2"),
     "memory": ("--n", "64", "128", "--runs", "1"),
     "startup": ("--runs", "2", "--cold", "1", "--n", "64"),
+    "seeding": ("--n", "64", "128", "--tile", "64", "--runs", "2"),
     "bake": ("--n", "64", "--frames", "8"),
     "second_order": ("--n", "64", "--waves", "20", "50", "--seconds", "0"),
 }

@@ -3,8 +3,9 @@ Time until the first frame.
 
 In fresh processes: `import fftocean`, `fftocean --help`, the first full frame after an installation
 (nothing compiled, no cache), and in every later process. Each is the elapsed time of a whole
-process; "above Python" is that minus the median of a process that does nothing. CPU time is given
-beside it: on a busy machine it is closer to the time on an idle one.
+process; "above Python" is that minus the median of a process that does nothing, "above NumPy" of
+one that imports NumPy. CPU time is given beside it: on a busy machine it is closer to the time on
+an idle one.
 
     python benchmarks/startup.py [--runs 7] [--n 256] [--json FILE] [--plot FILE]
 """
@@ -35,8 +36,10 @@ ocean = fo.Ocean(fo.Sea.from_wind(speed=10.0, fetch=100e3), n={{n}}, size=300.0,
 ocean.frame(0.0, {FULL!r})
 print(json.dumps(time.perf_counter() - start))
 """
+LATER = "first frame in later processes, above NumPy"
 PROGRAMS = {
     "nothing": ("-c", "pass"),
+    "import numpy": ("-c", "import numpy"),
     "import fftocean": ("-c", "import fftocean"),
     "fftocean --help": ("-m", "fftocean", "--help"),
 }
@@ -62,7 +65,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
             run = fresh.python(*program)
             if i:  # the first of each reads its files from the disk
                 lives[name].append(run)
-    idle = lives.pop("nothing")
+    idle, numpy = lives.pop("nothing"), lives.pop("import numpy")
     readings = both("a process that does nothing", idle)
     for name, runs in lives.items():
         readings += both(name, runs)
@@ -78,7 +81,8 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
         say("first frame in later processes")
         later = [fresh.python(*program, cache=cache) for _ in range(options.runs)]
     readings += both("first frame after installation", first, n=options.n)
-    return readings + both("first frame in later processes", later, n=options.n)
+    readings += both("first frame in later processes", later, n=options.n)
+    return readings + both(LATER, later, less=numpy, n=options.n)
 
 
 def both(

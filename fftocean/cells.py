@@ -503,8 +503,18 @@ class Part:
         return _beside(self.k, self.k_jumps, nearest, farthest, _TAIL * nearest)
 
     def angularly(self, theta: Real, half: Real) -> tuple[Real, Flags]:
-        """Return the same for direction panels, of angles `half` to both sides of theta."""
-        return _beside(self.theta, self.theta_jumps, theta - half, theta + half, np.inf)
+        """
+        Return the same for direction panels, of angles `half` (m,) to both sides of theta (4, m);
+        a size of 0 for cells so narrow that one Gauss point does in any panel.
+        """
+        size, rough = np.zeros(theta.shape), np.zeros(theta.shape, np.bool_)
+        narrowest = 0.25 * float(np.min(np.diff(self.theta), initial=np.inf))
+        some = np.flatnonzero(
+            2.0 * half > (0.0 if self.theta_jumps.size else _ACROSS[0] * narrowest)
+        )
+        low, high = theta[:, some] - half[some], theta[:, some] + half[some]
+        size[:, some], rough[:, some] = _beside(self.theta, self.theta_jumps, low, high, np.inf)
+        return size, rough
 
 
 def parts_of_sea(sea: Sea) -> list[Part]:

@@ -5,8 +5,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from scipy.special import gammaincc
-
 from fftocean.errors import ParameterError, described
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
@@ -130,6 +128,8 @@ class Rarity:
     @property
     def probability(self) -> float:
         """Probability of values so unusual, at a place and time chosen beforehand."""
+        from scipy.special import gammaincc  # half a second, which most runs do not need
+
         return float(gammaincc(0.5 * self.degrees, 0.5 * self.chi2_of_values))
 
     @property

@@ -105,8 +105,10 @@ class JONSWAP:
         x = relative(omega, self.peak)
         sigma = np.where(x <= 1.0, 0.07, 0.09)
         r = np.exp(-((x - 1.0) ** 2) / (2.0 * sigma**2))
+        # x^-4 at a tenth of the time of a power; inverted first, as x^4 may overflow
+        x4 = np.square(np.square(1.0 / x))
         s: Real = (
-            self.alpha * GRAVITY**2 * self.peak**-5 * x**-5 * np.exp(-1.25 * x**-4) * self.gamma**r
+            self.alpha * GRAVITY**2 * self.peak**-5 * (x4 / x) * np.exp(-1.25 * x4) * self.gamma**r
         )
         return s
 

@@ -18,8 +18,10 @@ class CosineSquared:
 
     def __call__(self, omega: RealLike, theta: RealLike, _peak: float, /) -> Real:
         """Return D at `theta`, [1/rad]."""
-        omega, theta = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), wrapped(theta))
-        return np.where(np.abs(theta) < 0.5 * np.pi, (2.0 / np.pi) * np.square(np.cos(theta)), 0.0)
+        theta = wrapped(theta)
+        density = np.where(np.abs(theta) < 0.5 * np.pi, np.square(np.cos(theta)), 0.0)
+        shape = np.broadcast_shapes(np.shape(omega), density.shape)
+        return np.broadcast_to((2.0 / np.pi) * density, shape)
 
 
 SPREADINGS.add("cosine-squared", CosineSquared, Way(CosineSquared))
