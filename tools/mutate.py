@@ -1,7 +1,8 @@
 """
 Small deliberate errors, each of which a test beside it must notice.
 
-`tools/mutations/*.toml` is the table of errors; `Mutation` and `_numbers` have its keys. Each error is written into a copy of the tree, never into the tree itself, and its tests run there:
+`tools/mutations/*.toml` is the table of errors; `Mutation` and `_numbers` have its keys. Each error
+is written into a copy of the tree, never into the tree itself, and its tests run there:
 
     python tools/mutate.py --results mutations.jsonl
 
@@ -139,7 +140,7 @@ def read_table(folder: Path = TABLE) -> list[Mutation]:
 def _numbers(
     *, module: str, names: Sequence[str], tests: Sequence[str], factor: float, kind: int = 1
 ) -> Iterator[Mutation]:
-    """Yield an error for every number in the assignments or functions `names`: `factor` times it."""
+    """Yield an error for each number in the assignments or functions `names`: `factor` times it."""
     text = (ROOT / module).read_text()
     starts = [0]
     for line in text.splitlines(keepends=True):

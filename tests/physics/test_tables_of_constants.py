@@ -148,12 +148,13 @@ def torsethaugen(hs, tp, full):
 
 @pytest.mark.parametrize("form", ["simplified", "full"])
 @pytest.mark.parametrize(
-    ("hs", "tp"), [(0.2, 14.0), (0.5, 3.5), (2.0, 6.0), (2.0, 15.0), (6.0, 9.0), (6.0, 17.0)]
+    ("hs", "tp"),
+    [(0.2, 14.0), (0.5, 5.2), (2.0, 6.0), (2.0, 8.6), (2.0, 15.0), (6.0, 9.0), (6.0, 17.0)],
 )
 def test_torsethaugen(form, hs, tp):
     """
     To a hundred roundings: a share near 1 leaves the root of a difference for the other system. Of
-    0.2 m the two limits of the full form are met: s4 is 0.01 m^2/Hz at least, the period 2.5 s.
+    0.2 m s4 has its least value; of 2 m and 8.6 s the period has, 2.5 s; of 0.5 m gamma is 1.
     """
     wind, swell = torsethaugen(hs, tp, form == "full")
     first, second = TorsethaugenSpectrum(hs=hs, tp=tp, form=form).systems
@@ -222,9 +223,12 @@ def test_unified_spectrum(speed, fetch):
     delta = np.tanh(
         0.25 * math.log(2.0) + 4.0 * (c / cp) ** 2.5 + 0.13 * friction / cm * (cm / c) ** 2.5
     )
-    spreading = ElfouhailySpreading(friction_velocity=friction)
-    gravity = k < 1.0  # where the phase speed of the frequency is known without ripples
-    assert spreading.delta(omega, peak_omega)[gravity] == pytest.approx(delta[gravity], rel=1e-3)
+    # of this tension the waves of a frequency are those of the spectrum's own phase speed
+    tension = constants.WATER_DENSITY * G / km**2
+    spreading = ElfouhailySpreading(friction_velocity=friction, surface_tension=tension)
+    there = float(spreading.delta(peak_omega * math.sqrt(1.0 + kp**2 / km**2), peak_omega))
+    assert there == pytest.approx(math.tanh(0.25 * math.log(2.0) + 4.0), rel=1e-3)
+    assert spreading.delta(omega, peak_omega) == pytest.approx(delta, rel=1e-3)
 
 
 def test_slowest_ripples():
