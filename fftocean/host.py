@@ -20,7 +20,10 @@ def cores() -> int:
         len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     )
     quota, _, period = read_system_file("/sys/fs/cgroup/cpu.max").partition(" ")
-    if quota.strip().isdigit() and period.strip().isdigit():
+    if not quota:  # control groups of version 1, whose quota is -1 where there is none
+        quota = read_system_file("/sys/fs/cgroup/cpu/cpu.cfs_quota_us")
+        period = read_system_file("/sys/fs/cgroup/cpu/cpu.cfs_period_us")
+    if quota.strip().isdigit() and period.strip().isdigit() and int(period):
         count = min(count, max(1, int(quota) // int(period)))
     return count
 
@@ -51,21 +54,28 @@ def available_memory() -> float:
     """
     candidates = [float("inf")]
     try:
-        for line in Path("/proc/meminfo").read_text().splitlines():
+        for line in read_system_file("/proc/meminfo").splitlines():
             if line.startswith("MemAvailable:"):
                 candidates.append(1024.0 * int(line.split()[1]))
-    except (OSError, ValueError):
-        if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
-            candidates.append(float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE"))
-    try:
-        limit = Path("/sys/fs/cgroup/memory.max").read_text().strip()
-        if limit != "max":
-            candidates.append(
-                float(limit) - float(Path("/sys/fs/cgroup/memory.current").read_text())
-            )
-    except (OSError, ValueError):
+    except (ValueError, IndexError):
         pass
+    if len(candidates) == 1 and hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+        candidates.append(float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE"))
+    for limit, used in _GROUP_MEMORY:
+        # "max" of version 2 is no number; version 1 without a limit has one near 2^63.
+        with contextlib.suppress(ValueError):
+            candidates.append(float(int(read_system_file(limit))) - int(read_system_file(used)))
     return min(candidates)
+
+
+_GROUP_MEMORY = (
+    ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
+    (
+        "/sys/fs/cgroup/memory/memory.limit_in_bytes",
+        "/sys/fs/cgroup/memory/memory.usage_in_bytes",
+    ),
+)
+"""Limit and use [B] of the control group, as versions 2 and 1 tell them."""
 
 
 def require_memory(what: str, needed: float) -> None:

@@ -246,3 +246,19 @@ def test_wavelengths_of_peak_and_samples():
     assert shortest_wavelength(o.grid) == 20.0
     assert peak_wavelength(fo.Ocean(fo.Sea(), n=8, size=10.0)) == 0.0
     assert peak_wavelength(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0)) == 0.0
+
+
+@pytest.mark.parametrize("omega", [0.3, 0.8, 2.5])
+def test_peak_period_of_one_and_of_two_lines(omega):
+    """
+    All energy at one frequency: its period. Of two lines a third apart S^4 is 256 times higher in
+    the higher, up to the widths of their bins, so that its period is found within 1 %.
+    """
+    from fftocean.statistics import peak_period
+
+    one = np.array([1.0])
+    assert peak_period(one, omega * one) == pytest.approx(2.0 * math.pi / omega, rel=1e-12)
+    lines = omega * np.array([1.0, 4.0 / 3.0])
+    assert peak_period(np.array([5.0, 1.0]), lines) == pytest.approx(
+        2.0 * math.pi / omega, rel=0.01
+    )
