@@ -37,23 +37,35 @@ def _times_depth(k: Real, depth: float) -> Real:
         return k * depth
 
 
+_DEEP = 21.0
+"""Of k h: from here on tanh k h is 1, and 2 k h / sinh 2 k h is 0 beside it, to the last bit."""
+
+
 def _frequency(k: Real, depth: float, kinematic_tension: float) -> Real:
     """Return omega(k), unchecked."""
-    omega: Real = np.sqrt(
-        (GRAVITY * k + kinematic_tension * k**3) * np.tanh(_times_depth(k, depth))
-    )
+    square = np.asarray(GRAVITY * k)
+    if kinematic_tension > 0.0:  # k^3 as a product: a power takes ten times as long
+        square += kinematic_tension * (k * np.square(k))
+    if math.isfinite(depth):
+        kh = np.asarray(_times_depth(k, depth))
+        shallow = kh < _DEEP
+        square[shallow] *= np.tanh(kh[shallow])
+    omega: Real = np.sqrt(square)
     return omega
 
 
 def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
     """Return (d omega/dk) / (omega/k), unchecked."""
-    s = kinematic_tension * k**2
-    # sinh overflows past 710; x/sinh x is 0 long before
-    x2 = 2.0 * np.minimum(_times_depth(k, depth), 350.0)
-    ratio: Real = 0.5 * (
-        (GRAVITY + 3.0 * s) / (GRAVITY + s)
-        + np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0)
-    )
+    if kinematic_tension > 0.0:
+        s = kinematic_tension * np.square(k)
+        twice = np.asarray((GRAVITY + 3.0 * s) / (GRAVITY + s))
+    else:
+        twice = np.ones(k.shape)
+    kh = np.asarray(_times_depth(k, depth))
+    shallow = kh < _DEEP
+    x2 = 2.0 * kh[shallow]
+    twice[shallow] += np.divide(x2, np.sinh(x2), out=np.ones_like(x2), where=x2 > 0.0)
+    ratio: Real = 0.5 * twice
     return ratio
 
 

@@ -1,5 +1,6 @@
 """JONSWAP spectrum of the fetch-limited sea."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,8 +116,13 @@ class JONSWAP:
         r = np.exp(-((x - 1.0) ** 2) / (2.0 * sigma**2))
         # x^-4 at a tenth of the time of a power; inverted first, as x^4 may overflow
         x4 = np.square(np.square(1.0 / x))
+        # gamma^r as e^(r ln gamma), in the same exponential
         s: Real = (
-            self.alpha * GRAVITY**2 * self.peak**-5 * (x4 / x) * np.exp(-1.25 * x4) * self.gamma**r
+            self.alpha
+            * GRAVITY**2
+            * self.peak**-5
+            * (x4 / x)
+            * np.exp(math.log(self.gamma) * r - 1.25 * x4)
         )
         return s
 

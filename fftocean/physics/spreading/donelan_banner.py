@@ -1,5 +1,6 @@
 """Donelan-Banner spreading, sech^2(beta theta)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,10 +33,14 @@ class DonelanBanner:
 
 def donelan_banner_beta(x: Real) -> Real:
     """Return beta(omega/omega_p) [-] of `DonelanBanner`."""
-    below = 2.61 * np.power(np.clip(x, 0.56, 0.95), 1.3)
-    near = 2.28 * np.power(np.clip(x, 0.95, 1.6), -1.3)
-    above = np.power(10.0, -0.4 + 0.8393 * np.exp(-0.567 * np.log(np.square(np.maximum(x, 1.6)))))
-    return np.where(x < 0.95, below, np.where(x < 1.6, near, above))
+    x = np.asarray(x)
+    # 10^y as e^(y ln 10), and powers where they are wanted: few waves are that long
+    far = np.exp(-0.567 * np.log(np.square(np.maximum(x, 1.6))))
+    beta: Real = np.asarray(np.exp(math.log(10.0) * (-0.4 + 0.8393 * far)))
+    near, below = (x >= 0.95) & (x < 1.6), x < 0.95
+    beta[near] = 2.28 * np.power(x[near], -1.3)
+    beta[below] = 2.61 * np.power(np.maximum(x[below], 0.56), 1.3)
+    return beta
 
 
 SPREADINGS.add("donelan-banner", DonelanBanner, Way(DonelanBanner))
