@@ -34,7 +34,7 @@ def test_an_archive_of_another_member_is_refused():
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as file:
         file.writestr(f"other_{member.filename}", content)
-    with pytest.raises(IntegrityError, match="must hold .* got other_"):
+    with pytest.raises(IntegrityError, match=r"must hold .* got other_"):
         decode("npz", stream.getvalue(), shape=MAP.shape)
 
 
