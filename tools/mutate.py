@@ -112,7 +112,7 @@ class Mutation:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What the tests made of one error."""
+    """Outcome of the tests of one error."""
 
     name: str
     key: str  # checksum of what the result depends on
