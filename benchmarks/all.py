@@ -44,6 +44,8 @@ QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "seeding": ("--n", "64", "128", "--tile", "64", "--runs", "2"),
     "bake": ("--n", "64", "--frames", "8"),
     "second_order": ("--n", "64", "--waves", "20", "50", "--seconds", "0"),
+    "series": ("--n", "32", "--hours", "0.05", "--probes", "2", "--seconds", "0"),
+    "robots": ("--n", "16", "--points", "1", "5", "--tiles", "1", "--seconds", "0"),
 }
 
 

@@ -3,10 +3,10 @@ Speed of a bake, and its profile.
 
 The embedded default job is baked whole at each n: three maps (height, displacement, normal) as
 half-float EXR. Frames a second are those of a bake in one process, and in one per core. The profile
-is that of Python's profiler in one process: each function's own time belongs to the part of the
-package that holds its file, and the time of library functions to the part that called them.
-Compiled kernels are wrapped, so that each is profiled under its own file. The profiler slows down
-Python only: "Python" is an upper bound.
+is that of Python's profiler in one process, whose frames are written by the thread that computes:
+each function's own time belongs to the part of the package that holds its file, and the time of
+library functions to the part that called them. Compiled kernels are wrapped, so that each is
+profiled under its own file. The profiler slows down Python only: "Python" is an upper bound.
 
     python benchmarks/bake.py [--n 256 512] [--frames 240] [--json FILE] [--plot FILE]
 """
@@ -20,6 +20,7 @@ import tempfile
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -28,6 +29,7 @@ import script
 
 import fftocean as fo
 from fftocean import host, kernels
+from fftocean.baking.scene import scene
 from fftocean.bench.charts import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
@@ -54,7 +56,10 @@ PARTS = (
             "kernels/surface",
         ),
     ),
-    ("encoder", ("export/", "kernels/half", "baking/scene/scene.py:_halves")),
+    (
+        "encoder",
+        ("export/", "kernels/half", "kernels/byte_planes", "baking/scene/scene.py:_halves"),
+    ),
     ("preview", ("baking/previews/", "blend_loss.py")),
     (
         "maps",
@@ -123,7 +128,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
                     )
                 )
             say(f"{n} x {n}, under the profiler")
-            with kernels_seen():
+            with kernels_seen(), one_thread():
                 profile = cProfile.Profile()
                 profile.runcall(
                     fo.bake, job(n, options.frames), Path(folder, f"{n} profile"), executor="serial"
@@ -147,6 +152,33 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
 def job(n: int, frames: int) -> fo.Job:
     """Return the embedded default job at another resolution."""
     return fo.Job.default().replaced({"ocean.n": n, "bake.frames": frames})
+
+
+class SameThread:
+    """An executor that does its work at once, in the thread that submits it."""
+
+    def __init__(self, *_: Any) -> None:
+        """Start no thread."""
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Return the result of the function."""
+        done: Future[Any] = Future()
+        done.set_result(function(*arguments))
+        return done
+
+    def shutdown(self, **_: Any) -> None:
+        """Wait for no thread."""
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Let bakes write frames in the thread that computes them, which the profiler sees."""
+    pool = scene.ThreadPoolExecutor
+    scene.ThreadPoolExecutor = SameThread  # type: ignore[assignment,misc]
+    try:
+        yield
+    finally:
+        scene.ThreadPoolExecutor = pool  # type: ignore[misc]
 
 
 @contextmanager

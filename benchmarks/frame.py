@@ -8,7 +8,7 @@ float32. At each n four races are run, in each of which the contenders alternate
              complex128 ifft2), against its eight ifft2 alone, against carefully optimised NumPy and
              SciPy (complex64 halves, irfft2), and against the floor: eight bare real transforms
              (c2r) of the same library, planned with MEASURE all at once or one by one, whichever is
-             faster, and one copy of the result
+             faster, and one copy of the result; and a copy of the full frame's own outputs
   fields     full, the eight linear fields, height only, and the full frame in float64
   planning   MEASURE against ESTIMATE
   threads    one against two, and against all cores (elapsed time; the other races count CPU time)
@@ -17,7 +17,7 @@ float32. At each n four races are run, in each of which the contenders alternate
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import script
@@ -25,11 +25,12 @@ import script
 from fftocean import host
 from fftocean.bench import machine
 from fftocean.bench.charts import COLOURS, Line, bars, curves, duration, plain, sheet
-from fftocean.bench.contenders import Careful, Fast, Textbook, floor, require_same_water
+from fftocean.bench.contenders import FULL, Careful, Fast, Textbook, floor, require_same_water
 from fftocean.bench.quick import WITHIN, ocean
 from fftocean.bench.results import Condition, Entry, Pair, Reading, Result, race
 from fftocean.fields import EIGHT
 from fftocean.host import available_memory
+from fftocean.ocean import Ocean
 from fftocean.plots.theme import BLUE
 
 ASKS = "What does a frame cost, and against what?"
@@ -95,9 +96,23 @@ def others(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:
         Entry("textbook, its eight ifft2 alone", textbook.transforms(), {"n": n}),
         Entry("careful", careful, {"n": n}),
     ]
+    copy = Entry("copy of the outputs", copy_of_outputs(own), {"n": n})
     for full in [entry for entry in entries if entry.what == "full frame"]:
         pairs += [Pair(f"{other.what} / full frame", other, full) for other in usual]
-    return race([*entries, *usual], pairs, clock="cpu", seconds=seconds)
+        pairs.append(Pair("copy of the outputs / full frame", copy, full))
+    return race([*entries, *usual, copy], pairs, clock="cpu", seconds=seconds)
+
+
+def copy_of_outputs(own: Ocean) -> Callable[[], None]:
+    """Return a function that copies the arrays of a full frame to others: memory traffic alone."""
+    frame = own.frame(0.0, FULL)
+    pairs = [(frame[name], frame[name].copy()) for name in FULL]
+
+    def copy() -> None:
+        for source, to in pairs:
+            to[...] = source
+
+    return copy
 
 
 def fields(n: int, backends: Sequence[str], seconds: float) -> list[Reading]:

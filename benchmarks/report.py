@@ -17,14 +17,8 @@ from fftocean.bench.results import Condition, Reading, Result, read
 HERE = Path(__file__).resolve().parent
 RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
 QUESTIONS = (
-    "frame",
-    "direct_sum",
-    "scaling",
-    "memory",
-    "startup",
-    "seeding",
-    "bake",
-    "second_order",
+    *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
+    *("series", "robots"),
 )
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
@@ -68,8 +62,8 @@ def goals() -> list[Goal]:
     """Return all goals, in the sequence of the report."""
     found = []
     for backend, bounds in (
-        ("pyfftw", {256: 9.0, 512: 9.0, 1024: 7.0}),
-        ("mkl", {256: 18.0, 512: 18.0, 1024: 14.0}),
+        ("pyfftw", {256: 18.0, 512: 18.0, 1024: 18.0}),
+        ("mkl", {256: 18.0, 512: 18.0, 1024: 18.0}),
     ):
         for n, bound in bounds.items():
             what = f"textbook NumPy / full frame, {n} x {n}, {backend}"
@@ -83,12 +77,18 @@ def goals() -> list[Goal]:
                     {"n": n, "backend": backend},
                 )
             )
+    # The bounds are EncinoWaves (C++, FFTW planned with MEASURE, with its normals) over 3.5 at 256
+    # and over 3 beyond, on a two-core Sapphire Rapids: it took 2.5 and 2.1 times as long as eight
+    # raw c2r with FFTW and a copy there, and 17 and 18 times as long as a copy of the outputs.
     for backend in ("pyfftw", "mkl"):
-        for n in (256, 512, 1024):
+        for n, bound, copies in ((256, 0.72, 0.2), (512, 0.7, 0.17), (1024, 0.7, 0.17)):
+            at: dict[str, Condition] = {"n": n, "backend": backend}
             what = f"full frame / eight raw c2r and a copy, {n} x {n}, {backend}"
-            found.append(
-                Goal(what, "<=", 1.1, "frame", "full frame / floor", {"n": n, "backend": backend})
-            )
+            if backend == "mkl":  # its raw transforms are faster themselves
+                bound = 1.0
+            found.append(Goal(what, "<=", bound, "frame", "full frame / floor", at))
+            what = f"copy of its outputs / full frame, {n} x {n}, {backend}"
+            found.append(Goal(what, ">=", copies, "frame", "copy of the outputs / full frame", at))
     for backend in ("pyfftw", "mkl"):
         for n in (512, 1024, 2048):
             what = f"one thread / two, {n} x {n}, {backend}"
@@ -96,7 +96,7 @@ def goals() -> list[Goal]:
                 Goal(
                     what,
                     ">=",
-                    1.6,
+                    1.75,
                     "frame",
                     "one thread / more",
                     {"n": n, "backend": backend, "threads": 2},
@@ -114,7 +114,7 @@ def goals() -> list[Goal]:
                 {"n": n},
             )
         )
-    at: dict[str, Condition] = {"n": 128, "dtype": "float32"}
+    at = {"n": 128, "dtype": "float32"}
     found.append(
         Goal(
             "direct sum / FFT, eight fields, 128 x 128",
@@ -129,7 +129,7 @@ def goals() -> list[Goal]:
         Goal(
             "peak memory above imports, full frames, 2048 x 2048",
             "<=",
-            400.0,
+            300.0,
             "memory",
             "peak above imports",
             {"n": 2048},
@@ -171,6 +171,16 @@ def goals() -> list[Goal]:
         what = f"second order of {waves} waves in a frame, 256 x 256"
         at = {"n": 256, "waves": waves}
         found.append(Goal(what, "<=", bound, "second_order", "second order adds", at))
+    for loop, words in ((True, "on a loop"), (False, "without a loop")):
+        what = f"10 probes, 3 hours at 5 Hz, all fields, 256 x 256, {words}"
+        at = {"n": 256, "loop": loop, "fields": "all"}
+        found.append(Goal(what, "<=", 5000.0, "series", "series", at))
+        what = f"series {words}, error to the direct sum"
+        at = {"n": 256, "loop": loop}
+        found.append(Goal(what, "<=", 1e-9, "series", "largest error / largest height", at))
+    what = "`kinematics.at`, 200 points, waves of 3 m and more on 3 tiles of 128 x 128"
+    at = {"n": 128, "tiles": 3, "points": 200}
+    found.append(Goal(what, "<=", 5.0, "robots", "below the surface", at))
     return found
 
 

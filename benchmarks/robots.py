@@ -32,7 +32,7 @@ SHORTEST = 3.0  # wave that a hull feels, of sums [m]
 def flags(parser: argparse.ArgumentParser) -> None:
     """Add the flags of this question."""
     script.sizes(parser, 64, 128, 256)
-    parser.add_argument("--points", type=int, nargs="+", default=[1, 50, 200, 1000], metavar="P")
+    parser.add_argument("--points", type=int, nargs="+", default=[1, 20, 200, 1000], metavar="P")
     parser.add_argument("--tiles", type=int, nargs="+", default=[1, 2, 3], choices=(1, 2, 3))
     parser.add_argument("--seconds", type=float, default=60.0, help="in all (default: 60)")
 

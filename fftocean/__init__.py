@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from fftocean import export as export
     from fftocean import foam as foam
     from fftocean import gerstner as gerstner
+    from fftocean import gpu as gpu
     from fftocean import kinematics as kinematics
     from fftocean import plots as plots
     from fftocean import readers as readers
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from fftocean.constraints import constrained as constrained
     from fftocean.constraints import crest_height as crest_height
     from fftocean.errors import CacheWarning as CacheWarning
+    from fftocean.errors import DeviceError as DeviceError
     from fftocean.errors import FFTOceanError as FFTOceanError
     from fftocean.errors import FieldError as FieldError
     from fftocean.errors import FolderInUseError as FolderInUseError
@@ -93,7 +95,7 @@ if TYPE_CHECKING:
     from fftocean.statistics import measure as measure
     from fftocean.window import Window as Window
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _NAMES_BY_MODULE = {
     "fftocean.baking.bake": ("bake",),
@@ -105,6 +107,7 @@ _NAMES_BY_MODULE = {
     "fftocean.constraints": ("constrained", "crest_height"),
     "fftocean.errors": (
         "CacheWarning",
+        "DeviceError",
         "FFTOceanError",
         "FieldError",
         "FolderInUseError",
@@ -161,6 +164,7 @@ _PUBLIC_MODULES = {
     "export": "fftocean.export",
     "foam": "fftocean.foam",
     "gerstner": "fftocean.gerstner",
+    "gpu": "fftocean.gpu",
     "kinematics": "fftocean.kinematics",
     "moments": "fftocean.physics.moments",
     "plots": "fftocean.plots",

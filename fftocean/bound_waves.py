@@ -411,6 +411,16 @@ class BoundSpectrum:
         gain, own, scale = self._gain, self._own, self._scale
         kernels.add_folded(g_real, g_imag, first, gain, own, scale, real, imag)
 
+    def summed(self) -> tuple[bool, float, Real, Real, Real, Real, Real]:
+        """
+        Return the sums of height and rate, to be added to a spectrum in the unit.
+
+        They are as `kernels.whole_passes.Bound` has them; those that were not asked for are empty.
+        """
+        empty = np.empty((0, 0), self._gain.dtype)
+        height, rate = (self._sums.results.get(self._rate + r, (empty, empty)) for r in (0, 1))
+        return (self._own, self._scale, *height, *rate, self._gain)
+
 
 class _Layout:
     """

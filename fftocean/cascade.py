@@ -198,7 +198,7 @@ class Cascade:
 
     def frame(self, t: float, fields: Sequence[str] = EIGHT) -> tuple[Frame, ...]:
         """
-        Return each tile's frame at time t, the largest's first; arguments as in `Ocean.frame`.
+        Return each tile's frame at time t [s], the largest's first; arguments as in `Ocean.frame`.
 
         Linear fields add up over tiles: heights, displacements, slopes, stretches and velocities.
         Normals and Jacobians do not, nor does foam: a `Window` makes them from the sums.

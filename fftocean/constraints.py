@@ -364,18 +364,21 @@ class _Law:
                 )
         scaled = np.divide(left, self._scale, out=np.zeros_like(left), where=self._scale > 0.0)
         tolerance = AGREE * max(1.0, float(np.max(np.abs(scaled), initial=0.0)))
-        for vector in self._vectors[:, ~self._kept].T:
-            if abs(float(vector @ scaled)) > tolerance:
-                one, other = (self._fixes[i] for i in np.argsort(-np.abs(vector))[:2])
-                reason = (
-                    f"the waves of this sea are too few to have both {one} and {other}"
-                    if one.place == other.place
-                    else f"{one} and {other} are too near each other to be chosen apart"
-                )
-                raise ParameterError(
-                    f"{reason}: the condition number of the values' correlations must be at most "
-                    f"{1.0 / LEAST_EIGENVALUE:.0e}"
-                )
+        lost = self._vectors[:, ~self._kept]
+        parts = lost.T @ scaled
+        if np.any(np.abs(parts) > tolerance):
+            impossible = lost @ parts  # of each value; 0 where values agree with the others
+            one, other = (self._fixes[i] for i in np.argsort(-np.abs(impossible))[:2])
+            if one.place != other.place:
+                reason = f"{one} and {other} are too near each other to be chosen apart"
+            elif one.field == other.field:
+                reason = f"{one} excludes {other}"
+            else:
+                reason = f"the waves of this sea are too few to have both {one} and {other}"
+            raise ParameterError(
+                f"{reason}: the condition number of the values' correlations must be at most "
+                f"{1.0 / LEAST_EIGENVALUE:.0e}"
+            )
 
 
 def _sea_of(source: Source, made: Sequence[Amplitudes]) -> Source:

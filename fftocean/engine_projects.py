@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Any
 
-from fftocean.errors import ParameterError
+from fftocean.errors import ParameterError, suggestion
 
 LANGUAGES = ("wgsl", "hlsl", "glsl", "metal")
 """Languages of the kernels; `fftocean.runtime.shaders` has the files of each."""
@@ -150,5 +150,8 @@ def engine_of(name: Any) -> Engine | None:
     if name is None:
         return None
     if not isinstance(name, str) or name not in ENGINES:
-        raise ParameterError(f"engine must be one of {', '.join(ENGINES)}, got {name!r:.40}")
+        raise ParameterError(
+            f"engine must be one of {', '.join(ENGINES)}, got {name!r:.40}"
+            f"{suggestion(name, ENGINES)}"
+        )
     return ENGINES[name]

@@ -6,6 +6,7 @@ Exceptions and warnings of the package, in one tree.
         JobError                       a job file or a flag that cannot be carried out    exit 2
         ReaderError                    an input file that is not what it should be        exit 3
       FieldError (AttributeError)      a field that was not computed for this frame
+      DeviceError (RuntimeError)       a graphics processor that was lost                 exit 2
       OutputError (OSError)            a file that could not be written                   exit 4
         FolderInUseError               a folder that another process writes to            exit 6
       IntegrityError                   a file that was changed after it was written       exit 5
@@ -13,11 +14,17 @@ Exceptions and warnings of the package, in one tree.
 A message names parameter, rule and value: `fetch must be between 1 and 5e+07 m, got -3.0`.
 """
 
+from collections.abc import Iterable
+
 
 class FFTOceanError(Exception):
     """Base class of all exceptions that the package raises on purpose."""
 
     exit_code = 2
+
+    def __str__(self) -> str:
+        """Return the message on one line, as a value in it may have several: an array, a text."""
+        return " ".join(line.strip() for line in super().__str__().splitlines())
 
 
 class ParameterError(FFTOceanError, ValueError):
@@ -36,6 +43,10 @@ class ReaderError(ParameterError):
 
 class FieldError(FFTOceanError, AttributeError):
     """A field that was not computed for this frame."""
+
+
+class DeviceError(FFTOceanError, RuntimeError):
+    """A graphics processor that was lost, or has too little memory, also on a second try."""
 
 
 class OutputError(FFTOceanError, OSError):
@@ -75,6 +86,15 @@ def described(value: object) -> str:
     if text.startswith((f"{kind}(", f"<{kind}")):
         return text if len(text) <= 60 else f"{text[:57]}..."
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({kind})"
+
+
+def suggestion(word: object, names: Iterable[str], cutoff: float = 0.7) -> str:
+    """Return "; did you mean godot?" for the name most like a misspelt word; "" if none is."""
+    import difflib  # not before a word is wrong
+
+    given = word.strip().casefold() if isinstance(word, str) else ""
+    near = difflib.get_close_matches(given, list(names), n=1, cutoff=cutoff)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def how_to_install(extra: str) -> str:

@@ -97,7 +97,7 @@ class Eulerian:
 
     def frame(self, t: float, fields: Sequence[str] = DEFAULT) -> EulerianFrame:
         """
-        Return the frame at time t by world position, as `Ocean.frame`.
+        Return the frame at time t [s] by world position, as `Ocean.frame`.
 
         Raises:
             ParameterError: as `Ocean.frame`, and a field that only a displaced surface has.
@@ -144,7 +144,8 @@ class Eulerian:
 
     def resample(self, field: Real) -> Real:
         """
-        Return another field at the last frame's time, such as foam, by world position: (ny, nx).
+        Return another field at the last frame's time, such as foam, by world position: (ny, nx), in
+        the unit of the field [-, m, m/s, ...].
 
         The field is interpolated bilinearly between its samples.
 

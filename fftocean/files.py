@@ -10,6 +10,8 @@ import hashlib
 import json
 import os
 import stat
+import sys
+import time
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,12 @@ from fftocean.errors import JobError, OutputError, described
 
 MAX_JSON = 4 * 2**20  # bytes: several times the description of the largest job file
 MAX_FILE = 2**37  # bytes: a container of a long sequence
+PATIENCE = 2.0 if sys.platform == "win32" else 0.0  # [s], for others to close a file
+AS_BYTES = getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
+"""
+Flags of `os.open` for the bytes of a file itself: on Windows, without changed line ends; elsewhere,
+not those of a link's target.
+"""
 
 
 def path_of(name: str, value: Any) -> Path:
@@ -61,7 +69,7 @@ def write_parts(path: Path, parts: Iterable[bytes | memoryview]) -> str:
         try:  # begins before the file exists: a signal may arrive between any two lines
             descriptor = os.open(
                 temporary,
-                os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0),
+                os.O_WRONLY | os.O_CREAT | os.O_EXCL | AS_BYTES,
                 0o666,
             )
             with os.fdopen(descriptor, "wb", buffering=0) as file:
@@ -71,7 +79,7 @@ def write_parts(path: Path, parts: Iterable[bytes | memoryview]) -> str:
                     while view:
                         view = view[file.write(view) :]
                 os.fsync(file.fileno())
-            temporary.replace(path)
+            _rename(temporary, path)
         except BaseException:
             with contextlib.suppress(OSError):
                 temporary.unlink()
@@ -79,6 +87,24 @@ def write_parts(path: Path, parts: Iterable[bytes | memoryview]) -> str:
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
     return sha256.hexdigest()
+
+
+def _rename(temporary: Path, path: Path) -> None:
+    """
+    Give a file its name, in place of another.
+
+    On Windows that fails while a program, such as a virus scanner, has either of them open.
+    """
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            temporary.replace(path)
+        except PermissionError:
+            if time.monotonic() >= end:
+                raise
+            time.sleep(0.02)
+        else:
+            return
 
 
 def digest(data: bytes | memoryview) -> str:
@@ -115,12 +141,11 @@ def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
         OutputError: the file exists and cannot be read, or is larger than `most` bytes.
     """
     try:
-        descriptor = os.open(
-            path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-        )  # does not wait for a pipe
+        # does not wait for a pipe
+        descriptor = os.open(path, os.O_RDONLY | AS_BYTES | getattr(os, "O_NONBLOCK", 0))
     except OSError as error:
-        if error.errno in (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO):
-            return None
+        if error.errno in (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO) or path.is_dir():
+            return None  # Windows opens no folder
         raise OutputError(f"{path} cannot be read: {error.strerror or error}") from None
     try:
         found = os.fstat(descriptor)

@@ -5,7 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from fftocean.errors import ParameterError, described
+from fftocean.arrays import shortened
+from fftocean.errors import ParameterError, described, suggestion
 from fftocean.fields import FIELDS
 from fftocean.limits import LENGTH, TIME, Quantity, keep_checked
 
@@ -42,6 +43,7 @@ class Fix:
         if not isinstance(self.field, str) or self.field not in FIELDS:
             raise ParameterError(
                 f"field must be one of {', '.join(FIELDS)}, got {described(self.field)}"
+                f"{suggestion(self.field, FIELDS)}"
             )
         keep_checked(self, x=PLACE, y=PLACE, t=TIME, value=VALUE)
 
@@ -113,21 +115,35 @@ class Rarity:
     alone, whatever the seed: in a Gaussian sea it has a chi-squared distribution with `degrees`
     degrees of freedom, and so `probability` is the probability that values at a place and time
     chosen beforehand are that unusual. For the crests `exceedance` is Rayleigh's law.
+
+    Args:
+        fixes: the values that were fixed.
+        crests: the crests that were fixed.
+        linear_heights: height of the sum of waves at each crest [m].
+        chi2: (b - l) Lambda^-1 (b - l), b being the values and l those of the seed's own waves [-].
+        chi2_of_values: b Lambda^-1 b [-].
+        degrees: number of independent values.
+        m0: variance of the height over seeds, without the fixed values [m^2].
+        period: mean zero-upcrossing period at a place, 2 pi sqrt(m0/m2) [s].
+        min_jacobian: least Jacobian of the surface at the times of the values [-].
     """
 
     fixes: tuple[Fix, ...]
     crests: tuple[Crest, ...]
-    linear_heights: tuple[float, ...]  # of the sum of waves at each crest [m]
-    chi2: float  # (b - l) Lambda^-1 (b - l): b the values, l those of the seed's own waves
-    chi2_of_values: float  # b Lambda^-1 b
-    degrees: int  # number of independent values
-    m0: float  # variance of the height over seeds, without the fixed values [m^2]
-    period: float  # mean zero-upcrossing period at a place, 2 pi sqrt(m0/m2) [s]
-    min_jacobian: float  # least Jacobian of the surface at the times of the values [-]
+    linear_heights: tuple[float, ...]
+    chi2: float
+    chi2_of_values: float
+    degrees: int
+    m0: float
+    period: float
+    min_jacobian: float
+
+    def __repr__(self) -> str:
+        return shortened(f"Rarity({self})")
 
     @property
     def probability(self) -> float:
-        """Probability of values so unusual, at a place and time chosen beforehand."""
+        """Probability of values so unusual [-], at a place and time chosen beforehand."""
         from scipy.special import gammaincc  # half a second, which most runs do not need
 
         return float(gammaincc(0.5 * self.degrees, 0.5 * self.chi2_of_values))
@@ -135,9 +151,10 @@ class Rarity:
     @property
     def exceedance(self) -> float | None:
         """
-        Share of this sea's crests that are as high as the highest here: exp(-A^2/(2 m0)), Rayleigh.
+        Share of this sea's crests that are as high as the highest here [-]: exp(-A^2/(2 m0)).
 
-        None without a crest. It is that of a narrow band of waves, and of the sum of waves alone.
+        None without a crest. This is Rayleigh's law, that of a narrow band of waves, and of the sum
+        of waves alone.
         """
         if not self.linear_heights:
             return None

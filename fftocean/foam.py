@@ -50,13 +50,20 @@ class Foam:
     but they do on choppiness and on the shortest wave: with finer samples or more choppiness use a
     lower threshold, for storms a higher one. `whitecaps` finds it for a wind, and `covering` for a
     share of the water, whatever the samples and the choppiness.
+
+    Args:
+        tau: time in which foam decays to 1/e [s].
+        threshold: smallest eigenvalue of the deformation gradient below which water foams: 1 is
+            still water, 0 a fold [-].
+        strength: foam made per second and unit of eigenvalue below the threshold [1/s].
+
+    Raises:
+        ParameterError: a parameter out of its range.
     """
 
-    tau: float = 3.5  # time in which foam decays to 1/e [s]
-    # smallest eigenvalue of the deformation gradient below which water foams: 1 is still water,
-    # 0 a fold [-]
+    tau: float = 3.5
     threshold: float = 0.72
-    strength: float = 60.0  # foam made per second and unit of eigenvalue below the threshold [1/s]
+    strength: float = 60.0
 
     def __post_init__(self) -> None:
         keep_checked(self, tau=FOAM_TAU, threshold=FOAM_THRESHOLD, strength=FOAM_STRENGTH)
@@ -129,13 +136,13 @@ class Foam:
         strength: float = 60.0,
         shortest: float = 0.0,
     ) -> "Foam":
-        """Return `whitecaps`: the earlier name."""
+        """Return `whitecaps` for a wind [m/s]: the earlier name."""
         return cls.whitecaps(source, wind_speed, tau=tau, strength=strength, shortest=shortest)
 
     def loop(self, ocean: Ocean | Cascade | Window, count: int) -> Iterator[Real]:
         """
-        Yield the foam coverage of `count` frames of a loop, each (ny, nx) in 0..1, indexed by the
-        undisplaced position.
+        Yield the foam coverage of `count` frames of a loop, each (ny, nx) in 0..1 [-], indexed by
+        the undisplaced position.
 
         Args:
             ocean: an ocean; a `Window` on a cascade; or a cascade, which stands for the window of
@@ -164,7 +171,7 @@ class Foam:
     def response(self, ocean: Ocean | Window, count: int, first: int, stop: int) -> Real:
         """
         Return the state at frame `stop` of `count` if the water was clean at frame `first`: (ny,
-        nx), float64.
+        nx), float64 [-].
         """
         _require_looping(ocean)
         state = np.zeros(ocean.grid.shape)
@@ -174,7 +181,7 @@ class Foam:
 
     def starts(self, made: Sequence[Real], ocean: Ocean | Window, count: int) -> Real:
         """
-        Return the states of the loop at the first frame of each span, (spans, ny, nx), float64.
+        Return the states of the loop at the first frame of each span, (spans, ny, nx), float64 [-].
 
         Args:
             made: the `response` of each span of `spans_of(count)`, in order.
@@ -197,7 +204,7 @@ class Foam:
     ) -> Iterator[tuple[int, Real]]:
         """
         Yield (j, state) for the frames first <= j < stop, from the state `start` at frame `first`;
-        each is good until the next.
+        each is (ny, nx) [-], and good until the next.
 
         The same start gives the same bits: a frame's state does not depend on `stop`.
         """
@@ -301,7 +308,7 @@ def spans_of(count: int) -> list[tuple[int, int]]:
 
 
 def coverage(state: Real) -> Real:
-    """Return the part of the water that is covered, 1 - e^{-state}, as float32 in 0..1."""
+    """Return the share that is covered, 1 - e^{-state}, float32 in 0..1 [-], shaped like it."""
     out = np.empty(state.shape, dtype=np.float32)
     kernel.coverage(state, out)
     return out

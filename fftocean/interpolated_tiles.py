@@ -47,7 +47,8 @@ class InterpolatedTiles:
         self._choppiness = oceans[0].choppiness
         grids = [ocean.grid for ocean in used]
         self._sizes = np.array([(grid.lx, grid.ly) for grid in grids]).reshape(-1, 2)
-        starts = np.cumsum([0, *(grid.nx * grid.ny for grid in grids)])
+        frame = interpolate.FRAME
+        starts = np.cumsum([0, *((grid.nx + frame) * (grid.ny + frame) for grid in grids)])
         self._layout = np.array(
             [(start, grid.nx, grid.ny) for start, grid in zip(starts, grids, strict=False)],
             dtype=np.int64,
@@ -124,16 +125,7 @@ class InterpolatedTiles:
             )
             hard = np.flatnonzero(out.residuals > self.limit)
             if hard.size:
-                part = PointResults.empty(hard.size, ())
-                kernels.invert(
-                    self._kind,
-                    tiles,
-                    x[hard],
-                    y[hard],
-                    tuple(kernels.Search(c, self.limit, self.limit, self._reach)),
-                    np.empty(sizes.shape),
-                    part.found(),
-                )
+                part = self._search(tiles, x[hard], y[hard])
                 for mine, found in zip(out.found(), part.found(), strict=True):
                     mine[hard] = found
             sums = {group: np.zeros((x.size, len(_CHANNELS[group]))) for group in groups[1:]}
@@ -161,6 +153,19 @@ class InterpolatedTiles:
 
         return find
 
+    def warm_up(self, t: float) -> None:
+        """Load the loops that only a folded surface needs."""
+        self.at(t, ())
+        self._search(self._last.tiles, np.zeros(1), np.zeros(1))
+
+    def _search(self, tiles: tuple[Any, ...], x: Real, y: Real) -> PointResults:
+        """Return the water at points that plain Newton steps do not find."""
+        out = PointResults.empty(x.size, ())
+        search = kernels.Search(self._choppiness, self.limit, self.limit, self._reach)
+        origin = np.empty(self._sizes.shape)
+        kernels.invert(self._kind, tiles, x, y, tuple(search), origin, out.found())
+        return out
+
     def _render(self, texels: "_TexelGroups", missing: Sequence[str]) -> None:
         """Compute the missing groups of texels."""
         names = _CHANNELS if self._choppiness > 0.0 else _CHANNELS | {"motion": MOTION[2:]}
@@ -170,9 +175,11 @@ class InterpolatedTiles:
             if group == "motion":
                 flat = np.zeros(4 * self._texels, dtype=self._dtype)
                 for frame, (start, nx, ny) in zip(frames, self._layout, strict=True):
-                    tile = flat[4 * start : 4 * (start + nx * ny)].reshape(ny, nx, 4)
+                    shape = (ny + interpolate.FRAME, nx + interpolate.FRAME, 4)
+                    tile = flat[4 * start :][: math.prod(shape)].reshape(shape)
                     for name in names[group]:
-                        tile[:, :, MOTION.index(name)] = frame[name]
+                        tile[1:-2, 1:-2, MOTION.index(name)] = frame[name]
+                    interpolate.frame_texels(tile)
                 texels.groups[group] = [flat]
                 texels.tiles = tuple(
                     kernels.Tiles(self._sizes, self._layout, flat, _NO_FIRST, _NO_WAVES)

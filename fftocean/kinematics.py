@@ -1,6 +1,7 @@
 """Kinematics and dynamic pressure below the surface, by linear wave theory with stretching."""
 
 import math
+import weakref
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -18,11 +19,12 @@ from fftocean.constants import WATER_DENSITY
 from fftocean.errors import ParameterError
 from fftocean.gerstner.waves import Waves
 from fftocean.kernels import bound
-from fftocean.kernels import query as kernels
+from fftocean.kernels.rings import POINTS
 from fftocean.limits import ORDER, THREADS, TIME
 from fftocean.ocean import Ocean
 from fftocean.points import as_coordinates, group_by_time
-from fftocean.wave_list import WaveList, as_tiles, list_waves
+from fftocean.wave_list import WaveList, list_waves, oceans_of
+from fftocean.wave_rings import WaveRings
 
 STRETCHINGS = ("none", "vertical", "extrapolation", "wheeler")
 
@@ -69,7 +71,8 @@ def at(
 
     and heights are the sum of a cos f at (x, y) itself: this theory refers to fixed points, without
     choppiness. `Query` has the displaced surface; the two differ by the square of the steepness.
-    All waves are summed at each point.
+    All waves are summed at each point, to rounding; none is left out. Those of one wavenumber share
+    their profile, and those of a tile its tables of cosines (`kernels.rings`).
 
     The theory ends at z = 0. Stretching extends it to the crests above:
 
@@ -118,7 +121,8 @@ def at(
         raise ParameterError(
             f"stretching must be one of {', '.join(STRETCHINGS)}, got {stretching!r}"
         )
-    waves = list_waves(source, depth=depth, shortest=shortest)
+    rings = _rings_of(source, depth, shortest)
+    waves = rings.waves
     _require_steady(waves)
     if order is not None:
         if ORDER.check("order", order) == 2 and waves.bound is None:
@@ -143,10 +147,10 @@ def at(
     tasks: list[tuple[Callable[[Real, Real, Real], Real], npt.NDArray[np.intp]]] = []
     for moment, here in group_by_time(points[3], shape):
         if math.isfinite(moment):
-            work = _at_moment(waves, TIME.check("t", moment), stretching)
+            work = _at_moment(rings, waves, TIME.check("t", moment), stretching)
             chosen = np.arange(flat_x.size)[here]
             tasks += [
-                (work, chosen[start : start + _BLOCK]) for start in range(0, chosen.size, _BLOCK)
+                (work, chosen[start : start + POINTS]) for start in range(0, chosen.size, POINTS)
             ]
 
     def do(task: tuple[Callable[[Real, Real, Real], Real], npt.NDArray[np.intp]]) -> None:
@@ -173,37 +177,43 @@ def at(
     )
 
 
-_BLOCK = 256  # points at a time
+_KEPT = 2**18  # waves up to which a source's rings are kept for its next call
+_rings: "weakref.WeakKeyDictionary[Any, tuple[float, WaveRings]]" = weakref.WeakKeyDictionary()
 
 
-def _at_moment(waves: WaveList, t: float, stretching: str) -> Callable[[Real, Real, Real], Real]:
+def _rings_of(source: Any, depth: float | None, shortest: float) -> WaveRings:
+    """
+    Return the waves of a source by rings.
+
+    Oceans and cascades are frozen, and grouping their waves takes longer than summing them at some
+    points, so that those of the last `shortest` are kept as long as the source is.
+    """
+    if not oceans_of(source):
+        return WaveRings(list_waves(source, depth=depth, shortest=shortest))
+    kept = _rings.get(source)
+    if kept is None or kept[0] != shortest or depth is not None:
+        kept = shortest, WaveRings(list_waves(source, depth=depth, shortest=shortest))
+        if kept[1].waves.omega.size <= _KEPT:
+            _rings[source] = kept
+    return kept[1]
+
+
+def _at_moment(
+    rings: WaveRings, waves: WaveList, t: float, stretching: str
+) -> Callable[[Real, Real, Real], Real]:
     """Return the function of points at one time, to velocity ... height, (points, 8)."""
-    tiles = as_tiles(waves, t)
+    now = rings.at(t)
     second = None if waves.bound is None else _SecondOrder(waves, t)
 
     def work(x: Real, y: Real, z: Real) -> Real:
-        out = np.empty((x.size, 8))
-        origin, height, moved = (
-            np.empty(waves.sizes.shape),
-            np.empty(x.size),
-            np.empty((x.size, 7)),
-        )
-        kernels.sum_heights(tiles, x, y, origin, height)
+        here = now.near(x, y)
+        out, height = np.empty((x.size, 8)), here.heights()
+        height[~(np.isfinite(x) & np.isfinite(y))] = np.nan  # also without waves
         if second is not None:
             height += second.heights(x, y)
         level = np.clip(_read_at(z, height, waves.depth, stretching), -waves.depth, 0.0)
-        kernels.sum_below(
-            tiles,
-            waves.omega,
-            waves.depth,
-            x,
-            y,
-            level,
-            origin,
-            moved,
-        )
-        if stretching == "extrapolation":
-            _extrapolate(waves, tiles, x, y, z, moved)
+        rise = np.maximum(z, 0.0) if stretching == "extrapolation" else np.zeros(z.size)
+        moved = here.below(level, rise)
         if second is not None:
             second.add(x, y, level, moved)
         out[:, :7], out[:, 7] = moved, height
@@ -253,17 +263,6 @@ def _read_at(z: Real, height: Real, depth: float, stretching: str) -> Real:
     # A trough that bares the bed has no water above it.
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(column > 0.0, depth * (z - height) / column, -depth)
-
-
-def _extrapolate(
-    waves: WaveList, tiles: tuple[Any, ...], x: Real, y: Real, z: Real, moved: Real
-) -> None:
-    """Add the rise along the tangent at z = 0 to points above it, in place; (points, 7)."""
-    above = np.flatnonzero(z > 0.0)
-    rises = np.empty((above.size, 7))
-    origin = np.empty(waves.sizes.shape)
-    kernels.sum_rises(tiles, waves.omega, waves.depth, x[above], y[above], origin, rises)
-    moved[above] += z[above, None] * rises
 
 
 def stokes_drift(

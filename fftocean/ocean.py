@@ -12,17 +12,18 @@ import numpy as np
 
 from fftocean.amplitudes import Amplitudes, Draw, Modes, place_modes, seed_amplitudes
 from fftocean.arrays import Real, RealLike
-from fftocean.bound_waves import BoundWaves, PhaseFunction, Shown, bound_waves
+from fftocean.bound_waves import BoundWaves, Shown, bound_waves
 from fftocean.cells import WHOLE, Band
 from fftocean.computation import Computation
-from fftocean.errors import ParameterError, SeaWarning, described
+from fftocean.errors import ParameterError, SeaWarning, described, suggestion
 from fftocean.fields import EIGHT, FIELDS, POINTWISE, potential_factor
 from fftocean.fixed_values import Rarity
 from fftocean.forks import Process, in_child, no_fork
 from fftocean.frame import Frame as Frame
+from fftocean.gpu.device_frame import DeviceFrame
+from fftocean.gpu.synthesis import DeviceSynthesis, synthesis_of
 from fftocean.grid import Grid
 from fftocean.host import require_memory
-from fftocean.kernels import passes
 from fftocean.limits import (
     BAND_EDGE,
     BAND_START,
@@ -34,10 +35,10 @@ from fftocean.limits import (
     TIME,
 )
 from fftocean.lookahead import run_in_order
+from fftocean.phases import AtTime, InLoop, Moment
 from fftocean.physics import dispersion
 from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
-from fftocean.synthesis import Synthesis
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -77,7 +78,8 @@ class Ocean:
             `seed_amplitudes`).
         band: lowest and highest wavenumber |k| of the waves [rad/m], within those that the grid
             holds; a `Cascade` sets it.
-        backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed.
+        backend: "mkl", "pyfftw", "scipy", or "auto" for the first of them that is installed; "gpu"
+            for the kernels of docs/gpu.md, or "gpu-or-cpu" for "auto" where "gpu" cannot compute.
         planning: "estimate" for the same bytes in every run; "measure" or "patient" for live use.
         threads: number of threads that share the work on one frame; the bytes do not depend on it.
         order: 1 for linear waves; 2 adds the waves of second order that are bound to them, which
@@ -248,7 +250,7 @@ class Ocean:
 
         Args:
             amplitudes: the scaled waves, on their own grid.
-            gain: factor on the waves of second order, (ny, nx // 2 + 1) of that grid.
+            gain: factor on the waves of second order [-], (ny, nx // 2 + 1) of that grid.
             rate: time derivatives of the waves of second order.
             planning, threads: as in `Ocean`; None for those of this ocean.
         """
@@ -280,7 +282,7 @@ class Ocean:
         self._computation, self._bound = computation, bound
         self._require_range()
         with no_fork():
-            self._synthesis = Synthesis(amplitudes, computation, bound)
+            self._synthesis = synthesis_of(amplitudes, computation, bound)
         self._few_cycles = bool(np.max(self._synthesis.frequency, initial=0.0) < 2.0**50)
         self._lock, self._process = threading.Lock(), Process()
         self._recipe = (sea, self.seed, amplitudes, choppiness, computation, bound)
@@ -398,7 +400,7 @@ class Ocean:
 
     @property
     def backend(self) -> str:
-        """FFT library in use: "mkl", "pyfftw" or "scipy"."""
+        """FFT library in use: "mkl", "pyfftw" or "scipy"; or "gpu"."""
         return self._synthesis.backend
 
     def modes(self) -> Modes:
@@ -441,12 +443,30 @@ class Ocean:
                 or dtype.
         """
         t = TIME.check("t", t)
-        moment = t if self.loop is None else math.fmod(t, self.loop) / self.loop
+        return self._render(t, fields, out, self._moment(t))
 
-        def phase(frequency: Real, out: Real) -> None:
-            passes.phases_at(frequency, moment, out)
+    def _moment(self, t: float) -> Moment:
+        return AtTime(t if self.loop is None else math.fmod(t, self.loop) / self.loop)
 
-        return self._render(t, fields, out, phase)
+    def device_frame(self, t: float, fields: Sequence[str] = EIGHT) -> DeviceFrame:
+        """
+        Return the water at time t in the memory of the graphics processor.
+
+        Args:
+            t, fields: as in `frame`.
+
+        Returns:
+            The fields as buffers of `wgpu`; their `read` gives `frame(t, fields)`.
+
+        Raises:
+            ParameterError: this ocean is not one of `backend="gpu"`, and as `frame`.
+        """
+        t, fields = TIME.check("t", t), check_fields(fields)
+        if not isinstance(self._synthesis, DeviceSynthesis):
+            raise ParameterError(f"device_frame needs backend='gpu', got {self.backend!r}")
+        with no_fork(), self._locked():
+            device, buffers = self._synthesis.buffers(self._moment(t), fields, self.choppiness)
+        return DeviceFrame(t, self.grid, self.choppiness, device, buffers)
 
     def loop_frame(
         self, j: int, count: int, fields: Sequence[str] = EIGHT, *, out: Frame | None = None
@@ -472,14 +492,8 @@ class Ocean:
         if isinstance(j, bool) or not isinstance(j, (int, np.integer)):
             raise ParameterError(f"j must be a whole number, got {j!r}")
         step = int(j) % count
-
-        def phase(frequency: Real, out: Real) -> None:
-            if count <= 2**26 and self._few_cycles:
-                passes.phases_in_loop(frequency, float(step), float(count), out)
-            else:
-                passes.phases_in_fine_loop(frequency, step, count, out)
-
-        return self._render(self.loop * step / count, fields, out, phase)
+        moment = InLoop(step, count, self._few_cycles)
+        return self._render(self.loop * step / count, fields, out, moment)
 
     def frames(
         self,
@@ -531,13 +545,11 @@ class Ocean:
             (partial(self.loop_frame, j, count, fields) for j in steps), ahead, reuse
         )
 
-    def _render(
-        self, t: float, fields: Sequence[str], out: Frame | None, phase: PhaseFunction
-    ) -> Frame:
+    def _render(self, t: float, fields: Sequence[str], out: Frame | None, moment: Moment) -> Frame:
         fields = check_fields(fields)
         arrays = self._outputs(fields, out)
         with no_fork(), self._locked():
-            self._synthesis.run(phase, arrays, self.choppiness)
+            self._synthesis.run(moment, arrays, self.choppiness)
         frame = Frame(t, self.grid, self.choppiness, arrays)
         if out is not None:
             out._become(frame)  # its t and fields are the new ones
@@ -643,7 +655,10 @@ def check_fields(
         ) from None
     for name in names:
         if name not in known:
-            raise ParameterError(f"a field must be one of {', '.join(known)}, got {name!r:.80}")
+            raise ParameterError(
+                f"a field must be one of {', '.join(known)}, got {name!r:.80}"
+                f"{suggestion(name, known)}"
+            )
     return names
 
 

@@ -19,7 +19,7 @@ from fftocean.limits import CHOPPINESS
 
 def normals(frame: Frame | EulerianFrame) -> Real:
     """
-    Return the unit normals of the displaced surface, (ny, nx, 3), z up.
+    Return the unit normals of the displaced surface [-], (ny, nx, 3), z up.
 
     n ~ (1 + c Dxx, c Dxy, sx) x (c Dxy, 1 + c Dyy, sy); its z component has the sign of the
     Jacobian. A frame of `Eulerian` is a height field, whose normals are (-sx, -sy, 1) scaled to
@@ -83,14 +83,22 @@ def minimum_eigenvalue(frame: Frame) -> Real:
 
 @dataclass(frozen=True, slots=True)
 class Folding:
-    """Folds in a set of samples, and the choppiness up to which there are none."""
+    """
+    Folds in a set of samples, and the choppiness up to which there are none.
 
-    # share of the samples that are folded: those whose deformation gradient has a negative
-    # eigenvalue [-]
+    Args:
+        share: share of the samples that are folded: those whose deformation gradient has a negative
+            eigenvalue [-].
+        min_jacobian: smallest area of displaced over still surface [-].
+        largest_choppiness: largest choppiness without a folded sample [-]; inf if no choppiness
+            folds one.
+        samples: number of samples.
+    """
+
     share: float
-    min_jacobian: float  # smallest area of displaced over still surface [-]
-    largest_choppiness: float  # without a folded sample [-]; inf if no choppiness folds one
-    samples: int  # number of samples
+    min_jacobian: float
+    largest_choppiness: float
+    samples: int
 
     def __str__(self) -> str:
         return folding_sentence(self.share, self.min_jacobian, self.largest_choppiness)

@@ -1,6 +1,9 @@
 """Height, normal, velocity and acceleration of the water surface at points of the world."""
 
 import math
+import statistics
+import time
+import warnings
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -8,18 +11,19 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fftocean import mean_motion
+from fftocean import mean_motion, query_budget
 from fftocean.amplitudes import Modes
 from fftocean.arrays import Real, RealLike, shortened
 from fftocean.cascade import Cascade
-from fftocean.errors import FieldError, ParameterError, described
+from fftocean.errors import FieldError, ParameterError, SeaWarning, described
 from fftocean.forks import Process
 from fftocean.gerstner.waves import Waves
 from fftocean.interpolated_tiles import InterpolatedTiles
-from fftocean.limits import THREADS, TIME, Quantity
+from fftocean.limits import THREADS, TIME, Count, Quantity
 from fftocean.ocean import Ocean, check_fields
 from fftocean.point_results import PointResults
 from fftocean.points import as_coordinates, group_by_time
+from fftocean.query_budget import BudgetReport
 from fftocean.summed_waves import SummedWaves
 from fftocean.wave_list import list_waves, oceans_of
 
@@ -28,6 +32,8 @@ WANTED = ("heights", "normals", "velocities", "accelerations")
 KNOWN = (*WANTED, "surface_velocities", "surface_accelerations")
 LEVELS = ("still", "frame")
 WAVELENGTH = Quantity("m", 0.0, math.inf)
+BUDGET = Quantity("ms", 1e-3, 1e6)
+POINTS = Count("", 1, 10**8)
 
 
 class Answer:
@@ -83,7 +89,7 @@ class Answer:
 
     @property
     def heights(self) -> Real:
-        """Height of the surface above the still-water level, or the frame's zero (`level`) [m]."""
+        """Height above the still-water level or the frame's zero (`level`) [m], shaped like x."""
         return self["heights"]
 
     @property
@@ -152,13 +158,23 @@ class Query:
             of frames and maps, to lie on a mesh that is drawn from these.
         drift: add to the velocities of the water what tracers that follow them lack of the Stokes
             drift at the surface: things that float then drift as on water.
+        budget: milliseconds that a call at a new time may take on this machine, with `points`
+            points and the fields that `at` has by default: of processor time by one thread, else of
+            elapsed time. None leaves nothing out. Calls are timed when the query is made, for a
+            second or so. Where they take longer, tiles have fewer samples, or the smallest are left
+            out, with the waves that matter least (`query_budget.within`). `query.budget_report`
+            says what is left, and a warning what is missing. A copy or a pickle keeps the choice.
+        points: number of points of the call that fits the budget.
 
     The frames of the last t are kept, so that many calls at one time cost one synthesis. Threads
     can share a query; they work on points at the same time, without the GIL.
 
     Raises:
         ParameterError: a source without waves, an unknown mode, interpolation of waves that have no
-            tile, or a value out of range.
+            tile, a budget for sums of waves, or a value out of range.
+
+    Warns:
+        SeaWarning: waves that the budget leaves out, or a budget that no tiles fit.
 
     Method: Newton's iteration on the summed displacement with its exact Jacobian (`kernels.query`).
     Source: splines: Unser 1999.
@@ -177,6 +193,8 @@ class Query:
         threads: int = 1,
         level: str = "still",
         drift: bool = False,
+        budget: float | None = None,
+        points: int = 200,
     ) -> None:
         tiles = oceans_of(source)
         mode = mode or ("bicubic" if tiles else "exact")
@@ -190,9 +208,46 @@ class Query:
             raise ParameterError(f"level must be one of {', '.join(LEVELS)}, got {level!r}")
         if not isinstance(drift, bool):
             raise ParameterError(f"drift must be True or False, got {described(drift)}")
+        shortest = WAVELENGTH.check("shortest", shortest)
+        threads = THREADS.check("threads", threads)
+        report = None
+        if budget is not None:
+            if mode == "exact":
+                raise ParameterError(
+                    "a budget needs tiles to leave out, mode 'bilinear' or 'bicubic', "
+                    f"got mode {mode!r}"
+                )
+            source, report = _within(
+                source,
+                BUDGET.check("budget", budget),
+                POINTS.check("points", points),
+                {
+                    "mode": mode,
+                    "shortest": shortest,
+                    "threads": threads,
+                    "level": level,
+                    "drift": drift,
+                },
+            )
+        self._set_up(source, mode, shortest, depth, choppiness, threads, level, drift, report)
+
+    def _set_up(
+        self,
+        source: Any,
+        mode: str,
+        shortest: float,
+        depth: float | None,
+        choppiness: float | None,
+        threads: int,
+        level: str,
+        drift: bool,
+        report: BudgetReport | None,
+    ) -> None:
         self.source, self.mode, self.level = source, mode, level
-        self.shortest = WAVELENGTH.check("shortest", shortest)
-        self.threads = THREADS.check("threads", threads)
+        self.shortest, self.threads = shortest, threads
+        self.budget_report = report
+        """What a budget left of the tiles of the source, a `BudgetReport`; None without a budget.
+        `query.source` has these tiles alone."""
         self._water: SummedWaves | InterpolatedTiles
         waves = list_waves(source, depth=depth, choppiness=choppiness, shortest=self.shortest)
         self.set_down = mean_motion.set_down(waves)
@@ -203,11 +258,17 @@ class Query:
             self._water = SummedWaves(waves)
         else:
             self._water = InterpolatedTiles(
-                tiles, spline=mode == "bicubic", shortest=self.shortest, threads=self.threads
+                oceans_of(source),
+                spline=mode == "bicubic",
+                shortest=self.shortest,
+                threads=self.threads,
             )
         self._start()
         self.drift.setflags(write=False)
-        self._recipe = (source, mode, self.shortest, depth, choppiness, self.threads, level, drift)
+        self._recipe = (
+            *(source, mode, self.shortest, depth, choppiness),
+            *(self.threads, level, drift, report),
+        )
 
     def _start(self) -> None:
         self._pool = (
@@ -228,10 +289,30 @@ class Query:
         return _rebuilt, self._recipe
 
     def __repr__(self) -> str:
+        report = "" if self.budget_report is None else f"budget: {self.budget_report}; "
         return shortened(
             f"Query(mode={self.mode!r}, shortest={self.shortest:g}, threads={self.threads}, "
-            f"level={self.level!r}, {self.source!r})"
+            f"level={self.level!r}, {report}{self.source!r})"
         )
+
+    def warm_up(self, points: int = 200, fields: Sequence[str] = WANTED) -> None:
+        """
+        Do once what a first call does and later ones need not: load or compile all loops, plan the
+        transforms, start the threads, and make a frame.
+
+        The first step of a control loop is then like any other.
+
+        Args:
+            points: number of points of the calls to come.
+            fields: that will be asked for, as in `at`.
+
+        Raises:
+            ParameterError: an unknown field, or a number out of range.
+        """
+        count = POINTS.check("points", points)
+        x, y = _random_points(self._water.limit, count)
+        self.at(x, y, 0.0, fields)
+        self._water.warm_up(0.0)
 
     def at(self, x: RealLike, y: RealLike, t: RealLike, fields: Sequence[str] = WANTED) -> Answer:
         """
@@ -323,24 +404,53 @@ class Query:
             list(self._pool.map(lambda part: find(x[part], y[part], out.part(part)), parts))
 
 
-def _rebuilt(
-    source: Any,
-    mode: str,
-    shortest: float,
-    depth: float | None,
-    choppiness: float | None,
-    threads: int,
-    level: str,
-    drift: bool,
-) -> Query:
-    """Return a query from its arguments in order."""
-    return Query(
+def _rebuilt(*recipe: Any) -> Query:
+    """Return a query from the arguments of `Query._set_up`."""
+    query = Query.__new__(Query)
+    query._set_up(*recipe)
+    return query
+
+
+def _within(
+    source: Any, budget: float, points: int, arguments: Mapping[str, Any]
+) -> tuple[Ocean | Cascade, BudgetReport]:
+    """Return what of a source fits a budget of milliseconds, and the report; warn of the rest."""
+    chosen, report = query_budget.within(
         source,
-        mode=mode,
-        shortest=shortest,
-        depth=depth,
-        choppiness=choppiness,
-        threads=threads,
-        level=level,
-        drift=drift,
+        budget=budget,
+        points=points,
+        shortest=arguments["shortest"],
+        measure=lambda tiles: milliseconds_of_a_call(Query(tiles, **arguments), points),
     )
+    if not report.fits:
+        warnings.warn(
+            f"a call takes longer than the budget even with the fewest waves: {report}",
+            SeaWarning,
+            stacklevel=3,
+        )
+    elif not report.is_whole:
+        warnings.warn(f"waves were left out to fit the budget: {report}", SeaWarning, stacklevel=3)
+    return chosen, report
+
+
+CALLS, STEP = 9, 0.02  # calls that are timed, and the seconds from one to the next
+
+
+def milliseconds_of_a_call(query: Query, points: int) -> float:
+    """Return the median time of a call at a new time, with the default fields, warmed up [ms]."""
+    query.warm_up(points)
+    x, y = _random_points(query._water.limit, points)
+    # Processor time does not depend on what else the machine does; of several threads it is a sum.
+    clock = time.thread_time if query.threads == 1 else time.perf_counter
+    times = []
+    for call in range(1, CALLS + 1):
+        start = clock()
+        query.at(x, y, STEP * call)
+        times.append(clock() - start)
+    return 1e3 * statistics.median(times)
+
+
+def _random_points(limit: float, count: int) -> tuple[Real, Real]:
+    """Return points over the largest tile, or the longest wave: 1e9 times the limit [m]."""
+    x, y = np.random.default_rng(0).uniform(0.0, 1e9 * limit, (2, count))
+    return x, y

@@ -85,23 +85,40 @@ class Statistics:
 
     m0, hs, mean_direction and spread are those of the waves of this seed. A single frame of the
     same waves scatters further, since crossing waves beat: see `snapshot_error`.
+
+    Args:
+        m0: variance, averaged over time [m^2].
+        hs: significant wave height, 4 sqrt(m0) [m].
+        tp: peak period [s].
+        mean_direction: mean direction, toward, counter-clockwise from +x [degrees].
+        spread: directional spread [degrees].
+        specified: statistics of the sea itself; None for an ocean of given waves.
+        resolved: m0 of the part that the tile can hold, averaged over seeds [m^2].
+        energy_below: m0 of waves longer than the tile, which it cannot hold [m^2].
+        energy_above: m0 of waves shorter than two samples [m^2].
+        sampling_error: relative standard deviation of m0 from seed to seed [-]; that of hs is half
+            of it.
+        snapshot_error: relative standard deviation of the variance of one frame [-].
+        loop: error of the loop's frequencies; None without a loop, and for several tiles: measure
+            each of `cascade.oceans`.
+        folding: folds of the water at its choppiness, in the frames that were measured.
+        skewness: skewness of a sea of order 2 on one tile.
     """
 
-    m0: float  # variance, averaged over time [m^2]
-    hs: float  # significant wave height, 4 sqrt(m0) [m]
-    tp: float  # peak period [s]
-    mean_direction: float  # [degrees]
-    spread: float  # [degrees]
-    specified: SeaState | None  # of the sea itself; None for an ocean of given waves
-    resolved: float  # m0 of the part that the tile can hold, averaged over seeds [m^2]
-    energy_below: float  # m0 of waves longer than the tile, which it cannot hold [m^2]
-    energy_above: float  # m0 of waves shorter than two samples [m^2]
-    # relative standard deviation of m0 from seed to seed [-]; that of hs is half of it
+    m0: float
+    hs: float
+    tp: float
+    mean_direction: float
+    spread: float
+    specified: SeaState | None
+    resolved: float
+    energy_below: float
+    energy_above: float
     sampling_error: float
-    snapshot_error: float  # relative standard deviation of the variance of one frame [-]
-    loop: LoopError | None  # None for several tiles, too: measure each of `cascade.oceans`
-    folding: Folding  # of the water at its choppiness, in the frames that were measured
-    skewness: Skewness | None = None  # of a sea of order 2 on one tile
+    snapshot_error: float
+    loop: LoopError | None
+    folding: Folding
+    skewness: Skewness | None = None
 
     @property
     def ordered(self) -> SeaState | None:

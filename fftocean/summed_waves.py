@@ -38,6 +38,9 @@ class SummedWaves:
         """Return the factor on all waves at time t [s]: below 1 for a model that starts."""
         return _growth(self._waves, t)[0]
 
+    def warm_up(self, _t: float) -> None:
+        """Do nothing: every call takes the same loops."""
+
     def at(self, t: float, fields: tuple[str, ...]) -> PointFunction:
         """Return the function that finds the water at time t [s]."""
         waves = self._waves

@@ -17,16 +17,18 @@ along y and four along x.
     rows ------ powers of kx -------> packed rows ----- inverse FFT along x ---> fields
                                                                                       second pass
 
-Both passes run over blocks that stay in cache. `fields.FIELDS` has the derivative of each field;
-`Plan` says which transforms a set of fields takes.
+Both passes run over blocks that stay in cache, each compiled whole: see `kernels.whole_passes`.
+Threads take the blocks in turns. `fields.FIELDS` has the derivative of each field; `Plan` says
+which transforms a set of fields takes.
 
 Two numbers keep single precision in range. Waves are divided by the largest of them (a power of
 two, which rounds nothing), and the second pass multiplies it back. And since two fields of a packed
 row share the rounding errors of its transform, a power of two first makes them equally large.
 """
 
+import contextlib
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
@@ -34,16 +36,27 @@ from functools import lru_cache
 import numpy as np
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import COMPLEX_OF, Complex, Real
-from fftocean.bound_waves import BoundSpectrum, PhaseFunction, Shown
+from fftocean.arrays import COMPLEX_OF, Complex, Integer, Real
+from fftocean.bound_waves import BoundSpectrum, Shown
 from fftocean.computation import Computation
-from fftocean.fields import FIELDS, POINTWISE, Field, potential_factor
-from fftocean.kernels import passes, surface
+from fftocean.fields import FIELDS, GEOMETRY, POINTWISE, Field, potential_factor
+from fftocean.kernels import passes, whole_passes
+from fftocean.kernels.vectors import TILE
+from fftocean.phases import Moment
 from fftocean.physics import dispersion
-from fftocean.transforms import aligned, inverse_rows
+from fftocean.transforms import aligned, aligned_numbers, chosen_backend, inverse_rows, row_plan
 
 Source = tuple[str, int]
 """"height" or "potential", and the number of time derivatives, 0 or 1."""
+
+SOURCES: tuple[Source, ...] = (("height", 0), ("height", 1), ("potential", 0), ("potential", 1))
+"""The sources, in the order that `kernels.whole_passes` has them."""
+
+GRADIENTS = np.array([tuple(FIELDS).index(name) for name in GEOMETRY], np.int64)
+"""Places of the gradients among the fields."""
+
+WIDTH = 64
+"""Columns or rows in a block where transforms are called from Python."""
 
 PAIRS: tuple[tuple[str, ...], ...] = (
     ("height", "slope_x"),
@@ -148,12 +161,17 @@ def _half_spectra(pair: tuple[str, ...]) -> tuple[HalfSpectrum, ...]:
     )
 
 
+def _linear(fields: tuple[str, ...]) -> set[str]:
+    """Return the linear fields that some fields are, or are computed from."""
+    return {
+        name for field in fields for name in ((field,) if field in FIELDS else POINTWISE[field])
+    }
+
+
 @lru_cache(maxsize=256)
 def plan_fields(fields: tuple[str, ...]) -> Plan:
     """Return the plan for a set of field names."""
-    wanted = {
-        name for field in fields for name in ((field,) if field in FIELDS else POINTWISE[field])
-    }
+    wanted = _linear(fields)
     pairs = tuple(pair for pair in row_pairs() if wanted & set(pair))
     half_spectra: list[HalfSpectrum] = []
     rows = []
@@ -218,15 +236,13 @@ def largest_wave(amplitudes: Amplitudes) -> float:
     return 2.0 ** max(round(math.log2(largest)), -1000) if largest > 0.0 else 1.0
 
 
-def block_size(n: int, available: int) -> int:
-    """
-    Return the number of rows of length n in a block; measured, and flat about there.
+@dataclass(frozen=True, slots=True)
+class _Tables:
+    """A plan as compiled loops take it."""
 
-    Fewer would lie nearer to the processor, but every call of a kernel releases the interpreter
-    lock and takes it again: with short calls two threads wait for each other more than they work
-    (at n = 512, 16 rows gain 1.2 times by a second thread, 64 rows 1.8 times).
-    """
-    return min(max(2**16 // n, 32), 64, available)
+    plan: Plan
+    spectra: whole_passes.Spectra
+    rows: whole_passes.Rows
 
 
 class Synthesis:
@@ -276,57 +292,74 @@ class Synthesis:
             for pair in pairs
             if len(pair) == 2
         }
-        self._ky_factors = {
-            spectrum: self._ky_factors_of(spectrum)
-            for pair in pairs
-            for spectrum in _half_spectra(pair)
-        }
-        self._kx_factors = {pair: self._kx_factors_of(pair) for pair in pairs}
-        self._widths = (block_size(grid.ny, self.columns), block_size(grid.nx, grid.ny))
-        blocks = max(-(-self.columns // self._widths[0]), -(-grid.ny // self._widths[1]))
+        self._tables: dict[tuple[str, ...], _Tables] = {}
         self._workspaces = [
-            _Workspace(self._widths, grid.shape, computation)
-            for _ in range(min(computation.threads, blocks))
+            _Workspace(self.columns, grid.shape, computation)
+            for _ in range(min(computation.threads, -(-max(self.columns, grid.ny) // TILE)))
         ]
         self.restart()
-        self.backend = self._workspaces[0].first.backend
+        self.backend = self._workspaces[0].backend
 
     def restart(self) -> None:
         """Start the threads; a forked child calls it again, since it has none of its parent's."""
         others = len(self._workspaces) - 1
         self._pool = ThreadPoolExecutor(others, thread_name_prefix="fftocean") if others else None
 
-    def run(self, phase: PhaseFunction, outputs: Mapping[str, Real], choppiness: float) -> None:
+    def run(self, moment: Moment, outputs: Mapping[str, Real], choppiness: float) -> None:
         """
         Compute fields.
 
         Args:
-            phase: writes the phases of the waves.
+            moment: the time.
             outputs: the arrays to write to by field name, (ny, nx) or, for normals, (ny, nx, 3).
             choppiness: factor on the horizontal displacement [-].
         """
-        plan = plan_fields(tuple(outputs))
+        fields = tuple(outputs)
+        if fields not in self._tables:
+            if len(self._tables) >= 32:  # of a caller that tries all sets
+                self._tables.clear()
+            self._tables[fields] = self._tables_of(plan_fields(fields))
+        tables = self._tables[fields]
+        plan = tables.plan
         if not plan.linear:
             return
-        if self._omega is None and any(spectrum.source[1] for spectrum in plan.half_spectra):
+        rates = any(spectrum.source[1] for spectrum in plan.half_spectra)
+        if self._omega is None and rates:
             self._omega = np.ascontiguousarray(
                 self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype
             )
-        if self._bound is not None:
-            self._sum_bound_waves(self._bound, plan, phase)
-        intermediate = self._intermediate(len(plan.half_spectra))
-        transposed = _transposable(intermediate)
-        c = self._dtype.type(choppiness)
+        first = _First(
+            single=True if self._dtype == np.float32 else None,
+            moment=moment.numbers,
+            waves=(self.frequency, self._waves, self._potential),
+            omega=self._omega if rates else None,
+            bound=self._sum_bound_waves(plan, moment),
+            spectra=tables.spectra,
+        )
+        between = self._between(len(plan.half_spectra))
+        empty = np.empty(0, self._dtype)
+        second = _Second(
+            spectra=len(plan.half_spectra),
+            rows=tables.rows,
+            outputs=outputs,
+            choppiness=self._dtype.type(choppiness),
+            normal=outputs.get("normal", empty).reshape(-1),
+            jacobian=outputs.get("jacobian", empty).reshape(-1),
+        )
+        if self._workspaces[0].compiled:
+            blocks = np.zeros((2, 16), np.int64)  # on a cache line each
+            self._in_threads(lambda workspace: workspace.first_pass(blocks[0], first, between))
+            self._in_threads(lambda workspace: workspace.second_pass(blocks[1], second, between))
+            return
         self._run_blocks(
             self.columns,
-            self._widths[0],
-            lambda workspace, block: self._first_pass(plan, workspace, block, phase, transposed),
+            WIDTH,
+            lambda workspace, block: workspace.do_columns(block, first, between),
         )
-        rows = _parts(intermediate)
         self._run_blocks(
             self._grid.ny,
-            self._widths[1],
-            lambda workspace, block: self._second_pass(plan, workspace, block, rows, outputs, c),
+            WIDTH,
+            lambda workspace, block: workspace.do_rows(block, second, between),
         )
 
     def _run_blocks(
@@ -337,128 +370,43 @@ class Synthesis:
 
         The blocks do not depend on the number of threads, nor do their bytes.
         """
-        blocks = [slice(start, min(start + width, total)) for start in range(0, total, width)]
+        # Several threads can ask a list's iterator: each block goes to one of them.
+        blocks = iter([slice(i, min(i + width, total)) for i in range(0, total, width)])
 
-        def run(workspace: _Workspace, own: Iterable[slice]) -> None:
-            for block in own:
+        def run(workspace: _Workspace) -> None:
+            for block in blocks:
                 work(workspace, block)
 
-        (mine, *others) = [
-            (workspace, blocks[i :: len(self._workspaces)])
-            for i, workspace in enumerate(self._workspaces)
-        ]
+        self._in_threads(run)
+
+    def _in_threads(self, run: "Callable[[_Workspace], None]") -> None:
+        """Call a function in each thread, with a workspace of its own, and wait."""
+        mine, *others = self._workspaces
+        if not others:
+            run(mine)
+            return
         tasks: list[Future[None]] = []
         try:
-            for share in others:
+            for workspace in others:
                 assert self._pool is not None  # there is one for more workspaces than one
-                try:
-                    tasks.append(self._pool.submit(run, *share))
-                except RuntimeError:  # the interpreter is shutting down and starts nothing new
-                    run(*share)
-            run(*mine)  # in this thread, whose caches are warm
+                # A thread that cannot start leaves its blocks to the others.
+                with contextlib.suppress(RuntimeError):  # the interpreter is shutting down
+                    tasks.append(self._pool.submit(run, workspace))
+            run(mine)  # in this thread, whose caches are warm
             for task in tasks:
                 task.result()
         finally:  # after an interrupt, too, no workspace may be reused while a thread still writes
             wait(tasks)
 
-    def _sum_bound_waves(self, bound: BoundSpectrum, plan: Plan, phase: PhaseFunction) -> None:
-        """Compute the second-order height spectra that a plan needs."""
+    def _sum_bound_waves(self, plan: Plan, moment: Moment) -> whole_passes.Bound | None:
+        """Compute the second-order height spectra that a plan needs, if there are any."""
         rates = [dt for of, dt in plan.sources if of == "height"]
-        if not rates:
-            return
-        bound.advance(phase, rates)
+        bound = self._bound
+        if bound is None or not rates:
+            return None
+        bound.advance(moment, rates)
         self._run_blocks(bound.parts, 1, lambda _, part: bound.sum(part.start, rates))
-
-    def _first_pass(
-        self,
-        plan: Plan,
-        workspace: "_Workspace",
-        block: slice,
-        phase: PhaseFunction,
-        intermediate: Real | Complex,
-    ) -> None:
-        """Advance the waves of some columns kx, derive and transform along y, and transpose."""
-        n = block.stop - block.start
-        cycles, cosine, sine = workspace.cycles[:n], workspace.cosine[:n], workspace.sine[:n]
-        phase(self.frequency[block], cycles)
-        (passes.phasors_single if self._dtype == np.float32 else passes.phasors)(
-            cycles, cosine, sine
-        )
-        ready: set[Source] = set()
-
-        def parts_of(source: Source) -> tuple[Real, Real]:
-            """Return real and imaginary part of a source, computed once for the block."""
-            parts: tuple[Real, Real] = workspace.parts[source]
-            if source not in ready:
-                ready.add(source)
-                of, dt = source
-                if of == "potential":
-                    for whole, part in zip(parts_of(("height", dt)), parts, strict=True):
-                        passes.scale(whole, self._potential[block], part)
-                elif dt == 0:
-                    passes.heights(self._waves[block], cosine, sine, *parts)
-                else:
-                    assert self._omega is not None  # made before the first pass
-                    passes.height_rates(
-                        self._waves[block], cosine, sine, self._omega[block], *parts
-                    )
-            return parts
-
-        if self._bound is not None:
-            for of, dt in plan.sources:  # potentials before heights: those have no second order
-                real, imag = parts_of((of, dt))
-                if of == "height":
-                    self._bound.add(dt, block.start, real[:n], imag[:n])
-        for s, spectrum in enumerate(plan.half_spectra):
-            power, other_power, first, second = self._ky_factors[spectrum]
-            parts = _swapped(parts_of(spectrum.source), spectrum.quarters)
-            source = workspace.first_source
-            if spectrum.other is None:
-                passes.derive(*parts, power, first, second, n, source)
-            else:
-                other = _swapped(parts_of(spectrum.other), spectrum.quarters)
-                passes.mix(*parts, power, *other, other_power, first, second, n, source)
-            workspace.first()
-            passes.transpose(workspace.first_result, s, block.start, n, intermediate)
-
-    def _second_pass(
-        self,
-        plan: Plan,
-        workspace: "_Workspace",
-        block: slice,
-        intermediate: Real,
-        outputs: Mapping[str, Real],
-        choppiness: float,
-    ) -> None:
-        """Derive and transform packed rows along x, split them, and finish pointwise fields."""
-        n = block.stop - block.start
-        rows = {
-            name: outputs[name][block] if name in outputs else workspace.scratch[name][:n]
-            for name in plan.linear
-        }
-        for row in plan.rows:
-            plus, minus, undo = self._kx_factors[row.pair]
-            passes.pack(
-                intermediate,
-                block.start,
-                n,
-                row.plus,
-                row.minus,
-                plus,
-                minus,
-                workspace.second_source,
-            )
-            workspace.second()
-            if len(row.pair) == 2:
-                passes.split(workspace.second_result, undo, rows[row.pair[0]], rows[row.pair[1]])
-            else:
-                passes.real_parts(workspace.second_result, rows[row.pair[0]])
-        if "normal" in outputs:
-            sx, sy, xx, xy, yy = (rows[name] for name in POINTWISE["normal"])
-            surface.normals(sx, sy, xx, xy, yy, choppiness, outputs["normal"][block])
-        if "jacobian" in outputs:
-            xx, xy, yy = (rows[name] for name in POINTWISE["jacobian"])
-            surface.jacobian(xx, xy, yy, choppiness, outputs["jacobian"][block])
+        return bound.summed()
 
     def _wave_table(self, amplitudes: Amplitudes) -> Real:
         """
@@ -467,7 +415,7 @@ class Synthesis:
         `passes.heights` has their layout.
         """
         forward, backward = (a.T[: self.columns] for a in (amplitudes.forward, amplitudes.backward))
-        waves = np.empty((self.columns, 4, self._grid.ny), dtype=self._dtype)
+        waves = aligned_numbers((self.columns, 4, self._grid.ny), self._dtype)
         per_unit = 1.0 / self._unit
         for i, (combine, a, b) in enumerate((
             (np.add, forward.real, backward.real),
@@ -482,22 +430,42 @@ class Synthesis:
             waves[np.abs(waves) < 1e-30] = 0.0
         return waves.reshape(self.columns, -1)
 
-    def _ky_factors_of(self, spectrum: HalfSpectrum) -> tuple[Real, Real, float, float]:
-        """
-        Return the factors of a half-spectrum in the first pass.
-
-        The two powers of ky, the second with its weight, (ny,) each; and the signs that i^quarters
-        gives to the real and the imaginary part.
-        """
-        number = self._dtype.type
-        weight = spectrum.sign * self._weights.get(spectrum.pair, 1.0)
-        power, other = self._grid.ky**spectrum.power, weight * self._grid.ky**spectrum.other_power
-        signs = 1j**spectrum.quarters * (1 + 1j)
-        return (
-            power.astype(self._dtype),
-            other.astype(self._dtype),
-            number(round(signs.real)),
-            number(round(signs.imag)),
+    def _tables_of(self, plan: Plan) -> _Tables:
+        """Return the tables of a plan."""
+        number = {source: i for i, source in enumerate(SOURCES)}
+        place = {name: i for i, name in enumerate(FIELDS)}
+        used = np.zeros(len(SOURCES), np.int64)
+        for of, dt in plan.sources:
+            used[number[of, dt]] = 1
+            used[number["height", dt]] = 1
+        sources = np.empty((len(plan.half_spectra), 3), np.int64)
+        powers = aligned_numbers((len(plan.half_spectra), 2, self._grid.ny), self._dtype)
+        signs = np.empty((len(plan.half_spectra), 2), self._dtype)
+        for s, spectrum in enumerate(plan.half_spectra):
+            other = -1 if spectrum.other is None else number[spectrum.other]
+            sources[s] = number[spectrum.source], other, spectrum.quarters % 2
+            weight = spectrum.sign * self._weights.get(spectrum.pair, 1.0)
+            powers[s, 0] = self._grid.ky**spectrum.power
+            powers[s, 1] = weight * self._grid.ky**spectrum.other_power
+            turned = 1j**spectrum.quarters * (1 + 1j)
+            signs[s] = round(turned.real), round(turned.imag)
+        needed = _linear(plan.fields)
+        table = np.zeros((len(plan.rows), 5), np.int64)
+        factors = [self._kx_factors_of(row.pair) for row in plan.rows]
+        for p, row in enumerate(plan.rows):
+            one, two = row.pair[0], row.pair[-1]
+            only = 1 if two not in needed or one == two else 2 if one not in needed else 0
+            table[p] = row.plus, row.minus, place[one], place[two], only
+        plus, minus = (
+            aligned_numbers((len(factors), 2 * self.columns), self._dtype) for _ in range(2)
+        )
+        undo = np.empty(len(factors), self._dtype)
+        for p, parts in enumerate(factors):
+            plus[p], minus[p], undo[p] = parts
+        return _Tables(
+            plan,
+            (used, sources, powers, signs),
+            (table, plus, minus, undo),
         )
 
     def _kx_factors_of(self, pair: tuple[str, ...]) -> tuple[Real, Real, float]:
@@ -510,50 +478,177 @@ class Synthesis:
         slope = weight * kx if len(pair) == 2 and _is_x_derivative(pair) else 0.0
         power = self._unit * kx ** FIELDS[pair[0]].dx
         plus = np.repeat(power * (1.0 - slope), 2)
-        minus = np.repeat(power * (1.0 + slope), 2)[:1:-1]
+        minus = np.repeat(power * (1.0 + slope), 2)[::-1]
         minus[1::2] *= -1.0
         # A field without waves is exactly 0, without the rounding errors of its partner.
         undo = 1.0 / weight if self._size[pair[-1]] > 0.0 else 0.0
         return plus.astype(self._dtype), minus.astype(self._dtype), self._dtype.type(undo)
 
-    def _intermediate(self, spectra: int) -> Complex:
-        """
-        Return the array between the passes, (ny, spectra, columns).
-
-        Each row starts on a cache line.
-        """
-        line = 64 // self._buffer.itemsize
-        columns = -(-self.columns // line) * line
-        size = self._grid.ny * spectra * columns
+    def _between(self, spectra: int) -> Real:
+        """Return the array between the passes, tiles as `passes.tile` has them."""
+        size = -(-self._grid.ny // TILE) * -(-self.columns // TILE) * spectra * TILE**2
         if self._buffer.size < size:
             self._buffer = aligned((1, size), self._dtype.name)[0]
-        return self._buffer[:size].reshape(self._grid.ny, spectra, columns)
+        return self._buffer[:size].view(self._dtype)
+
+
+@dataclass(frozen=True, slots=True)
+class _First:
+    """Arguments of the first pass."""
+
+    single: bool | None
+    moment: whole_passes.Moment
+    waves: whole_passes.Waves
+    omega: Real | None
+    bound: whole_passes.Bound | None
+    spectra: whole_passes.Spectra
+
+
+@dataclass(frozen=True, slots=True)
+class _Second:
+    """Arguments of the second pass."""
+
+    spectra: int
+    rows: whole_passes.Rows
+    outputs: Mapping[str, Real]
+    choppiness: float
+    normal: Real
+    jacobian: Real
 
 
 class _Workspace:
-    """The buffers and FFT plans of one thread, the same for any set of fields."""
+    """
+    The buffers and FFT plans of one thread, the same for any set of fields.
 
-    def __init__(
-        self, widths: tuple[int, int], shape: tuple[int, int], computation: Computation
-    ) -> None:
-        (columns, rows), (ny, nx) = widths, shape
-        dtype = computation.dtype
-        self.cycles = np.empty((columns, ny))
-        self.cosine, self.sine = np.empty((2, columns, ny), dtype=dtype)
-        sources = [(of, dt) for of in ("height", "potential") for dt in (0, 1)]
-        self.parts: dict[Source, tuple[Real, Real]] = {}
-        for source in sources:
-            real, imaginary = np.empty((2, columns, ny), dtype=dtype)
-            self.parts[source] = (real, imaginary)
-        self.first, self.second = (
-            inverse_rows(buffer, dtype, backend=computation.backend, planning=computation.planning)
-            for buffer in ((columns, ny), (rows, nx))
+    Args:
+        columns: of a half-spectrum.
+        shape: (ny, nx).
+        computation: precision, FFT library and planning effort.
+    """
+
+    def __init__(self, columns: int, shape: tuple[int, int], computation: Computation) -> None:
+        ny, nx = self._ny, self._nx = shape
+        dtype, planning = computation.dtype, computation.planning
+        self.backend = chosen_backend(dtype, computation.backend, planning)
+        self._plans = [row_plan(n, dtype, self.backend, planning) for n in (ny, nx)]
+        self.compiled = all(self._plans)
+        width = self._width = TILE if self.compiled else WIDTH
+        self._tiles = -(-columns // TILE)
+        most = sum(len(_half_spectra(pair)) for pair in row_pairs())
+        stride = -(-ny // TILE) * TILE  # each row starts on a cache line
+        rows = 1 if self.compiled else width
+        cycles = aligned_numbers((1, ny), np.float64)
+        cosine, sine = (aligned_numbers((1, ny), dtype) for _ in range(2))
+        parts = aligned_numbers((len(SOURCES), 2, 1, ny), dtype)
+        source = aligned((1 if self.compiled else most * width, stride), dtype)
+        self._results = aligned((most * width, stride), dtype)
+        self._columns = (cycles, cosine, sine, parts, _parts(source), _parts(self._results))
+        self._scratch = aligned_numbers((len(FIELDS), rows * nx), dtype)
+        self._scratch_places = np.array([(row.ctypes.data, 0) for row in self._scratch], np.int64)
+        self._unit = aligned_numbers((3 * nx,), dtype)
+        self._sources = source
+        self._source, self._result = (
+            aligned((1, rows * nx + 1), dtype)[0],  # with a place for -0 after the last row
+            aligned((1, nx), dtype)[0],
         )
-        self.first_source = _parts(self.first.source)
-        self.first_result = _transposable(self.first.result)
-        self.second_source = _parts(self.second.source)
-        self.second_result = _parts(self.second.result)
-        self.scratch = {name: np.empty((rows, nx), dtype=dtype) for name in FIELDS}
+        self._calls: list[whole_passes.Call] = [
+            (plan.function, plan.plan, a.ctypes.data, b.ctypes.data) if plan else (0, 0, 0, 0)
+            for plan, a, b in zip(
+                self._plans, (source, self._source), (self._results, self._result), strict=True
+            )
+        ]
+        if not self.compiled:
+            self._first, self._second = (
+                inverse_rows((width, n), dtype, backend=self.backend, planning=planning)
+                for n in (ny, nx)
+            )
+
+    def _places(self, outputs: Mapping[str, Real]) -> Integer:
+        """Return the places of the linear fields, as `kernels.whole_passes` has them."""
+        places = self._scratch_places.copy()
+        for field, name in enumerate(FIELDS):
+            if name in outputs:
+                places[field] = outputs[name].__array_interface__["data"][0], 1
+        return places
+
+    def first_pass(
+        self, counter: Integer, first: _First, between: Real, end: int | None = None
+    ) -> None:
+        """Do blocks of the first pass until none is left, or up to block `end`."""
+        whole_passes.first_pass(
+            counter,
+            self._tiles if end is None else end,
+            self._width,
+            first.single,
+            first.moment,
+            first.waves,
+            first.omega,
+            first.bound,
+            first.spectra,
+            self._columns,
+            self._calls[0],
+            between,
+        )
+
+    def second_pass(self, counter: Integer, second: _Second, between: Real) -> None:
+        """Do blocks of the second pass until none is left."""
+        whole_passes.second_pass(
+            counter,
+            second.spectra,
+            second.rows,
+            between,
+            _parts(self._source),
+            _parts(self._result),
+            self._calls[1],
+            GRADIENTS,
+            self._places(second.outputs),
+            second.choppiness,
+            second.normal,
+            second.jacobian,
+            self._unit,
+            self._ny,
+            self._nx,
+        )
+
+    def do_columns(self, block: slice, first: _First, between: Real) -> None:
+        """Do a block of the first pass, with transforms called from Python."""
+        count, width = block.stop - block.start, self._width
+        number = block.start // width
+        self.first_pass(np.array([number]), first, between, number + 1)
+        spectra = first.spectra[1].shape[0]
+        for s in range(spectra):
+            rows = slice(s * width, s * width + count)
+            self._first.source[:count] = self._sources[rows, : self._ny]
+            self._first()
+            self._results[rows, : self._ny] = self._first.result[:count]
+        results = _parts(self._results[: spectra * width]).reshape(-1)
+        for c in range(0, count, TILE):
+            place = (block.start + c) // TILE
+            passes.tile(results, c, width, spectra, self._ny, place, self._tiles, between)
+
+    def do_rows(self, block: slice, second: _Second, between: Real) -> None:
+        """Do a block of the second pass, with transforms called from Python."""
+        y, count, nx = block.start, block.stop - block.start, self._nx
+        places = self._places(second.outputs)
+        source, result = _parts(self._source), _parts(self._second.result).reshape(-1)
+        packed = self._source[: self._second.source.size].reshape(self._second.source.shape)
+        for p in range(second.rows[0].shape[0]):
+            whole_passes.pack_rows(y, count, p, second.spectra, second.rows, between, source, nx)
+            self._second.source[:] = packed
+            self._second()
+            whole_passes.split_rows(y, count, p, second.rows, result, places, nx)
+        if second.normal.size or second.jacobian.size:
+            whole_passes.finish_rows(
+                y,
+                count,
+                GRADIENTS,
+                places,
+                second.choppiness,
+                second.normal,
+                second.jacobian,
+                self._unit,
+                nx,
+            )
 
 
 def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
@@ -569,16 +664,6 @@ def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
         column[:] = dispersion.turns_per_second(omega)
     return frequency
-
-
-def _swapped(parts: tuple[Real, Real], quarters: int) -> tuple[Real, Real]:
-    """Return real and imaginary part after multiplication by i^quarters, but for their signs."""
-    return parts if quarters % 2 == 0 else parts[::-1]
-
-
-def _transposable(array: Complex) -> Real | Complex:
-    """Return a view for `passes.transpose`: complex64 as float64, which moves 8 bytes at once."""
-    return array.view(np.float64) if array.dtype == np.complex64 else array
 
 
 def _parts(array: Complex) -> Real:

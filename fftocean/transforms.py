@@ -5,9 +5,11 @@ For each row of a buffer they compute  result[j] = sum over m of source[m] e^{+2
 without 1/n, on one thread.
 """
 
+import contextlib
 import ctypes
 import importlib
 import importlib.metadata
+import math
 import sys
 import threading
 import weakref
@@ -25,7 +27,9 @@ from fftocean.errors import ParameterError
 PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
 """Planning efforts, by the names of pyFFTW."""
 
-ESTIMATE = 64  # FFTW_ESTIMATE in C
+FLAGS = {"estimate": 64, "measure": 0, "patient": 32}
+"""The same in C."""
+
 ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
 # FFTW's planner is shared by all plans. A plan can be collected while its thread makes another, so
 # the lock can be taken twice.
@@ -87,6 +91,16 @@ def inverse_rows(
     Raises:
         ParameterError: an unknown backend, precision or effort, or a backend that is not installed.
     """
+    name = chosen_backend(dtype, backend, planning)
+    transform = BACKENDS[name](shape, dtype, planning)
+    assert transform is not None  # it is installed
+    return transform
+
+
+def chosen_backend(dtype: str, backend: str, planning: str) -> str:
+    """
+    Return the name of the backend to use; arguments and errors are those of `inverse_rows`.
+    """
     if not isinstance(dtype, str) or dtype not in COMPLEX_OF:
         raise ParameterError(f"dtype must be 'float32' or 'float64', got {dtype!r}")
     if not isinstance(planning, str) or planning not in PLANNING:
@@ -94,8 +108,8 @@ def inverse_rows(
     if not isinstance(backend, str) or backend not in ("auto", *BACKENDS):
         raise ParameterError(f"backend must be one of auto, {', '.join(BACKENDS)}, got {backend!r}")
     for name in BACKENDS if backend == "auto" else (backend,):
-        if (transform := BACKENDS[name](shape, dtype, planning)) is not None:
-            return transform
+        if loaded(name) is not None:
+            return name
     raise ParameterError(
         f"backend {backend!r} must be installed (pip install {backend}), and is not; "
         "'scipy' always is"
@@ -123,11 +137,17 @@ def library(backend: str) -> str | None:
 
 def aligned(shape: tuple[int, int], dtype: str) -> Complex:
     """Return zeros that start on a cache line, since the bits of a plan depend on alignment."""
-    kind = COMPLEX_OF[dtype]
-    size = shape[0] * shape[1] * kind.itemsize
+    return aligned_numbers(shape, COMPLEX_OF[dtype])
+
+
+def aligned_numbers(shape: tuple[int, ...], kind: Any) -> np.ndarray[Any, np.dtype[Any]]:
+    """Return zeros of any type that start on a cache line."""
+    kind = np.dtype(kind)
+    size = math.prod(shape) * kind.itemsize
     raw = np.zeros(size + ALIGNMENT, dtype=np.uint8)
     start = -raw.ctypes.data % ALIGNMENT
-    return raw[start : start + size].view(kind).reshape(shape)
+    numbers: np.ndarray[Any, np.dtype[Any]] = raw[start : start + size].view(kind)
+    return numbers.reshape(shape)
 
 
 class _FFTW:
@@ -171,6 +191,92 @@ class _FFTW:
                 del self._plan
 
 
+class RowPlan:
+    """
+    A plan for one row that compiled code calls by address, as `kernels.native.execute` does.
+
+    Source and result must start on a cache line. A thread needs a plan of its own.
+
+    Args:
+        library: FFTW, or MKL with FFTW's names.
+        n: length of the row.
+        dtype: "float32" or "float64".
+        flag: planning effort of FFTW, as its header has it.
+    """
+
+    def __init__(self, library: ctypes.CDLL, n: int, dtype: str, flag: int) -> None:
+        prefix = "fftwf" if dtype == "float32" else "fftw"
+        plan_row = getattr(library, f"{prefix}_plan_dft_1d")
+        plan_row.restype = ctypes.c_void_p
+        rows = [aligned((1, n), dtype) for _ in range(2)]
+        with contextlib.suppress(AttributeError):
+            getattr(library, f"{prefix}_plan_with_nthreads")(1)
+        addresses = (ctypes.c_void_p(row.ctypes.data) for row in rows)
+        self.plan: int = plan_row(n, *addresses, 1, ctypes.c_uint(flag)) or 0
+        if not self.plan:
+            raise MemoryError(f"the FFT library could not plan a transform of {n}")
+        execute = getattr(library, f"{prefix}_execute_dft")
+        self.function = ctypes.cast(execute, ctypes.c_void_p).value or 0
+        destroy = getattr(library, f"{prefix}_destroy_plan")
+        finalizer = weakref.finalize(self, _destroy, destroy, ctypes.c_void_p(self.plan))
+        finalizer.atexit = False  # daemon threads can still use the plan then
+
+
+def row_plan(n: int, dtype: str, backend: str, planning: str) -> RowPlan | None:
+    """
+    Plan inverse transforms of one row for compiled code.
+
+    Args:
+        n: length of the row.
+        dtype, planning: as in `inverse_rows`, which checks them.
+        backend: "mkl", "pyfftw" or "scipy", which is installed.
+
+    Returns:
+        None where the library has no functions in C, or hides them.
+    """
+    library = {"mkl": _mkl, "pyfftw": _fftw}.get(backend, lambda: None)()
+    if library is None:
+        return None
+    pyfftw = _pyfftw() if backend == "pyfftw" else None
+    with _planner:
+        if pyfftw is None:
+            return RowPlan(library, n, dtype, FLAGS["estimate"])
+
+        def plan() -> RowPlan:
+            return RowPlan(library, n, dtype, FLAGS[planning])
+
+        with wisdom.set_aside(pyfftw):
+            if planning == "estimate":
+                return plan()
+            made: RowPlan = wisdom.planned(pyfftw, plan, (1, n), dtype, planning)
+            return made
+
+
+@cache
+def _fftw() -> ctypes.CDLL | None:
+    """
+    Return the FFTW that pyfftw uses, or None.
+
+    Names are looked up in the libraries that its extension module depends on, where the system
+    allows that.
+    """
+    pyfftw = _pyfftw()
+    if pyfftw is None:
+        return None
+    try:
+        fftw = ctypes.CDLL(importlib.import_module("pyfftw.pyfftw").__file__)
+        for prefix in ("fftwf", "fftw"):
+            for name in ("plan_dft_1d", "execute_dft", "destroy_plan"):
+                getattr(fftw, f"{prefix}_{name}")
+            # Other code in the process can have asked for more threads, or plan through pyfftw
+            # meanwhile.
+            with contextlib.suppress(AttributeError):
+                getattr(fftw, f"{prefix}_make_planner_thread_safe")()
+    except (OSError, AttributeError, TypeError):
+        return None
+    return fftw
+
+
 class _MKL:
     """MKL through its FFTW3 interface, which ignores the planning effort."""
 
@@ -189,9 +295,8 @@ class _MKL:
         )
         with _planner:
             getattr(mkl, f"{prefix}_plan_with_nthreads")(1)
-            plan = many(
-                1, length, count, source, None, 1, n, result, None, 1, n, 1, ctypes.c_uint(ESTIMATE)
-            )
+            flag = ctypes.c_uint(FLAGS["estimate"])
+            plan = many(1, length, count, source, None, 1, n, result, None, 1, n, 1, flag)
         if not plan:
             raise MemoryError(f"MKL could not plan {count} transforms of {n}")
         self._execute, self._plan = getattr(mkl, f"{prefix}_execute"), ctypes.c_void_p(plan)

@@ -156,7 +156,7 @@ def require_linear(source: Any, user: str) -> None:
         given = "ocean" if isinstance(source, Ocean) else "cascade"
         raise ParameterError(
             f"{user} holds linear waves, and those of second order change with every pair of "
-            f"waves: give {given}.linear(), or a job whose ocean.order is 1; got order 2"
+            f"waves: give {given}.linear(), on the command line --order 1; got order 2"
         )
 
 

@@ -105,3 +105,14 @@ def run(*command, cwd):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
+
+
+def require(found, reason):
+    """Skip the test if a client is missing; fail it if FFTOCEAN_REQUIRE_CLIENTS is set."""
+    import pytest
+
+    if found:
+        return
+    if os.environ.get("FFTOCEAN_REQUIRE_CLIENTS", "0") not in ("", "0"):
+        pytest.fail(f"{reason}, and FFTOCEAN_REQUIRE_CLIENTS is set", pytrace=False)
+    pytest.skip(f"{reason}: see tests/clients/README.md")

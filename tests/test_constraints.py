@@ -333,6 +333,11 @@ def test_what_excludes_itself_is_refused():
     assert "200" not in message
     twice = fo.constrained(free, *2 * [fo.Fix("height", 40.0, 50.0, 0.0, 1.0)])
     assert twice.rarity.degrees == 1
+    with pytest.raises(fo.ParameterError, match=" excludes ") as both:
+        fo.constrained(free, *(fo.Crest(height=h, x=40.0, y=50.0) for h in (3.0, -3.0)))
+    assert {"height = 3 m", "height = -3 m"} <= {
+        part.partition(" at ")[0] for part in str(both.value).split(" excludes ")
+    }
     with pytest.raises(fo.ParameterError, match="too few to have both"):
         fo.constrained(
             fo.Ocean.from_modes([(1, 0, 0.1, 0.0)], n=8, size=10.0),

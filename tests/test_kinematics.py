@@ -3,12 +3,15 @@ Below the surface: the equations that linear waves solve, boundary conditions, s
 closed forms before all.
 """
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
 
 import fftocean as fo
+from fftocean import kinematics
 from fftocean.constants import GRAVITY, WATER_DENSITY
 
 WIND = fo.Sea.from_wind(speed=10.0, fetch=100e3, direction=30.0)
@@ -430,3 +433,77 @@ def test_bad_input_is_refused(arguments, more, says):
     source = ocean() if source is ocean else source
     with pytest.raises(fo.ParameterError, match=says):
         fo.kinematics.at(source, *place, **more)
+
+
+@pytest.mark.parametrize("stretching", ["none", "vertical", "extrapolation", "wheeler"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {"n": (12, 18), "size": (70.0, 41.0)},
+        {"n": (12, 18), "size": (70.0, 41.0), "loop": 37.0},
+        {"sea": SHALLOW, "n": (18, 12), "size": (41.0, 70.0)},
+    ],
+    ids=["deep", "loop", "6m"],
+)
+def test_every_point_is_the_sum_of_the_waves(arguments, stretching):
+    """
+    Wave by wave with NumPy, at more points than are summed at a time, far away, at negative
+    coordinates and times. To 1e-9 of the largest: k x at 4 km is 1e4 rad, rounded to 1e-12.
+    """
+    source = ocean(**arguments)
+    waves, depth, t = source.modes(), source.depth, -13.7
+    rng = np.random.default_rng(5)
+    x, y = rng.uniform(-4000.0, 4000.0, (2, 150))
+    z = rng.uniform(-4.0, 1.0, 150)
+    found = fo.kinematics.at(source, x, y, z, t, stretching=stretching)
+    k = np.hypot(waves.kx, waves.ky)
+    f = np.outer(x, waves.kx) + np.outer(y, waves.ky) - waves.omega * t - waves.phase
+    heights = np.cos(f) @ waves.amplitude
+    top = 0.0 if stretching == "none" else heights
+    wet = (z <= top) & (z >= -depth)
+    level = z
+    if stretching == "wheeler":
+        level = z - heights if math.isinf(depth) else depth * (z - heights) / (depth + heights)
+    rise = np.maximum(level, 0.0) if stretching == "extrapolation" else 0.0 * z
+    level = np.minimum(level, 0.0)[:, None]
+    if math.isinf(depth):
+        along = up = np.exp(k * level) + np.outer(rise, k)
+    else:
+        whole = np.sinh(k * depth)
+        along = np.cosh(k * (level + depth)) / whole + np.outer(rise, k)
+        up = np.sinh(k * (level + depth)) / whole + np.outer(rise, k / np.tanh(k * depth))
+    a, omega = waves.amplitude, waves.omega
+    along, up = along * a * omega / k, up * a * omega
+    parts = [along * waves.kx * np.cos(f), along * waves.ky * np.cos(f), up * np.sin(f)]
+    rates = [along * waves.kx * np.sin(f), along * waves.ky * np.sin(f), -up * np.cos(f)]
+    expected = [
+        (found.velocities, np.stack([np.sum(p, axis=1) for p in parts], axis=-1)),
+        (found.accelerations, np.stack([p @ omega for p in rates], axis=-1)),
+        (found.pressures, WATER_DENSITY * ((along * np.cos(f)) @ omega)),
+        (found.heights, heights),
+    ]
+    assert np.array_equal(found.wet, wet)
+    for got, want in expected:
+        if got is not found.heights:
+            want = np.where(wet.reshape(-1, *(1,) * (want.ndim - 1)), want, 0.0)
+        assert np.max(np.abs(got - want)) < 1e-9 * np.max(np.abs(want))
+
+
+def test_the_waves_of_a_source_are_kept_as_long_as_it_is(monkeypatch):
+    """Waves are grouped once for a source and a `shortest`, and go with the source."""
+    made = []
+    real = kinematics.WaveRings
+    monkeypatch.setattr(kinematics, "WaveRings", lambda waves: made.append(1) or real(waves))
+    source = ocean()
+    first = fo.kinematics.at(source, 1.0, 2.0, -1.0, 0.5)
+    again = fo.kinematics.at(source, 1.0, 2.0, -1.0, 0.5)
+    assert len(made) == 1
+    assert np.array_equal(first.velocities, again.velocities)
+    fewer = fo.kinematics.at(source, 1.0, 2.0, -1.0, 0.5, shortest=20.0)
+    assert len(made) == 2
+    assert not np.array_equal(first.velocities, fewer.velocities)
+    assert source in kinematics._rings
+    other = weakref.ref(source)
+    del source
+    gc.collect()
+    assert other() is None

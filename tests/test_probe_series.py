@@ -65,9 +65,9 @@ def test_series_are_the_sum_of_the_waves(steps):
 
 
 def test_each_way_is_taken(monkeypatch):
-    """The transform, the blocks and the sum at any time give the same, and each is used above."""
+    """The transforms and the sum at any time give the same, and each is used above."""
     taken = []
-    for name in ("_by_transform", "_by_blocks"):
+    for name in ("_by_transform", "_between_frequencies"):
         real = getattr(probe_series, name)
         monkeypatch.setattr(
             probe_series, name, lambda *a, _n=name, _r=real: (taken.append(_n), _r(*a))[1]
@@ -75,8 +75,8 @@ def test_each_way_is_taken(monkeypatch):
     expected = {
         "loop": "_by_transform",
         "three loops in whole steps": "_by_transform",
-        "steps that do not divide it": "_by_blocks",
-        "no loop": "_by_blocks",
+        "steps that do not divide it": "_between_frequencies",
+        "no loop": "_between_frequencies",
         "any times": None,
     }
     for steps, way in expected.items():
@@ -248,3 +248,34 @@ def test_another_ending_is_refused(tmp_path):
     with pytest.raises(ParameterError, match=r"ends in \.csv, \.nc, \.zarr, got 'a\.mat'"):
         few().write(tmp_path / "a.mat")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("loop", [None, 40.0], ids=["free", "loop"])
+@pytest.mark.parametrize("step", [0.2, 7.7])
+def test_blocks_of_time_join(monkeypatch, loop, step):
+    """
+    Steps in several blocks, the last of another length, also steps in which waves turn more than
+    once: as the sum of the waves at each time.
+    """
+    monkeypatch.setattr(probe_series, "_BLOCK", 64)
+    monkeypatch.setattr(probe_series, "_TOGETHER", 400)
+    water, t = ocean(loop), 0.1 * math.pi + step * np.arange(64 + 64 + 9)
+    found = fo.series(water, X, Y, t, probe_series.SURFACE)
+    for probe in range(X.size):
+        for name, values in summed(water, X[probe], Y[probe], t).items():
+            assert np.max(np.abs(found[name][:, probe] - values)) < 1e-9
+
+
+def test_a_point_of_a_circle_is_spread_and_found_again():
+    """One frequency anywhere on the circle, also next to its seam, to 1e-12 of its amplitude."""
+    turn = np.array([0.0, 0.49999, -0.5, 1e-9, -0.3])
+    n = np.arange(-40, 40)
+    fine = 180
+    response = probe_series._response_of_kernel(n * (np.pi * probe_series._WIDTH / fine))
+    spread = probe_series._spreading(turn, fine)
+    for i in range(turn.size):
+        one = np.zeros(turn.size, dtype=complex)
+        one[i] = 0.6 + 0.8j
+        found = np.fft.fft(spread @ one)[n % fine] / response
+        expected = one[i] * np.exp(-2j * np.pi * n * turn[i])
+        assert np.max(np.abs(found - expected)) < 1e-12

@@ -838,3 +838,94 @@ def test_what_is_no_question_is_refused(arguments, rule):
         query.at(*arguments)
     with pytest.raises(fo.ParameterError, match="mode must be"):
         fo.Query(query.source, mode=["exact"])
+
+
+# Against sums over the waves that are written here
+
+
+def surface_of(source, x0, y0, t):
+    """
+    Return position, velocity and acceleration of the displaced surface, (points, 3) each, and the
+    gradient of height and displacement, wave by wave.
+    """
+    waves, depth, c = source.modes(), source.depth, source.choppiness
+    k = np.hypot(waves.kx, waves.ky)
+    f = np.outer(x0, waves.kx) + np.outer(y0, waves.ky) - waves.omega * t - waves.phase
+    ratio = 1.0 / np.tanh(np.minimum(k * depth, 300.0))
+    ux, uy, omega = waves.kx / k * ratio, waves.ky / k * ratio, waves.omega
+    wave = waves.amplitude * np.cos(f), waves.amplitude * np.sin(f)
+    position = np.stack([x0 - c * wave[1] @ ux, y0 - c * wave[1] @ uy, wave[0].sum(axis=1)], -1)
+    velocity = np.stack([wave[0] @ (omega * ux), wave[0] @ (omega * uy), wave[1] @ omega], -1)
+    squared = omega**2
+    acceleration = np.stack(
+        [wave[1] @ (squared * ux), wave[1] @ (squared * uy), -wave[0] @ squared], -1
+    )
+    return position, velocity, acceleration
+
+
+LONG = [(1, 0, 0.4, 0.3), (2, -1, 0.2, 1.1), (0, 2, 0.2, 2.0), (-2, 1, 0.1, 4.0), (3, 2, 0.05, 5.0)]
+
+
+@pytest.mark.parametrize("loop", [None, 23.0], ids=["free", "loop"])
+@pytest.mark.parametrize("t", [7.3, -41.9])
+@pytest.mark.parametrize(
+    ("mode", "error"), [("exact", 1e-10), ("bicubic", 2e-5), ("bilinear", 2e-2)]
+)
+@pytest.mark.parametrize("far", [0.0, 1.0])
+def test_every_field_is_the_sum_of_the_waves(mode, error, t, loop, far):
+    """
+    On an oblong tile with other samples along x than along y, near and millions of periods away, at
+    negative times, with the frequencies of the loop.
+
+    The spline's error is (k d)^4/384 of a wave, d being a sample: 1e-5 of the shortest here; linear
+    interpolation's (k d)^2/8, 1e-2. Times omega^2 = 4 at most, and 0.05 m.
+    """
+    source = fo.Ocean.from_modes(
+        LONG, n=(72, 60), size=(60.0, 37.0), depth=9.0, choppiness=0.8, loop=loop, dtype="float64"
+    )
+    x, y = points(40, far=90.0)
+    x, y = x - far * 60.0 * 2**20, y + far * 37.0 * 2**21
+    found = fo.Query(source, mode=mode, level="frame").at(x, y, t)
+    x0 = found.x0 + far * 60.0 * 2**20  # the same waves, at parameters that round less
+    y0 = found.y0 - far * 37.0 * 2**21
+    position, velocity, acceleration = surface_of(source, x0, y0, t)
+    error += 1e-7 * far  # of coordinates of 1e8 m
+    place = np.stack([x + far * 60.0 * 2**20, y - far * 37.0 * 2**21, found.heights], axis=-1)
+    assert np.max(np.abs(position - place)) < error
+    assert np.max(np.abs(velocity - found.velocities)) < 2.0 * error
+    assert np.max(np.abs(acceleration - found.accelerations)) < 4.0 * error
+    if loop is not None:
+        cycles = source.modes().omega * loop / (2.0 * np.pi)
+        assert np.max(np.abs(cycles - np.rint(cycles))) < 1e-9
+
+
+@pytest.mark.parametrize("mode", ["bilinear", "bicubic", "exact"])
+@pytest.mark.parametrize("apart", [1e-12, 1e-6, 1e-3])
+def test_times_a_little_apart_are_different_moments(mode, apart):
+    """A query that has a frame of t answers at t + apart as one that has none."""
+    source = ocean()
+    x, y = points(10)
+    kept = fo.Query(source, mode=mode)
+    for t in (0.0, 5.0, -5.0):
+        kept.at(x, y, t)
+        found, fresh = kept.at(x, y, t + apart), fo.Query(source, mode=mode).at(x, y, t + apart)
+        for name in ("heights", "normals", "velocities", "accelerations"):
+            assert np.array_equal(found[name], fresh[name])
+    if apart >= 1e-6:
+        assert not np.array_equal(kept.at(x, y, 5.0).heights, kept.at(x, y, 5.0 + apart).heights)
+
+
+@pytest.mark.parametrize("t", [0.4, 2.0, 11.0])
+def test_a_model_that_starts_moves_as_its_positions_do(t):
+    """
+    The ramp 1 - e^{-t/tau} multiplies all waves, so that rates follow the product rule: central
+    differences of positions, h^2/6 of a third derivative below 20 m/s^3, and h^2/12 of a fourth.
+    """
+    model = fo.gerstner.CWR(period=5.0, amplitude=0.5, number=4, steepness=0.5, scale=1.6, tau=3.0)
+    x, y = points(8, far=30.0)
+    found = fo.Query(model, level="frame").at(x, y, t, MOVING)
+    h = 1e-3
+    before, now, after = (model.waves.at(found.x0, found.y0, s).position for s in (t - h, t, t + h))
+    assert np.max(np.abs(now - np.stack([x, y, found.heights], axis=-1))) < 1e-9
+    assert np.max(np.abs((after - before) / (2 * h) - found.surface_velocities)) < 1e-5
+    assert np.max(np.abs((after - 2 * now + before) / h**2 - found.surface_accelerations)) < 1e-4

@@ -10,13 +10,32 @@ import numpy as np
 import pytest
 
 import fftocean as fo
+from fftocean.baking.cascade import bake_tiles
 from fftocean.physics.spreading import TabulatedSpreading
 
 TABLE = fo.TabulatedSpectrum(np.linspace(0.05, 0.5, 64), np.ones(64))
+
+
+def DISH(omega, theta, peak):  # noqa: ARG001 - a spreading of one's own
+    return np.cos(theta) ** 2
+
+
 ROSE = TabulatedSpreading(
     frequency=np.linspace(0.05, 0.5, 32).tolist(),
     direction=np.arange(0.0, 360.0, 5.0).tolist(),
     density=np.ones((32, 72)).tolist(),
+)
+PEAK = fo.JONSWAP(peak=1.0)
+MODELS = (
+    *(PEAK, fo.PiersonMoskowitz(peak=1.0), fo.TMA(PEAK, 10.0), fo.Bretschneider(hs=1.0, tp=5.0)),
+    *(fo.Elfouhaily(speed=9.0), fo.Phillips(speed=9.0, amplitude=1e-3)),
+    *(fo.Torsethaugen(hs=3.0, tp=9.0), fo.CustomSpectrum(PEAK, peak=1.0)),
+    fo.OchiHubble(
+        hs_low=1.0, tp_low=9.0, lambda_low=3.0, hs_high=1.0, tp_high=5.0, lambda_high=1.0
+    ),
+    *(fo.CosineN(n=4.0), fo.CosinePower(8.0), fo.CosineSquared(), fo.DonelanBanner()),
+    *(fo.GodaSuzuki(10.0), fo.Hasselmann(9.0), fo.LongCrested(), fo.Mitsuyasu(9.0)),
+    *(fo.SwellElongation(), fo.WrappedNormal(20.0), fo.Blend(), fo.CustomSpreading(DISH)),
 )
 
 
@@ -39,6 +58,11 @@ def values(tmp_path_factory):
     }
     job = fo.Job.default().replaced(changes)
     fo.bake(job, folder, executor="serial")
+    tiles = [(16, 60.0), (16, 17.0)]
+    bake_tiles(job.replaced({"bake.maps": ["height"]}), tiles, folder / "tiles", executor="serial")
+    fixes = [fo.Fix("height", 20.0, 12.0 * i, 0.0, 0.1) for i in range(4)]
+    rogue = fo.constrained(ocean, fo.Crest(height=1.0), *fixes)
+    fo.export_sea(ocean, folder / "package")
     points = np.zeros((40, 30))
     return {
         "sea": sea,
@@ -67,6 +91,21 @@ def values(tmp_path_factory):
         "preset": fo.presets.beaufort(5),
         "job": job,
         "bake": fo.load(folder),
+        "baked cascade": fo.load(folder / "tiles"),
+        "rarity": rogue.rarity,
+        "crest": fo.Crest(height=1.0),
+        "fix": fixes[0],
+        "series": fo.series(ocean, np.zeros(40), np.zeros(40), np.arange(99.0)),
+        "window": fo.Window(cascade, n=8, size=10.0),
+        "window frame": fo.Window(cascade, n=8, size=10.0).frame(0.0),
+        "finding": fo.Finding("missing", "height/0000.exr", "does not exist"),
+        "sea state": fo.measure(ocean).specified,
+        "loop error": fo.measure(ocean).loop,
+        "read package": fo.load_sea(folder / "package"),
+        "grid of OpenFAST": fo.export.SeaStateGrid(
+            x_half_width=10, y_half_width=5, z_depth=4, nx=2, ny=2, nz=2
+        ),
+        **{type(model).__name__: model for model in MODELS},
     }
 
 
@@ -75,6 +114,21 @@ KINDS = [
     *["eulerian", "eulerian frame", "query", "query of modes", "answer", "statistics", "folding"],
     *["kinematics", "surface", "one place", "foam", "live foam", "check", "preset", "job", "bake"],
 ]
+WRONG = tuple(KINDS)  # what functions are given that is none of theirs
+KINDS += [
+    *["baked cascade", "rarity", "crest", "fix", "series", "window", "window frame", "finding"],
+    *["sea state", "loop error", "read package", "grid of OpenFAST"],
+    *(type(model).__name__ for model in MODELS),
+]
+
+
+def test_every_public_kind_is_among_them(values):
+    """All classes of the package's own names, but for its exceptions and warnings."""
+    public = {getattr(fo, name) for name in fo.__all__}
+    kinds = {kind for kind in public if isinstance(kind, type)}
+    kinds -= {kind for kind in kinds if issubclass(kind, (Exception, Warning))}
+    assert kinds - {type(value) for value in values.values()} == set()
+    assert set(KINDS) == set(values)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -115,6 +169,31 @@ CALLS = {
     "normals": (fo.normals, ("frame", "eulerian frame")),
     "jacobian": (fo.jacobian, ("frame",)),
     "folding": (fo.folding, ("frame",)),
+    "minimum_eigenvalue": (fo.minimum_eigenvalue, ("frame",)),
+    "constrained": (lambda v: fo.constrained(v, fo.Crest(height=1.0)), ("ocean", "cascade")),
+    "constrained values": (
+        lambda v: fo.constrained(fo.Ocean(fo.Sea(), n=8, size=50.0), v),
+        (),
+    ),
+    "crest_height": (lambda v: fo.crest_height(v, 3600.0), ("ocean", "cascade")),
+    "export_sea": (lambda v: fo.export_sea(v, "never"), ("ocean", "cascade")),
+    "load_sea": (fo.load_sea, ("path",)),
+    "series": (lambda v: fo.series(v, 0.0, 0.0, [0.0]), ("ocean", "cascade", "modes")),
+    "series fields": (lambda v: fo.series(fo.Ocean(fo.Sea(), n=8, size=50.0), 0, 0, [0.0], v), ()),
+    "from_compass": (fo.from_compass, ("number",)),
+    "Window": (lambda v: fo.Window(v, n=8, size=10.0), ("ocean", "cascade")),
+    "Foam.live": (lambda v: fo.Foam().live(v), ("ocean", "cascade")),
+    "Foam.whitecaps": (lambda v: fo.Foam.whitecaps(v, 9.0), ("ocean", "cascade")),
+    "Foam.covering": (lambda v: fo.Foam.covering(v, 0.1), ("ocean", "cascade")),
+    "stokes_drift": (lambda v: fo.kinematics.stokes_drift(v, 0.0), ("ocean", "cascade", "modes")),
+    "readers.open": (fo.readers.open, ()),
+    "readers.nearest_time": (lambda v: fo.readers.nearest_time(v, "2020-01-01"), ()),
+    "Sea.from_spectrum": (fo.Sea.from_spectrum, ()),
+    "export.swd": (lambda v: fo.export.swd(v, "never.swd"), ("ocean", "cascade")),
+    "export.components": (
+        lambda v: fo.export.components(v, "never.csv"),
+        ("ocean", "cascade", "modes"),
+    ),
     "gerstner.surface": (lambda v: fo.gerstner.surface(v, 0.0, 0.0, 0.0), ("ocean", "cascade")),
     "kinematics.at": (
         lambda v: fo.kinematics.at(v, 0.0, 0.0, -1.0, 0.0),
@@ -126,9 +205,9 @@ CALLS = {
     "WaveSystem": (lambda v: fo.WaveSystem(spectrum=v), ("sea", "table")),
     "TMA": (lambda v: fo.TMA(v, 10.0), ("sea", "table")),
     "bake": (lambda v: fo.bake(v, "never"), ("job",)),
-    "load": (fo.load, ()),
-    "check": (fo.check, ()),
-    "repair": (fo.repair, ()),
+    "load": (fo.load, ("path",)),
+    "check": (fo.check, ("path",)),
+    "repair": (fo.repair, ("path",)),
     "Job.read": (fo.Job.read, ()),
     "Job.from_toml": (fo.Job.from_toml, ()),
     "Job.replaced": (fo.Job.default().replaced, ()),
@@ -148,9 +227,10 @@ def test_wrong_objects_are_refused_by_name(values, name, tmp_path, monkeypatch):
         "array": np.zeros((3, 3)),
         "class": fo.Ocean,
         "list": [1, 2],
+        "path": "never/sea.toml",
         "bytes": b"sea",
     }
-    for kind, value in {**values, **others}.items():
+    for kind, value in {**{kind: values[kind] for kind in WRONG}, **others}.items():
         if kind in welcome:
             continue
         with pytest.raises((fo.ParameterError, fo.FieldError)) as refused:

@@ -112,7 +112,7 @@ class Mutation:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """Outcome of the tests of one error."""
+    """The answer of the tests to one error."""
 
     name: str
     key: str  # checksum of what the result depends on

@@ -290,11 +290,12 @@ def _write(
 ) -> None:
     """Write frames; add each to the journal and to `rows`."""
     total = len(plan.frames)
-    size = (
-        foam.SPAN
-        if "foam" in plan.job.maps
-        else max(1, min(foam.SPAN, math.ceil(len(todo) / (4 * executor.workers))))
-    )
+    if "foam" in plan.job.maps:
+        size = foam.SPAN
+    elif executor.name == "serial":
+        size = plan.job.frames  # one task: at the end of each, all threads must finish
+    else:
+        size = max(1, min(foam.SPAN, math.ceil(len(todo) / (4 * executor.workers))))
     with closing(executor.run(plan, tasks_of("frame", todo, size))) as entries:
         for entry in entries:
             row = entry["row"]

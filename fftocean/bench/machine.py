@@ -12,7 +12,7 @@ from typing import Any
 import fftocean
 from fftocean import host, transforms
 
-PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyFFTW", "mkl", "matplotlib", "OpenEXR")
+PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyFFTW", "mkl", "matplotlib", "OpenEXR", "isal")
 
 
 def describe() -> dict[str, Any]:

@@ -256,7 +256,7 @@ COMMAND = Command(
     examples=(
         "fftocean bake -o sea",
         "fftocean bake gale.toml -o gale --n 512 --set sea.wind.speed=22",
-        "fftocean bake -o sea --fps 30 --engine godot --format exr-atlas",
+        "fftocean bake -o out --fps 30 --engine godot --format exr-atlas",
         "fftocean bake gale.toml -o part --frames 0:64:2 --downsample 2 --dry-run",
     ),
     run=run,

@@ -1,6 +1,7 @@
 """Entry point of the command line: exit codes, signals, warnings."""
 
 import contextlib
+import io
 import os
 import signal
 import sys
@@ -10,15 +11,18 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NoReturn
 
 from fftocean.cli.console import note, plain
-from fftocean.cli.parser import build_parser
+from fftocean.cli.parser import COMMANDS, build_parser
 from fftocean.errors import FFTOceanError, OutputError, SeaWarning
+from fftocean.job.parameters import spelled
 
 FIRST_STEPS = """\
 usage: fftocean COMMAND [options]
 
 try:
   fftocean bake -o sea        bake the default sea (preview: sea/preview.png)
-  fftocean info               describe it: waves, tile, loop, files, memory, time
+  fftocean view               see a sea live in the browser (extra `view`)
+  fftocean info               describe a sea: waves, tile, loop, files, memory, time
+  fftocean keys wind          find what a job file can say about the wind
   fftocean bake --help        list every option of a command
   fftocean --help             list all commands
 """
@@ -32,13 +36,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: the words after `fftocean`; None for those of this process.
     """
     try:
-        with _sigterm_as_exit(), warnings.catch_warnings():
+        with _sigterm_as_exit(), _any_text(), warnings.catch_warnings():
             warnings.simplefilter("always", SeaWarning)
             warnings.showwarning = _note_printer()
             given = sys.argv[1:] if arguments is None else arguments
             if not given and "_ARGCOMPLETE" not in os.environ:  # which a shell sets that completes
                 print(FIRST_STEPS, end="", file=sys.stderr)
                 return 2
+            if given:  # the name of a command, whatever its case
+                given = [spelled(given[0], (c.name for c in COMMANDS)) or given[0], *given[1:]]
             options = build_parser().parse_args(given)
             code: int = options.run(options)
             if sys.stdout:
@@ -75,6 +81,25 @@ def _sigterm_as_exit() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, signal.SIG_DFL if before is None else before)
+
+
+@contextlib.contextmanager
+def _any_text() -> Iterator[None]:
+    """
+    Let stdout take any text, with escapes for what its encoding lacks, as stderr does.
+
+    A Windows console or pipe often has 256 characters only.
+    """
+    stream = sys.stdout
+    if not isinstance(stream, io.TextIOWrapper) or stream.errors != "strict":
+        yield
+        return
+    stream.reconfigure(errors="backslashreplace")
+    try:
+        yield
+    finally:
+        with contextlib.suppress(ValueError, OSError):  # closed, or the disk is full
+            stream.reconfigure(errors="strict")
 
 
 def _exit_on_sigterm(*_: object) -> NoReturn:

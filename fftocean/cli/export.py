@@ -22,6 +22,7 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     """Add the flags of `fftocean export`."""
     parser.add_argument(
         "kind",
+        type=str.lower,
         choices=FORMATS,
         metavar="KIND",
         help="swd: spectral_wave_data of DNV; openfast: SeaState's files; components: CSV",

@@ -40,6 +40,7 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--engine",
+        type=str.lower,
         choices=tuple(ENGINES),
         help="add the kernels and a project that opens in this engine, beside the package",
     )
@@ -146,9 +147,9 @@ COMMAND = Command(
     arguments="[JOB.toml] [-o DIR]",
     summary="write the waves of a sea for programs that evolve them: pages, engines",
     examples=(
-        "fftocean export-sea -o sea --n 256",
-        "fftocean export-sea gale.toml -o gale --tiles 256:420,256:61,256:8.3 --textures ktx2",
-        "fftocean export-sea gale.toml -o gale --n 256 --engine godot",
+        "fftocean export-sea -o waves --n 256",
+        "fftocean export-sea gale.toml -o gale-waves --tiles 256:420,256:61,256:8 --textures ktx2",
+        "fftocean export-sea gale.toml -o gale-godot --n 256 --engine godot",
     ),
     run=run,
     add_flags=add_flags,

@@ -156,7 +156,12 @@ def _tile(ocean: "Ocean", statistics: "Statistics") -> Iterator[tuple[str, str]]
     for part in dict.fromkeys((ocean.sea.depth_from, ocean.sea.surface_tension_from)):
         if part:
             yield "water properties from", part
-    yield "FFT library", ocean.backend
+    if ocean.backend == "gpu":
+        from fftocean.gpu import adapter
+
+        yield "graphics adapter", str(adapter())
+    else:
+        yield "FFT library", ocean.backend
 
 
 def _foam(job: "Job", ocean: "Ocean") -> Iterator[tuple[str, str]]:

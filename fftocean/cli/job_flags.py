@@ -108,6 +108,13 @@ def job_of(options: argparse.Namespace) -> "Job":
             continue
         if (given := getattr(options, parameter.flag.replace("-", "_"))) is not None:
             changes[parameter.key] = given if parameter.switch else parse_value(given)
+    if getattr(options, "tiles", None):
+        for key in ("ocean.n", "ocean.size"):
+            if key in changes:
+                raise JobError(
+                    f"{key} and tiles must not be given together, as tiles have their own: leave "
+                    f"out --{BY_KEY[key].flag}, or give --tiles"
+                )
     for key, value in changes.items():
         if key in BY_KEY and BY_KEY[key].many and isinstance(value, str):
             changes[key] = [value]

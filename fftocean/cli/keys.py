@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from fftocean.cli.command import Command
 from fftocean.cli.console import console_for
-from fftocean.errors import JobError
+from fftocean.errors import JobError, suggestion
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -31,8 +31,11 @@ def run(options: argparse.Namespace) -> int:
     keys = [row for row in key_rows() if row.matches(options.pattern)]
     kinds = [row for row in kind_rows() if row.matches(options.pattern)]
     if not keys and not kinds:
+        names = {part for row in key_rows() for part in row.key.split(".")}
+        names |= {row.name for row in kind_rows()}
         raise JobError(
             f"no key and no kind contains {options.pattern!r:.60}; `fftocean keys` lists them all"
+            f"{suggestion(options.pattern, names)}"
         )
     console = console_for()
     for row in keys:

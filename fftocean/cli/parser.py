@@ -1,11 +1,9 @@
 """Argument parser of all commands."""
 
 import argparse
-import difflib
 import os
 import re
 import sys
-from collections.abc import Iterable
 from typing import Any, NoReturn
 
 import fftocean
@@ -25,6 +23,7 @@ from fftocean.cli import (
     view,
 )
 from fftocean.cli.console import plain
+from fftocean.errors import suggestion
 
 COMMANDS = (
     bake.COMMAND,
@@ -56,7 +55,7 @@ class Parser(argparse.ArgumentParser):
         known, unknown = super().parse_known_args(args, namespace)
         if unknown:
             flag = next((word for word in unknown if word.startswith("-")), "").partition("=")[0]
-            hint = _nearest(flag, self._option_string_actions, 0.7) or _key_named(flag)
+            hint = suggestion(flag, self._option_string_actions) or _key_named(flag)
             self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
         return known, unknown
 
@@ -64,15 +63,9 @@ class Parser(argparse.ArgumentParser):
         """Print a short usage and the error on stderr; exit with 2."""
         if choice := re.search(r"invalid choice: '(.*?)' \(choose from (.*)\)", message):
             words = re.findall(r"[\w.-]+", choice[2])
-            message += _nearest(choice[1], words)
+            message += suggestion(choice[1], words, 0.6)
         self.print_usage(sys.stderr)
         self.exit(2, f"{self.prog}: error: {plain(message)}; see {self.prog} --help\n")
-
-
-def _nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
-    """Return a suggestion for a misspelt word, or nothing."""
-    near = difflib.get_close_matches(word, list(known), 1, cutoff)
-    return f"; did you mean {near[0]}?" if near else ""
 
 
 def _key_named(flag: str) -> str:

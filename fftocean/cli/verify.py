@@ -22,9 +22,9 @@ def add_flags(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--dtype",
+        type=str.lower,
         choices=("float32", "float64"),
-        default="float64",
-        help="precision (default: float64)",
+        help="precision (default: float64; float32 on a graphics processor)",
     )
 
 
@@ -38,7 +38,8 @@ def run(options: argparse.Namespace) -> int:
 
     t = TIME.check("t", options.t)
     job = job_of(options)
-    ocean = job.ocean(dtype=options.dtype)
+    on_device = job.settings["ocean.backend"] in ("gpu", "gpu-or-cpu")
+    ocean = job.ocean(dtype=options.dtype or ("float32" if on_device else "float64"))
     checks = verify(ocean, t)
     title = f"{plain(job.source)}: {ocean.grid.nx} x {ocean.grid.ny}, {ocean.dtype}, t = {t:g} s"
     table = Table(title=Text(title), title_justify="left")

@@ -1,11 +1,13 @@
 """
 OpenEXR in the profile that every program opens.
 
-It is single part, scanline, ZIP, with channels R, G, B (, A) in half or single precision. OpenEXR
-compresses without the GIL, so threads can encode in parallel; ZIP takes nine tenths of the time.
+It is single part, scanline, ZIP, with channels R, G, B (, A) in half or single precision. Files are
+written here, and read by the OpenEXR library. ISA-L deflates, without the GIL, in 0.4 of the time
+of libdeflate at OpenEXR's level. Files are 1 % smaller, as low and high bytes have a code each.
 """
 
 import io
+import struct
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
@@ -27,6 +29,13 @@ from fftocean.export.form import (
     require_finite,
     select_channels,
 )
+from fftocean.kernels import byte_planes
+
+ROWS = 16
+"""Rows of a block, which OpenEXR compresses together: that of ZIP."""
+
+LEVEL = 3
+"""Level of ISA-L, its best; 2 takes 0.6 of the time, for files that are an eighth larger."""
 
 
 def encode(pixels: Real, *, periodic: bool = True) -> bytes:
@@ -38,26 +47,85 @@ def encode(pixels: Real, *, periodic: bool = True) -> bytes:
             written as R, G and B alike.
         periodic: mark it as repeating without a seam.
     """
-    import OpenEXR
+    # the kernel reads words in order
+    pixels = np.ascontiguousarray(pixels, dtype=pixels.dtype.newbyteorder("="))
+    rows, columns, count = pixels.shape
+    order = np.array({1: (0, 0, 0), 3: (2, 1, 0), 4: (3, 2, 1, 0)}[count])  # (A,) B, G, R
+    words = pixels.view(np.uint16).reshape(rows, columns, count, -1)
+    planes = np.empty(words[..., :1, :].size * order.size * 2, np.uint8)
+    byte_planes.differences(words, order, ROWS, planes)
+    head = _header(rows, columns, "RGBA"[: order.size], pixels.dtype, periodic)
+    blocks: list[bytes] = []
+    offsets: list[int] = []
+    place = len(head) + 8 * -(-rows // ROWS)
+    for top in range(0, rows, ROWS):
+        size = planes.size * min(ROWS, rows - top) // rows
+        start = planes.size * top // rows
+        parts = _deflated(planes[start : start + size].data)
+        if (length := sum(map(len, parts))) >= size:
+            # a reader takes a block of full size for one without compression
+            parts, length = [_plain(pixels[top : top + ROWS, :, order])], size
+        blocks += (struct.pack("<ii", top, length), *parts)
+        offsets.append(place)
+        place += 8 + length
+    return b"".join((head, struct.pack(f"<{len(offsets)}Q", *offsets), *blocks))
 
-    # OpenEXR silently writes wrong pixels from an array that is not C-contiguous.
-    pixels = np.ascontiguousarray(pixels)
-    one = pixels.shape[2] == 1
-    channels = (
-        dict.fromkeys("RGB", np.ascontiguousarray(pixels[..., 0]))
-        if one
-        else {"RGBA"[: pixels.shape[2]]: pixels}
-    )
-    header: dict[str, Any] = {
-        "compression": OpenEXR.ZIP_COMPRESSION,
-        "type": OpenEXR.scanlineimage,
-        "colorInteropID": "data",
+
+def _deflated(planes: memoryview) -> list[bytes]:
+    """Return the parts of a zlib stream in which low and high bytes have a code table each."""
+    from isal import isal_zlib
+
+    middle = len(planes) // 2
+    stream = isal_zlib.compressobj(LEVEL)
+    return [
+        stream.compress(planes[:middle]),
+        stream.flush(isal_zlib.Z_SYNC_FLUSH),
+        stream.compress(planes[middle:]),
+        stream.flush(),
+    ]
+
+
+def _plain(pixels: npt.NDArray[Any]) -> bytes:
+    """Return the bytes of a block without compression: in each row channel by channel."""
+    return pixels.transpose(0, 2, 1).astype(pixels.dtype.newbyteorder("<")).tobytes()
+
+
+def _header(rows: int, columns: int, channels: str, dtype: np.dtype[Any], periodic: bool) -> bytes:
+    """
+    Return magic number, version and attributes of a file.
+
+    Source: OpenEXR, "OpenEXR File Layout" (attributes in the order of their names).
+    """
+    kind = {2: 1, 4: 2}[dtype.itemsize]  # half, float
+    window = struct.pack("<4i", 0, 0, columns - 1, rows - 1)
+    attributes = {
+        "channels": (
+            "chlist",
+            b"".join(
+                name.encode() + struct.pack("<xi4xii", kind, 1, 1) for name in sorted(channels)
+            )
+            + b"\0",
+        ),
+        "colorInteropID": ("string", b"data"),
+        "compression": ("compression", b"\3"),  # ZIP
+        "dataWindow": ("box2i", window),
+        "deflate": ("string", f"ISA-L, level {LEVEL}".encode()),
+        "displayWindow": ("box2i", window),
+        "lineOrder": ("lineOrder", b"\0"),  # row 0 first
+        "pixelAspectRatio": ("float", struct.pack("<f", 1.0)),
+        "screenWindowCenter": ("v2f", struct.pack("<2f", 0.0, 0.0)),
+        "screenWindowWidth": ("float", struct.pack("<f", 1.0)),
+        "type": ("string", b"scanlineimage"),
+        **({"wrapmodes": ("string", b"periodic,periodic")} if periodic else {}),
     }
-    if periodic:
-        header["wrapmodes"] = "periodic,periodic"
-    stream = io.BytesIO()
-    OpenEXR.File(header, channels, 1).write(stream)
-    return stream.getvalue()
+    return (
+        struct.pack("<II", 20000630, 2)
+        + b"".join(
+            name.encode() + b"\0" + form.encode() + b"\0" + struct.pack("<i", len(value)) + value
+            for name, (form, value) in attributes.items()
+        )
+        + b"\0"
+    )
 
 
 def read(data: bytes, shape: tuple[int, int] | None = None) -> npt.NDArray[Any]:

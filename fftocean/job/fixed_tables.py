@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from fftocean.errors import JobError, ParameterError
+from fftocean.errors import JobError, ParameterError, suggestion
 from fftocean.fixed_values import Crest, Fix
-from fftocean.job.parameters import suggestion
 
 CREST, FIX = "ocean.crest", "ocean.fix"
 MOST = 64

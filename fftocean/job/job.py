@@ -46,14 +46,22 @@ class Job:
 
     Make one with `Job.default()`, `Job.read(path)` or `Job.from_toml(text)`; change one with
     `job.replaced({"ocean.n": 512})`.
+
+    Args:
+        settings: every key of `parameters.PARAMETERS` with its value, in SI units.
+        wind: True if there is a wind sea.
+        systems: wave systems besides the wind sea, as in the file.
+        source: name of the job in messages: its file.
+        crests: crests that the water is made to have, `[[ocean.crest]]`.
+        fixes: values that the water is made to have, `[[ocean.fix]]`.
     """
 
     settings: Mapping[str, Any]
-    wind: bool  # True if there is a wind sea
-    systems: tuple[Mapping[str, Any], ...]  # as in the file
+    wind: bool
+    systems: tuple[Mapping[str, Any], ...]
     source: str = "job"
-    crests: tuple[Crest, ...] = ()  # [[ocean.crest]]
-    fixes: tuple[Fix, ...] = ()  # [[ocean.fix]]
+    crests: tuple[Crest, ...] = ()
+    fixes: tuple[Fix, ...] = ()
 
     def __repr__(self) -> str:
         s, waves = (
@@ -110,6 +118,10 @@ class Job:
         Parse a job; errors are those of `read`. A byte-order mark at the start is skipped.
 
         With `at_sea` its sea is set up and checked too, for which its measured files must exist.
+
+        Raises:
+            JobError: text that is not TOML, an unknown key, or a value that is not permitted; the
+                message names key, rule and value.
         """
         if not isinstance(text, str):
             raise JobError(f"a job must be TOML text, got {described(text)}")
@@ -142,6 +154,10 @@ class Job:
         Return the job of a parsed TOML tree, checked key by key.
 
         With `at_sea` its sea is set up and checked too, for which its measured files must exist.
+
+        Raises:
+            JobError: an unknown key, or a value that is not permitted; the message names key, rule
+                and value.
         """
         given: dict[str, Any] = {}
         systems: tuple[Mapping[str, Any], ...] = ()
@@ -182,8 +198,8 @@ class Job:
 
     def measurements(self) -> "dict[str, Realised]":
         """
-        Return the measured spectra of sea.systems as they are realised, by the full names of their
-        tables.
+        Return the measured spectra of sea.systems as they are realised, in SI units, by the full
+        names of their tables.
 
         Raises:
             JobError, ReaderError: as `systems.measurement`.
@@ -263,6 +279,10 @@ class Job:
     def sea(self, measured: "Mapping[str, Realised] | None" = None) -> Sea:
         """
         Return the specified sea; `measured`, if given, are the spectra that `measurements` returns.
+
+        Raises:
+            JobError: wave systems that make no sea: none, or of different depths.
+            ReaderError: a measured file that cannot be read.
         """
         s, depth = self.settings, self.settings["sea.depth"]
         waves: list[WaveSystem] = []
@@ -303,9 +323,21 @@ class Job:
         except ParameterError as error:
             raise JobError(f"{self.source}: sea.wind.{error}") from None
 
-    def ocean(self, *, dtype: str = "float32") -> Ocean:
-        """Return the ocean of the tile, with the crests and values that the job fixes."""
+    def ocean(self, *, dtype: str = "float32", backend: str | None = None) -> Ocean:
+        """
+        Return the ocean of the tile, with the crests and values that the job fixes.
+
+        Args:
+            dtype: of the fields; float64 is computed on the CPU, whatever the job's backend.
+            backend: as in `Ocean`, instead of the job's; the waves do not depend on it.
+
+        Raises:
+            JobError: a sea, tile or crest that cannot be; the message names the job.
+        """
         s = self.settings
+        if backend is None:
+            on_device = s["ocean.backend"] in ("gpu", "gpu-or-cpu")
+            backend = "auto" if on_device and dtype == "float64" else s["ocean.backend"]
         low, high = s["ocean.band_low"], s["ocean.band_high"]
         if not low < high:
             raise JobError(
@@ -325,6 +357,7 @@ class Job:
                 band=(low, high),
                 order=s["ocean.order"],
                 bound=s["ocean.bound"],
+                backend=backend,
             )
             return constrained(ocean, *self.fixed) if self.fixed else ocean
         except (JobError, ReaderError):
@@ -337,7 +370,7 @@ class Job:
         Return the cascade of the sea on some tiles, with the crests and values that the job fixes.
 
         Args:
-            tiles: (n, size) of each, from the largest to the smallest, instead of the job's own.
+            tiles: (n, size [m]) of each, from the largest to the smallest, instead of the job's.
 
         Raises:
             JobError: tiles that cannot share the sea, or a band beside tiles.
@@ -359,6 +392,7 @@ class Job:
                 amplitudes=s["ocean.amplitudes"],
                 order=s["ocean.order"],
                 bound=s["ocean.bound"],
+                backend=s["ocean.backend"],
             )
             return constrained(cascade, *self.fixed) if self.fixed else cascade
         except JobError:
@@ -414,8 +448,8 @@ class Job:
     @property
     def foam(self) -> dict[str, float]:
         """
-        Parameters of foam: tau, threshold and strength. Where the threshold follows the wind,
-        `foam_on` has it, and here is the fixed one of seas without a wind.
+        Parameters of foam: tau [s], threshold [-] and strength [1/s]. Where the threshold follows
+        the wind, `foam_on` has it, and here is the fixed one of seas without a wind.
         """
         given = {p.key.removeprefix("bake.foam."): self.settings[p.key] for p in FOAM}
         return given | ({"threshold": FIXED_THRESHOLD} if self.foam_follows_wind else {})

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fftocean import limits
-from fftocean.errors import JobError, ParameterError
+from fftocean.errors import JobError, ParameterError, suggestion
 from fftocean.limits import Count, Quantity
 
 MAPS = (
@@ -40,6 +40,7 @@ ENGINES = (
     "babylon",
     "houdini",
 )
+BACKENDS = ("auto", "mkl", "pyfftw", "scipy", "gpu", "gpu-or-cpu")
 GROWTHS = ("jonswap", "kahma-calkoen", "young-verhagen")
 PICTURES = ("sheet", "animation", "tiling", "spectrum")
 # repeated here so that the command line's help need not import the modules that define them; those
@@ -124,15 +125,6 @@ def spelled(word: str, names: Iterable[str]) -> str | None:
     return next((name for name in names if name.casefold() == word.strip().casefold()), None)
 
 
-def suggestion(word: Any, names: Iterable[str]) -> str:
-    """Return "; did you mean godot?" for the name most like a misspelt word; "" if none is."""
-    import difflib  # not before a word is wrong: the command line's help loads this module
-
-    given = word.strip().casefold() if isinstance(word, str) else ""
-    near = difflib.get_close_matches(given, list(names), n=1, cutoff=0.7)
-    return f"; did you mean {near[0]}?" if near else ""
-
-
 WIND = (
     Parameter(
         "sea.wind.speed", 7.0, "wind 10 m above the water; 0 is a flat sea", limits.WIND_SPEED
@@ -203,6 +195,14 @@ TILE = (
         1000,
         "number of waves whose pairs have second-order waves, the strongest",
         limits.BOUND_WAVES,
+    ),
+    Parameter(
+        "ocean.backend",
+        "auto",
+        "FFT library, auto for the fastest that is installed; or gpu, a graphics processor; or "
+        "gpu-or-cpu, auto where that cannot compute",
+        choices=BACKENDS,
+        flag="backend",
     ),
 )
 OUTPUT = (

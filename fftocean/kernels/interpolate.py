@@ -83,14 +83,15 @@ def bilinear_gradient(
     Return (a, b, c, da/du, da/dv, db/du, db/dv) of the bilinear interpolant at (u, v).
 
     a, b and c are the first three channels. `texels` is flat, four channels to a texel; those of
-    the tile lie row by row from texel `first` on. (u, v) is finite, and fits into an integer.
+    the tile lie row by row from texel `first` on, framed as by `frame_texels`. (u, v) is finite,
+    and fits into an integer.
     """
     i, f = _near_texel(u, nx)
     j, g = _near_texel(v, ny)
-    right = _after(i, nx)
-    low, high = first + j * nx, first + _after(j, ny) * nx
-    a, a_u, b, b_u, c = _linear_row(texels, low + i, low + right, f)
-    a_high, a_u_high, b_high, b_u_high, c_high = _linear_row(texels, high + i, high + right, f)
+    low = first + (j + 1) * (nx + FRAME) + i + 1
+    high = low + nx + FRAME
+    a, a_u, b, b_u, c = _linear_row(texels, low, low + 1, f)
+    a_high, a_u_high, b_high, b_u_high, c_high = _linear_row(texels, high, high + 1, f)
     a_v, b_v = a_high - a, b_high - b
     return (
         a + g * a_v,
@@ -135,14 +136,12 @@ def spline_gradient(
     w, d = spline_weights(f), spline_slopes(f)
     w0, w1, w2, w3 = spline_weights(g)
     d0, d1, d2, d3 = spline_slopes(g)
-    i0, i2 = _wrapped(i - 1, nx), _after(i, nx)
-    i3, r2 = _after(i2, nx), _after(j, ny)
-    r0, r1, r3 = first + _wrapped(j - 1, ny) * nx, first + j * nx, first + _after(r2, ny) * nx
-    r2 = first + r2 * nx
-    a0, p0, b0, q0, c0 = _cubic_row(texels, r0 + i0, r0 + i, r0 + i2, r0 + i3, w, d)
-    a1, p1, b1, q1, c1 = _cubic_row(texels, r1 + i0, r1 + i, r1 + i2, r1 + i3, w, d)
-    a2, p2, b2, q2, c2 = _cubic_row(texels, r2 + i0, r2 + i, r2 + i2, r2 + i3, w, d)
-    a3, p3, b3, q3, c3 = _cubic_row(texels, r3 + i0, r3 + i, r3 + i2, r3 + i3, w, d)
+    width = nx + FRAME
+    corner = first + j * width + i
+    a0, p0, b0, q0, c0 = _cubic_row(texels, corner, w, d)
+    a1, p1, b1, q1, c1 = _cubic_row(texels, corner + width, w, d)
+    a2, p2, b2, q2, c2 = _cubic_row(texels, corner + 2 * width, w, d)
+    a3, p3, b3, q3, c3 = _cubic_row(texels, corner + 3 * width, w, d)
     return (
         w0 * a0 + w1 * a1 + w2 * a2 + w3 * a3,
         w0 * b0 + w1 * b1 + w2 * b2 + w3 * b3,
@@ -158,19 +157,16 @@ def spline_gradient(
 def _cubic_row(
     texels: Real,
     i: int,
-    j: int,
-    k: int,
-    m: int,
     w: tuple[float, float, float, float],
     d: tuple[float, float, float, float],
 ) -> tuple[float, ...]:
     """
-    Return (a, da/du, b, db/du, c) along four texels of a row, by the weights of values and slopes.
+    Return (a, da/du, b, db/du, c) along four texels from i on, by the weights of values and slopes.
     """
     a0, b0, c0 = _three(texels, i)
-    a1, b1, c1 = _three(texels, j)
-    a2, b2, c2 = _three(texels, k)
-    a3, b3, c3 = _three(texels, m)
+    a1, b1, c1 = _three(texels, i + 1)
+    a2, b2, c2 = _three(texels, i + 2)
+    a3, b3, c3 = _three(texels, i + 3)
     return (
         w[0] * a0 + w[1] * a1 + w[2] * a2 + w[3] * a3,
         d[0] * a0 + d[1] * a1 + d[2] * a2 + d[3] * a3,
@@ -178,6 +174,24 @@ def _cubic_row(
         d[0] * b0 + d[1] * b1 + d[2] * b2 + d[3] * b3,
         w[0] * c0 + w[1] * c1 + w[2] * c2 + w[3] * c3,
     )
+
+
+FRAME = 3
+"""Texels by which a tile is wider and higher with its frame."""
+
+
+def frame_texels(framed: Real) -> None:
+    """
+    Repeat texels around a tile, in place, so that no interpolation has to go round.
+
+    Args:
+        framed: (ny + FRAME, nx + FRAME, channels), the tile from [1, 1] on: one texel is repeated
+            before it, two behind, along either axis.
+    """
+    for to, source in ((0, -3), (-2, 1), (-1, 2)):  # in turn: a tile can be one texel wide
+        framed[1:-2, to] = framed[1:-2, source]
+    for to, source in ((0, -3), (-2, 1), (-1, 2)):
+        framed[to] = framed[source]
 
 
 BLOCK = 128
@@ -191,6 +205,8 @@ U, V, DISPLACE_X, DISPLACE_Y, HEIGHT, XX, XY, YX, YY = (row * BLOCK for row in r
 _F, _G = 9 * BLOCK, 10 * BLOCK
 _A, _B, _C, _A_RIGHT, _B_RIGHT, _C_RIGHT = (row * BLOCK for row in range(11, 17))
 _A_UP, _B_UP, _C_UP, _A_ACROSS, _B_ACROSS, _C_ACROSS = (row * BLOCK for row in range(17, 23))
+# Or sums along v of four texels side by side, and of their slopes.
+_ACROSS, _SLOPES, _SIXTEEN = 9 * BLOCK, 9 * BLOCK + 16, np.uint64(16)
 
 
 @compiled
@@ -214,12 +230,13 @@ def bilinear_gradients(
     for p in range(count):
         i, f = _near_texel(rows[U + p], nx)
         j, g = _near_texel(rows[V + p], ny)
-        right, low, high = _after(i, nx), first + j * nx, first + _after(j, ny) * nx
+        low = first + (j + 1) * (nx + FRAME) + i + 1
+        high = low + nx + FRAME
         rows[_F + p], rows[_G + p] = f, g
-        rows[_A + p], rows[_B + p], rows[_C + p] = _three(texels, low + i)
-        rows[_A_RIGHT + p], rows[_B_RIGHT + p], rows[_C_RIGHT + p] = _three(texels, low + right)
-        rows[_A_UP + p], rows[_B_UP + p], rows[_C_UP + p] = _three(texels, high + i)
-        rows[_A_ACROSS + p], rows[_B_ACROSS + p], rows[_C_ACROSS + p] = _three(texels, high + right)
+        rows[_A + p], rows[_B + p], rows[_C + p] = _three(texels, low)
+        rows[_A_RIGHT + p], rows[_B_RIGHT + p], rows[_C_RIGHT + p] = _three(texels, low + 1)
+        rows[_A_UP + p], rows[_B_UP + p], rows[_C_UP + p] = _three(texels, high)
+        rows[_A_ACROSS + p], rows[_B_ACROSS + p], rows[_C_ACROSS + p] = _three(texels, high + 1)
     for p in range(count):
         f, g = rows[_F + p], rows[_G + p]
         a, b, c = rows[_A + p], rows[_B + p], rows[_C + p]
@@ -245,19 +262,43 @@ def spline_gradients(
     """
     Add the results of `spline_gradient` for `count` points; arguments as in `bilinear_gradients`.
 
-    The 16 texels of one point are enough to fetch at a time.
+    Each point first sums its four rows, whose four texels are 16 numbers side by side, which the
+    processor sums several at a time.
     """
+    width = nx + FRAME
     for p in range(count):
-        a, b, c, a_u, a_v, b_u, b_v = spline_gradient(
-            texels, first, nx, ny, rows[U + p], rows[V + p]
+        i, f = _near_texel(rows[U + p], nx)
+        j, g = _near_texel(rows[V + p], ny)
+        w0, w1, w2, w3 = spline_weights(g)
+        d0, d1, d2, d3 = spline_slopes(g)
+        r0 = np.uint64(4 * (first + j * width + i))
+        r1 = r0 + np.uint64(4 * width)
+        r2 = r1 + np.uint64(4 * width)
+        r3 = r2 + np.uint64(4 * width)
+        for e in range(_SIXTEEN):
+            t0, t1 = float(texels[r0 + e]), float(texels[r1 + e])
+            t2, t3 = float(texels[r2 + e]), float(texels[r3 + e])
+            rows[_ACROSS + e] = w0 * t0 + w1 * t1 + w2 * t2 + w3 * t3
+            rows[_SLOPES + e] = d0 * t0 + d1 * t1 + d2 * t2 + d3 * t3
+        w0, w1, w2, w3 = spline_weights(f)
+        d0, d1, d2, d3 = spline_slopes(f)
+        a0, a1, a2, a3 = rows[_ACROSS], rows[_ACROSS + 4], rows[_ACROSS + 8], rows[_ACROSS + 12]
+        b0, b1, b2, b3 = rows[_ACROSS + 1], rows[_ACROSS + 5], rows[_ACROSS + 9], rows[_ACROSS + 13]
+        rows[DISPLACE_X + p] += w0 * a0 + w1 * a1 + w2 * a2 + w3 * a3
+        rows[DISPLACE_Y + p] += w0 * b0 + w1 * b1 + w2 * b2 + w3 * b3
+        rows[XX + p] += per_x * (d0 * a0 + d1 * a1 + d2 * a2 + d3 * a3)
+        rows[YX + p] += per_x * (d0 * b0 + d1 * b1 + d2 * b2 + d3 * b3)
+        a0, a1, a2, a3 = (
+            rows[_ACROSS + 2],
+            rows[_ACROSS + 6],
+            rows[_ACROSS + 10],
+            rows[_ACROSS + 14],
         )
-        rows[DISPLACE_X + p] += a
-        rows[DISPLACE_Y + p] += b
-        rows[HEIGHT + p] += c
-        rows[XX + p] += per_x * a_u
-        rows[XY + p] += per_y * a_v
-        rows[YX + p] += per_x * b_u
-        rows[YY + p] += per_y * b_v
+        rows[HEIGHT + p] += w0 * a0 + w1 * a1 + w2 * a2 + w3 * a3
+        a0, a1, a2, a3 = rows[_SLOPES], rows[_SLOPES + 4], rows[_SLOPES + 8], rows[_SLOPES + 12]
+        b0, b1, b2, b3 = rows[_SLOPES + 1], rows[_SLOPES + 5], rows[_SLOPES + 9], rows[_SLOPES + 13]
+        rows[XY + p] += per_y * (w0 * a0 + w1 * a1 + w2 * a2 + w3 * a3)
+        rows[YY + p] += per_y * (w0 * b0 + w1 * b1 + w2 * b2 + w3 * b3)
 
 
 @compiled

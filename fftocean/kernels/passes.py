@@ -1,17 +1,21 @@
 """
 The loops on either side of the row FFTs of a synthesis.
 
-First pass, for each block of columns kx: advance the waves, derive along y; (transform along y;)
-transpose. Second pass, for each block of rows y: derive along x, pack two real fields into one
-complex row; (transform along x;) split them. The data of a block stay in cache. Compilers vectorise
-loops over contiguous reals in at most five arrays. So complex rows are given as their interleaved
-real and imaginary parts, 2 n long, and half-spectra in the first pass as two arrays of parts.
+First pass, for each column kx: advance the waves, derive along y; (transform along y;) write tiles
+of 8 x 8. Second pass, for each row y: derive along x, pack two real fields into one complex row;
+(transform along x;) split them. Tiles make both the writing and the reading of the array between
+the passes contiguous. Compilers vectorise loops over contiguous reals in at most five arrays. So
+complex rows are given as their interleaved real and imaginary parts, 2 n long, and half-spectra in
+the first pass as two arrays of parts; what is left of vectors is in `vectors`.
 """
 
 import numpy as np
 
-from fftocean.arrays import Complex, Real
+from fftocean.arrays import Real
 from fftocean.kernels.compiler import compiled
+from fftocean.kernels.vectors import LANES, TILE, scale, scale_reversed, split, transpose
+
+SIZE = TILE * LANES  # reals in a tile
 
 # 1.5 * 2^52: adding and subtracting it rounds a double to a whole number, in two instructions
 ROUND = 6755399441055744.0
@@ -71,6 +75,25 @@ def phases_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
         for i in range(phase.size):
             moved = (np.uint64(whole[i]) % n) * j % n
             phase[i] = -(np.float64(n - moved) * part) if moved > half else np.float64(moved) * part
+
+
+@compiled
+def phases(kind: int, moment: float, count: float, frequency: Real, out: Real) -> None:
+    """
+    Write the phases at one time, in cycles, by one of the three loops above.
+
+    Args:
+        kind: 0 for `phases_at`, 1 for `phases_in_loop`, 2 for `phases_in_fine_loop`.
+        moment: the time or, in a loop, the step.
+        count: number of steps in a loop.
+        frequency: in cycles per unit of time or, in a loop, per period.
+    """
+    if kind == 0:
+        phases_at(frequency, moment, out)
+    elif kind == 1:
+        phases_in_loop(frequency, moment, count, out)
+    else:
+        phases_in_fine_loop(frequency, int(moment), int(count), out)
 
 
 @compiled
@@ -176,7 +199,7 @@ def height_rates(
 
 
 @compiled
-def scale(source: Real, factor: Real, out: Real) -> None:
+def scaled(source: Real, factor: Real, out: Real) -> None:
     """Write out = factor source."""
     for b in range(factor.shape[0]):
         h, p, o = source[b], factor[b], out[b]
@@ -222,77 +245,105 @@ def mix(
 
 
 @compiled
-def transpose(
-    block: Real | Complex, spectrum: int, first: int, columns: int, out: Real | Complex
+def tile(
+    results: Real, first: int, width: int, spectra: int, ny: int, place: int, tiles: int, out: Real
 ) -> None:
     """
-    Write out[y, spectrum, first + b] = block[b, y] for b < columns, eight columns at a time.
+    Write eight columns of the results of a first pass into the array between the passes.
 
-    Complex numbers of single precision are given as reals of 8 bytes: they are moved, not computed.
+    Args:
+        results: transformed columns, one spectrum after the other, `width` columns each; complex
+            numbers as pairs of reals, in rows of the same length.
+        first: the first of the eight columns.
+        spectra, ny: number of spectra, and of samples in a column.
+        place, tiles: number of the tile in its row of tiles, and of tiles in a row.
+        out: tiles[y // 8, place, spectrum, y % 8, column], all complex; see `pack`.
     """
-    whole = columns - columns % 8
-    for b in range(0, whole, 8):
-        c0, c1, c2, c3, c4, c5, c6, c7 = (
-            block[b], block[b + 1], block[b + 2], block[b + 3],
-            block[b + 4], block[b + 5], block[b + 6], block[b + 7],
-        )  # fmt: skip
-        for y in range(block.shape[1]):
-            o = out[y, spectrum, first + b : first + b + 8]
-            o[0], o[1], o[2], o[3] = c0[y], c1[y], c2[y], c3[y]
-            o[4], o[5], o[6], o[7] = c4[y], c5[y], c6[y], c7[y]
-    for b in range(whole, columns):
-        c = block[b]
-        for y in range(block.shape[1]):
-            out[y, spectrum, first + b] = c[y]
+    stride = results.size // (spectra * width)
+    whole = ny // TILE
+    for row in range(whole):
+        o = (row * tiles + place) * spectra * SIZE
+        for s in range(spectra):
+            at = (s * width + first) * stride + LANES * row
+            transpose(results, at, stride, out, o + s * SIZE)
+    for y in range(whole * TILE, ny):
+        o = (whole * tiles + place) * spectra * SIZE + LANES * (y - whole * TILE)
+        for s in range(spectra):
+            for b in range(TILE):
+                at = (s * width + first + b) * stride + 2 * y
+                out[o + s * SIZE + 2 * b] = results[at]
+                out[o + s * SIZE + 2 * b + 1] = results[at + 1]
 
 
 @compiled
 def pack(
-    intermediate: Real,
-    first: int,
-    rows: int,
+    between: Real,
+    start: int,
+    spectra: int,
     plus: int,
     minus: int,
     factors: Real,
     mirrored: Real,
     out: Real,
+    o: int,
+    nx: int,
 ) -> None:
     """
-    Write packed rows, whose transforms have one real field as real part, one as imaginary part.
+    Write a packed row, whose transform has one real field as real part, one as imaginary part.
 
-    out[r, k] = factors X at k >= 0, and conj(mirrored Y) at -k. X and Y are the half-spectra `plus`
-    and `minus` of row first + r, the Hermitian halves of real rows. `factors` has each number
-    twice, for real and imaginary part; `mirrored` too, from the highest k down to the first above
-    0, the second of each with a minus for the conjugate.
+    out[k] = factors X at k >= 0, and conj(mirrored Y) at -k. X and Y are the half-spectra `plus`
+    and `minus`, the Hermitian halves of real rows. `factors` has each number twice, for real and
+    imaginary part; `mirrored` too, from the highest k down to 0, the second of each with a minus
+    for the conjugate.
+
+    Args:
+        between: the tiles that `tile` writes.
+        start: place of the row in the first tile of its row of tiles.
+        spectra: number of half-spectra.
+        out, o: the packed rows, and the place of this one; the complex number after it is changed.
+        nx: samples in a row.
     """
-    high = mirrored.size // 2  # the highest k
-    for r in range(rows):
-        x, y, o = intermediate[first + r, plus], intermediate[first + r, minus], out[r]
-        for i in range(factors.size):
-            o[i] = factors[i] * x[i]
-        m = o[o.size - mirrored.size :]
-        for i in range(high):
-            k = np.uint64(2 * (high - i))  # unsigned: no check for a negative index
-            m[2 * i] = mirrored[2 * i] * y[k]
-            m[2 * i + 1] = mirrored[2 * i + 1] * y[k + np.uint64(1)]
+    columns = factors.size // 2
+    whole = columns // TILE
+    end = o + 2 * nx + 2 - mirrored.size
+    # First, since -0 is the place after the last, and that may be the next row's.
+    for j in range(whole):
+        i = mirrored.size - LANES * (j + 1)  # where the mirrored tile begins
+        scale_reversed(mirrored, i, between, start + (j * spectra + minus) * SIZE, out, end + i)
+    for k in range(max(whole * TILE, 1), columns):
+        at = start + (whole * spectra + minus) * SIZE + 2 * (k - whole * TILE)
+        i = mirrored.size - 2 * k - 2
+        out[end + i] = mirrored[i] * between[at]
+        out[end + i + 1] = mirrored[i + 1] * between[at + 1]
+    for j in range(whole):
+        scale(factors, LANES * j, between, start + (j * spectra + plus) * SIZE, out, o + LANES * j)
+    for k in range(whole * TILE, columns):
+        at = start + (whole * spectra + plus) * SIZE + 2 * (k - whole * TILE)
+        out[o + 2 * k] = factors[2 * k] * between[at]
+        out[o + 2 * k + 1] = factors[2 * k + 1] * between[at + 1]
 
 
 @compiled
-def split(packed: Real, undo: float, real: Real, imag: Real) -> None:
-    """
-    Write the two real fields of packed rows, the second times `undo`; each is (rows, nx).
-    """
-    for r in range(real.shape[0]):
-        o, a, b = packed[r], real[r], imag[r]
-        for i in range(a.size):
-            a[i] = o[2 * i]
-            b[i] = o[2 * i + 1] * undo
+def split_row(packed: Real, p: int, undo: float, real: Real, imag: Real) -> None:
+    """Write the two real fields of a packed row, the second times `undo`."""
+    nx = real.size
+    whole = nx - nx % LANES
+    for x in range(0, whole, LANES):
+        split(packed, p + 2 * x, undo, real, x, imag, x)
+    for x in range(whole, nx):
+        real[x] = packed[p + 2 * x]
+        imag[x] = packed[p + 2 * x + 1] * undo
 
 
 @compiled
-def real_parts(packed: Real, real: Real) -> None:
-    """Write the real parts of packed rows, whose imaginary parts hold no field."""
-    for r in range(real.shape[0]):
-        o, a = packed[r], real[r]
-        for i in range(a.size):
-            a[i] = o[2 * i]
+def real_part(packed: Real, p: int, real: Real) -> None:
+    """Write the real part of a packed row."""
+    for x in range(real.size):
+        real[x] = packed[p + 2 * x]
+
+
+@compiled
+def imaginary_part(packed: Real, p: int, undo: float, imag: Real) -> None:
+    """Write the imaginary part of a packed row times `undo`, as `split_row` does."""
+    for x in range(imag.size):
+        imag[x] = packed[p + 2 * x + 1] * undo

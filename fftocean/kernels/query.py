@@ -52,7 +52,9 @@ class Tiles(NamedTuple):
 
     sizes: Real  # (tiles, 2): lx, ly [m]
     layout: Integer  # (tiles, 3): first texel, nx, ny of each tile
-    texels: Real  # (4 all,): displace_x, displace_y, height and nothing: 16 bytes if single
+    # (4 all,): displace_x, displace_y, height and nothing: 16 bytes if single; each tile is framed
+    # as by `interpolate.frame_texels`
+    texels: Real
     first: Integer  # (tiles + 1,): number of the first wave of each tile
     waves: Real  # (5, all): kx, ky [rad/m], amplitude [m], potential [m^2], phase [rad]
 
@@ -88,12 +90,12 @@ class Workspace(NamedTuple):
 def _reduce(x: float, y: float, sizes: Real, origin: Real) -> None:
     """Write origin[i] = (x, y) in the first period of tile i."""
     for i in range(sizes.shape[0]):
-        origin[i, 0] = _reduced(x, sizes[i, 0])
-        origin[i, 1] = _reduced(y, sizes[i, 1])
+        origin[i, 0] = reduced(x, sizes[i, 0])
+        origin[i, 1] = reduced(y, sizes[i, 1])
 
 
 @compiled
-def _reduced(x: float, size: float) -> float:
+def reduced(x: float, size: float) -> float:
     """Return x - size floor(x/size), or x itself if nothing repeats."""
     if np.isinf(size):
         return x
@@ -184,8 +186,8 @@ def _load_block(
             workspace.points[live] = q
             live += 1
             for i in range(sizes.shape[0]):
-                workspace.origins[i, 0, q] = _reduced(x[p], sizes[i, 0]) * rates[i, 0]
-                workspace.origins[i, 1, q] = _reduced(y[p], sizes[i, 1]) * rates[i, 1]
+                workspace.origins[i, 0, q] = reduced(x[p], sizes[i, 0]) * rates[i, 0]
+                workspace.origins[i, 1, q] = reduced(y[p], sizes[i, 1]) * rates[i, 1]
         else:
             found.offsets[p, 0] = found.offsets[p, 1] = found.heights[p] = np.nan
             found.residuals[p] = found.jacobians[p] = np.nan
@@ -430,134 +432,7 @@ def texel_coordinates(
     """Write u, v = the place of (x, y) + offsets on a tile, in texels; NaN if it is not finite."""
     for p in range(u.size):
         if np.isfinite(x[p]) and np.isfinite(y[p]):
-            u[p] = (_reduced(x[p], lx) + offsets[p, 0]) * (nx / lx)
-            v[p] = (_reduced(y[p], ly) + offsets[p, 1]) * (ny / ly)
+            u[p] = (reduced(x[p], lx) + offsets[p, 0]) * (nx / lx)
+            v[p] = (reduced(y[p], ly) + offsets[p, 1]) * (ny / ly)
         else:
             u[p] = v[p] = np.nan
-
-
-@compiled
-def sum_heights(tiles: tuple[Any, ...], x: Real, y: Real, origin: Real, out: Real) -> None:
-    """
-    Write the height of linear theory at (x, y), without horizontal displacement.
-
-    Args:
-        tiles: the fields of `Tiles`, of which the waves are used.
-        x, y: the points [m].
-        origin: a buffer, (tiles, 2).
-        out: (points,) [m]; NaN for points that are not finite.
-    """
-    source = Tiles(*tiles)
-    sizes, first, waves = source.sizes, source.first, source.waves
-    for p in range(out.size):
-        out[p] = 0.0 if np.isfinite(x[p]) and np.isfinite(y[p]) else np.nan
-        _reduce(x[p], y[p], sizes, origin)
-        for i in range(sizes.shape[0]):
-            for m in range(first[i], first[i + 1]):
-                angle = waves[KX, m] * origin[i, 0] + waves[KY, m] * origin[i, 1] - waves[PHASE, m]
-                out[p] += waves[AMPLITUDE, m] * np.cos(angle)
-
-
-@compiled
-def sum_below(
-    tiles: tuple[Any, ...],
-    omega: Real,
-    depth: float,
-    x: Real,
-    y: Real,
-    z: Real,
-    origin: Real,
-    out: Real,
-) -> None:
-    """
-    Write the motion of the water below the surface, summed over all waves.
-
-    A wave moves the water by cosh k(z + h)/sinh kh along and sinh k(z + h)/sinh kh up. Both are
-    written with exponents that are never positive, so that nothing overflows; deep water is their
-    limit, e^{kz}.
-
-    Args:
-        tiles: the fields of `Tiles`, of which the waves are used.
-        omega: of each wave [rad/s].
-        depth: still-water depth h [m].
-        x, y, z: the points, z <= 0 [m].
-        origin: a buffer, (tiles, 2).
-        out: (points, 7): velocity and acceleration, x, y and z of each, and -d potential/dt.
-    """
-    source = Tiles(*tiles)
-    sizes, first, waves = source.sizes, source.first, source.waves
-    for p in range(out.shape[0]):
-        if not (np.isfinite(x[p]) and np.isfinite(y[p]) and np.isfinite(z[p])):
-            out[p, :] = np.nan
-            continue
-        out[p, :] = 0.0
-        _reduce(x[p], y[p], sizes, origin)
-        for i in range(sizes.shape[0]):
-            for m in range(first[i], first[i + 1]):
-                kx, ky, rate = waves[KX, m], waves[KY, m], omega[m]
-                k = np.sqrt(kx * kx + ky * ky)
-                angle = kx * origin[i, 0] + ky * origin[i, 1] - waves[PHASE, m]
-                along = up = np.exp(k * z[p])
-                if depth < np.inf:
-                    mirrored = np.exp(-k * (z[p] + 2.0 * depth))
-                    whole = -np.expm1(-2.0 * k * depth)
-                    along, up = (along + mirrored) / whole, (up - mirrored) / whole
-                along *= waves[AMPLITUDE, m] * rate / k
-                up *= waves[AMPLITUDE, m] * rate
-                cosine, sine = np.cos(angle), np.sin(angle)
-                out[p, 0] += along * kx * cosine
-                out[p, 1] += along * ky * cosine
-                out[p, 2] += up * sine
-                out[p, 3] += along * rate * kx * sine
-                out[p, 4] += along * rate * ky * sine
-                out[p, 5] -= up * rate * cosine
-                out[p, 6] += along * rate * cosine
-
-
-@compiled
-def sum_rises(
-    tiles: tuple[Any, ...],
-    omega: Real,
-    depth: float,
-    x: Real,
-    y: Real,
-    origin: Real,
-    out: Real,
-) -> None:
-    """
-    Write the upward derivatives at z = 0 of what `sum_below` writes, summed over all waves.
-
-    d/dz of cosh k(z + h)/sinh kh is k there, that of sinh k(z + h)/sinh kh is k coth kh.
-
-    Args:
-        tiles: the fields of `Tiles`, of which the waves are used.
-        omega: of each wave [rad/s].
-        depth: still-water depth h [m].
-        x, y: the points [m].
-        origin: a buffer, (tiles, 2).
-        out: (points, 7): the derivatives, per metre, in the order of `sum_below`.
-    """
-    source = Tiles(*tiles)
-    sizes, first, waves = source.sizes, source.first, source.waves
-    for p in range(out.shape[0]):
-        if not (np.isfinite(x[p]) and np.isfinite(y[p])):
-            out[p, :] = np.nan
-            continue
-        out[p, :] = 0.0
-        _reduce(x[p], y[p], sizes, origin)
-        for i in range(sizes.shape[0]):
-            for m in range(first[i], first[i + 1]):
-                kx, ky, rate = waves[KX, m], waves[KY, m], omega[m]
-                k = np.sqrt(kx * kx + ky * ky)
-                angle = kx * origin[i, 0] + ky * origin[i, 1] - waves[PHASE, m]
-                along, up = waves[AMPLITUDE, m] * rate, waves[AMPLITUDE, m] * rate * k
-                if depth < np.inf:
-                    up *= (1.0 + np.exp(-2.0 * k * depth)) / -np.expm1(-2.0 * k * depth)
-                cosine, sine = np.cos(angle), np.sin(angle)
-                out[p, 0] += along * kx * cosine
-                out[p, 1] += along * ky * cosine
-                out[p, 2] += up * sine
-                out[p, 3] += along * rate * kx * sine
-                out[p, 4] += along * rate * ky * sine
-                out[p, 5] -= up * rate * cosine
-                out[p, 6] += along * rate * cosine

@@ -60,7 +60,7 @@ def _speed_ratio(k: Real, depth: float, kinematic_tension: float) -> Real:
 def turns_per_second(omega: Real) -> Real:
     """
     Return omega / 2 pi [1/s], divided in extended precision where the machine has it: the nearest
-    double.
+    double. The shape is that of omega.
     """
     cycles: Real = (
         omega.astype(np.longdouble) / np.longdouble("6.283185307179586476925286766559")
@@ -101,6 +101,8 @@ def group_to_phase_speed(
     capillaries (2 in shallow water).
 
     With x = k h and s = (sigma/rho) k^2:  1/2 ((g + 3 s)/(g + s) + 2x / sinh 2x).
+
+    The shape is that of k.
     """
     kinematic_tension = _water(depth, surface_tension)
     return _speed_ratio(WAVENUMBER.check_array("k", k), depth, kinematic_tension)
@@ -183,7 +185,7 @@ _NEWTON_STEPS = 6
 def loop_cycles(omega: RealLike, period: float) -> Integer:
     """
     Return the number of whole cycles of each wave in a loop of `period` [s]: max(1, round(omega T /
-    2 pi)).
+    2 pi)), in the shape of omega.
 
     A wave whose true frequency is omega then runs at 2 pi n / T, which is off by at most pi / T,
     except for the slowest waves, which are sped up to one cycle a loop rather than frozen.

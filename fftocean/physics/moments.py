@@ -207,7 +207,7 @@ def mean_direction_and_spread(variance: Real, theta: Real) -> tuple[float, float
 
 def spectral_grid(peaks: Iterable[float], breaks: Iterable[float] = (), points: int = 400) -> Real:
     """
-    Return frequencies [rad/s] that show a sea: from a tenth of its lowest peak to 30 times its
+    Return frequencies (n,) [rad/s] that show a sea: from a tenth of its lowest peak to 30 times its
     highest, dense round each peak, with every corner.
     """
     peaks = list(peaks)

@@ -31,6 +31,9 @@ def from_compass(bearing: float) -> float:
     Returns:
         Where they go TO [degrees], counter-clockwise from east (+x), in [0, 360): a westerly, 270,
         is 0.
+
+    Raises:
+        ParameterError: a bearing that is not finite.
     """
     return (270.0 - DIRECTION.check("bearing", bearing)) % 360.0
 
@@ -53,11 +56,21 @@ def _by(part: str | None) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WaveSystem:
-    """One wind sea or swell: a spectrum, its spreading and its mean direction."""
+    """
+    One wind sea or swell: a spectrum, its spreading and its mean direction.
+
+    Args:
+        spectrum: S(omega) [m^2 s/rad].
+        spreading: D(omega, theta) [1/rad].
+        direction: direction toward which the waves go, counter-clockwise from +x [degrees].
+
+    Raises:
+        ParameterError: a spectrum or a spreading that is none, or a direction that is not finite.
+    """
 
     spectrum: FrequencySpectrum
     spreading: Spreading = field(default_factory=DonelanBanner)
-    direction: float = 0.0  # toward which the waves go, counter-clockwise from +x [degrees]
+    direction: float = 0.0
 
     def __post_init__(self) -> None:
         require_spectrum("spectrum", self.spectrum)
@@ -78,7 +91,7 @@ class WaveSystem:
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """
         Return S(omega) D(omega, theta) [m^2 s/rad^2]; theta [rad] is absolute, counter-clockwise
-        from +x.
+        from +x. The shape is that of omega and theta broadcast.
         """
         return self.spectrum(omega) * self.spreading(
             omega, np.asarray(theta) - math.radians(self.direction % 360.0), self.spectrum.peak
@@ -220,8 +233,8 @@ class Sea:
         spreading: Spreading | None = None,
     ) -> "Sea":
         """
-        Return the sea of a state of WMO code table 3700, 0 (flat) to 9; arguments as of `beaufort`,
-        see `presets.sea_state`.
+        Return the sea of a state of WMO code table 3700, 0 (flat) to 9; direction [degrees] and
+        depth [m] as of `beaufort`, see `presets.sea_state`.
         """
         return cls._preset(presets.sea_state(number), direction, depth, spreading)
 
@@ -244,6 +257,7 @@ class Sea:
 
         Linear between its frequencies and directions, with exactly the Hs, Tm01 and Tm02 of its own
         bands; with a `tail`, say 5, it goes on beyond the last frequency as f^-5.
+        `depth` is in [m], `direction` in [degrees] toward which the waves go.
         `readers.Realised.from_spectrum` has the same arguments, their meaning, and reports what was
         masked, repaired, assumed or added.
 
@@ -363,7 +377,7 @@ class Sea:
     def density(self, omega: RealLike, theta: RealLike) -> Real:
         """
         Return S(omega) D(omega, theta) of all systems together [m^2 s/rad^2]; theta [rad] is
-        counter-clockwise from +x.
+        counter-clockwise from +x. The shape is that of omega and theta broadcast.
         """
         omega, theta = np.broadcast_arrays(
             np.asarray(omega, dtype=np.float64), np.asarray(theta, dtype=np.float64)

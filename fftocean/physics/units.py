@@ -17,15 +17,30 @@ _ANY = Quantity("", -1e9, 1e9)
 
 
 def knots(value: float) -> float:
-    """Turn knots into m/s: `knots(25)` is the start of a strong breeze's upper half, 12.86."""
+    """
+    Return a speed in knots as [m/s]: `knots(25)`, in a strong breeze's upper half, is 12.86.
+
+    Raises:
+        ParameterError: not a number, or one beyond 1e9.
+    """
     return _ANY.check("knots", value) * NAUTICAL_MILE / 3600.0
 
 
 def nautical_miles(value: float) -> float:
-    """Turn nautical miles into m."""
+    """
+    Return a length in nautical miles as [m].
+
+    Raises:
+        ParameterError: not a number, or one beyond 1e9.
+    """
     return _ANY.check("nautical_miles", value) * NAUTICAL_MILE
 
 
 def feet(value: float) -> float:
-    """Turn feet into m."""
+    """
+    Return a length in feet as [m].
+
+    Raises:
+        ParameterError: not a number, or one beyond 1e9.
+    """
     return _ANY.check("feet", value) * FOOT

@@ -287,7 +287,7 @@ def sea_from_spectrum(
     tail: float | None = None,
 ) -> Sea:
     """
-    Return the sea of one measured spectrum.
+    Return the sea of one measured spectrum; `direction` is in [degrees], `depth` in [m].
 
     `Realised.from_spectrum` documents the arguments, and returns a report too.
     """

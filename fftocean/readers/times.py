@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fftocean.errors import ReaderError
+from fftocean.errors import ParameterError, ReaderError, described
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -23,8 +23,14 @@ def nearest_time(dataset: "Dataset | DataArray", when: str) -> int:
         when: date in UTC as in ISO 8601, such as "2020-06-03" or "2020-06-03T12:40".
 
     Raises:
+        ParameterError: not a dataset.
         ReaderError: no such date, a dataset without times, or no record within three hours.
     """
+    if not hasattr(dataset, "coords"):
+        raise ParameterError(
+            f"dataset must be a Dataset or DataArray of xarray, got {described(dataset)}"
+        )
+    when = str(when)
     wanted: np.datetime64[Any] = np.datetime64("NaT")
     with contextlib.suppress(ValueError):
         wanted = np.datetime64(when.strip().removesuffix("Z").replace(" ", "T"), "s")

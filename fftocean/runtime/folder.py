@@ -68,7 +68,8 @@ def export_sea(
     Args:
         source: an ocean or a cascade that loops.
         folder: the folder to write to; made if it does not exist.
-        textures, engine, job, ticks, foam, wind: as in `runtime.pack`.
+        textures, engine, job, ticks, foam, wind: as in `runtime.pack`; a wind has a speed [m/s]
+            and a direction [degrees].
         overwrite: replace another package, whose files are removed first.
 
     Returns:

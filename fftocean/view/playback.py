@@ -212,7 +212,7 @@ class Playback:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeaWarning)  # told when it was baked
             try:
-                oceans = tuple(tile.contents.job.ocean() for tile in self._tiles)
+                oceans = tuple(tile.contents.job.ocean(backend="auto") for tile in self._tiles)
             except FFTOceanError:
                 return None
         first = oceans[0]

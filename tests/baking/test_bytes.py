@@ -39,7 +39,7 @@ FFT_ROUNDING = 32 * float(np.finfo(np.float32).eps)
 
 def signature() -> dict[str, str]:
     """Return what the last bits of a bake may depend on beside the code."""
-    packages = ("numpy", "scipy", "numba", "llvmlite", "pyfftw", "openexr")
+    packages = ("numpy", "scipy", "numba", "llvmlite", "pyfftw", "isal")
     simd = np.show_config(mode="dicts")["SIMD Extensions"]
     features = [*simd.get("baseline", ()), *simd.get("found", ())]
     return {

@@ -6,6 +6,7 @@ import random
 
 import pytest
 
+from fftocean import files
 from fftocean.baking.folder import journal
 from fftocean.baking.folder.journal import Journal, entries_of
 from fftocean.errors import OutputError
@@ -141,3 +142,32 @@ def test_a_line_is_flushed_before_it_counts(path, monkeypatch):
         calls.clear()
         book.add(ENTRIES[0])
         assert len(calls) == 1
+
+
+def test_a_journal_has_no_changed_line_ends(tmp_path, monkeypatch):
+    """
+    On a system with text files, as Windows: a descriptor that is opened without O_BINARY gets two
+    bytes for each end of a line.
+    """
+    flag, real_open, real_write, text = 1 << 29, os.open, os.write, set()
+
+    def opening(path, flags, mode=0o777, **more):
+        descriptor = real_open(path, flags & ~flag, mode, **more)
+        text.discard(descriptor)
+        if not flags & flag:
+            text.add(descriptor)
+        return descriptor
+
+    def writing(descriptor, data):
+        data = bytes(data)
+        real_write(descriptor, data.replace(b"\n", b"\r\n") if descriptor in text else data)
+        return len(data)
+
+    monkeypatch.setattr(journal, "AS_BYTES", files.AS_BYTES | flag)
+    monkeypatch.setattr(os, "open", opening)
+    monkeypatch.setattr(os, "write", writing)
+    with Journal(tmp_path / "journal", IDENTITY, []) as book:
+        for entry in ENTRIES:
+            book.add(entry)
+    assert entries_of(tmp_path / "journal", IDENTITY) == ENTRIES
+    assert b"\r" not in (tmp_path / "journal").read_bytes()

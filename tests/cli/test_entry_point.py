@@ -153,3 +153,19 @@ def test_a_command_runs_in_a_thread():
     assert codes == [0]
     assert "preview:" in said.getvalue()
     assert signal.getsignal(signal.SIGTERM) is before
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
+@pytest.mark.parametrize("command", [["info"], ["verify"], ["bake", "-o", "κύμα", *SMALL]])
+def test_names_that_the_console_cannot_show_are_escaped(tmp_path, monkeypatch, encoding, command):
+    """As on a Windows console, whose encoding has 256 characters."""
+    monkeypatch.chdir(tmp_path)
+    Path("θάλασσα.toml").write_text("[ocean]\nn = 8\n", encoding="utf-8")
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding, errors="strict")
+    monkeypatch.setattr(sys, "stdout", stream)
+    assert main([command[0], "θάλασσα.toml", *command[1:]]) == 0
+    stream.flush()
+    written = stream.buffer.getvalue().decode(encoding)
+    name = "κύμα" if command[0] == "bake" else "θάλασσα.toml"
+    assert name.encode("ascii", "backslashreplace").decode() in written
+    assert stream.errors == "strict"  # as it was

@@ -43,6 +43,21 @@ def test_the_folder_of_a_cascade_brings_its_tiles(run):
     assert run("verify", "sea/tile0")[0] == 0
 
 
+DATED = str(Path(__file__).parents[1] / "data" / "spectra" / "41010.data_spec")
+
+
+def test_a_buoy_is_described_at_a_date_and_baked_without_a_flag(run):
+    code, out, _ = run("info", DATED, "--time", "2020-06-07T10:00", "--n", "16")
+    assert code == 0
+    by_number = run("info", DATED, "--time", "1", "--n", "16")[1]
+    line = next(row for row in out.splitlines() if "significant wave height" in row)
+    assert line not in run("info", DATED, "--time", "0", "--n", "16")[1]
+    assert line in by_number
+    assert run("bake", DATED, "-o", "sea", *SMALL)[0] == 0
+    for command in (["info"], ["verify"], ["plot", "-o", "a.png"], ["report", "-o", "a.html"]):
+        assert run(command[0], "sea", *command[1:])[0] == 0
+
+
 @pytest.mark.parametrize("flag", ["--time", "--toward"])
 def test_flags_of_spectrum_files_are_refused_elsewhere(run, flag):
     code, _, err = run("info", flag, "3")

@@ -27,6 +27,8 @@ from fftocean.job.parameters import PARAMETERS
         (["bake", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
         (["verify", "--t", "soon"], "invalid float value: 'soon'"),
         (["verify", "--dtype", "float16"], "invalid choice: 'float16'"),
+        (["bake", "--MAPS", "height"], "did you mean --maps?"),
+        (["export-sea", "--engine", "Godoh"], "did you mean godot?"),
     ],
 )
 def test_usage_errors_exit_2(run, arguments, part):
@@ -46,6 +48,49 @@ def test_a_wrong_flag_prints_the_usage_of_its_own_command(run, command):
     assert usage.startswith(f"usage: fftocean {command} ")
     unknown = "unrecognized arguments: --nonsense"
     assert error == f"fftocean {command}: error: {unknown}; see fftocean {command} --help"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["bake", "--maps", "Hieght"], "did you mean height?"),
+        (["bake", "--executor", "seriel", "--n", "8"], "did you mean serial?"),
+        (["series", "--at", "0,0", "--fields", "hieght", "-o", "p.csv"], "did you mean height?"),
+        (["keys", "spreeding"], "did you mean spreading?"),
+        (["bake", "--set", "ocean.sise=3"], "did you mean ocean.size?"),
+    ],
+)
+def test_a_misspelt_value_is_answered_with_the_nearest(run, arguments, part):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert part in err
+
+
+def test_case_does_not_matter_in_names(run):
+    assert run("VERIFY", "--n", "8", "--dtype", "Float32")[0] == 0
+    flags = ("--n", "8", "--frames", "1", "--quiet")
+    assert run("Bake", "--engine", "GODOT", "--format", "EXR", "-o", "BAKE", *flags)[0] == 0
+    assert run("check", "BAKE", "--quiet")[0] == 0
+    assert run("export-sea", "--engine", "Godot", "-o", "Sea", "--n", "8", "--quiet")[0] == 0
+
+
+@pytest.mark.parametrize("command", ["bake", "info", "export-sea"])
+@pytest.mark.parametrize("flag", [("--n", "16"), ("--size", "90"), ("--set", "ocean.n=16")])
+def test_samples_beside_tiles_are_refused(run, command, flag):
+    """Tiles have their own; before, a flag was ignored."""
+    code, out, err = run(command, "--tiles", "8:100,8:37", *flag)
+    assert (code, out) == (2, "")
+    assert "and tiles must not be given together" in err
+
+
+def test_order_two_is_answered_with_a_flag(run):
+    for command in (
+        ["export-sea"],
+        ["series", "--at", "0,0", "--fields", "pressure", "-o", "p.csv"],
+    ):
+        code, out, err = run(*command, "--order", "2", "--n", "16")
+        assert (code, out) == (2, "")
+        assert "--order 1" in err
 
 
 def test_version(run):

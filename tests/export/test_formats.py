@@ -153,7 +153,7 @@ def test_the_same_pixels_are_the_same_bytes(name, monkeypatch):
     ids=["transposed", "planar", "strided", "upside-down", "mirrored", "misaligned"],
 )
 def test_arrays_of_any_layout_give_their_own_pixels(name, view):
-    """OpenEXR writes wrong pixels from what is not C-contiguous, and says nothing."""
+    """Encoders read memory in order, whatever the layout of the array that they are given."""
     for dtype in (np.float16, np.float32, np.float64):
         plain = np.arange(5 * 7 * 3, dtype=dtype).reshape(5, 7, 3)
         assert encode(name, view(plain), **options(name, plain)) == encode(

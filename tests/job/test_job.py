@@ -132,6 +132,7 @@ VERDICTS = {
     "ocean.amplitudes":      "r   r   r  r r   r    r     r",
     "ocean.order":           "r   r   r  r r   r    r     r",
     "ocean.bound":           "r   r   r  a r   r    r     r",
+    "ocean.backend":         "r   r   r  r r   r    r     r",
     "bake.frames":           "r   r   r  r r   r    r     r",
     "bake.maps":             "r   r   r  r r   r    r     r",
     "bake.format":           "r   r   r  r r   r    r     r",

@@ -102,6 +102,22 @@ def test_what_is_not_finite_stays_alone():
         assert np.array_equal(out[0], out[4])
 
 
+def framed(field):
+    """Return a tile in a frame of its repetitions, by NumPy."""
+    return np.pad(field, ((1, 2), (1, 2), (0, 0)), mode="wrap")
+
+
+@pytest.mark.parametrize("shape", [(NY, NX), (2, 5), (5, 1)])
+def test_a_frame_repeats_the_tile(shape):
+    field = RNG.standard_normal((*shape, 4))
+    expected = framed(field)
+    given = np.full_like(expected, np.nan)
+    given[1:-2, 1:-2] = field
+    interpolate.frame_texels(given)
+    assert given.shape == (shape[0] + interpolate.FRAME, shape[1] + interpolate.FRAME, 4)
+    assert np.array_equal(given, expected)
+
+
 @pytest.mark.parametrize("spline", [False, True])
 def test_gradients_are_those_of_the_interpolant(spline):
     """
@@ -109,7 +125,8 @@ def test_gradients_are_those_of_the_interpolant(spline):
     h = 1e-5, and rounding / h.
     """
     field = np.ascontiguousarray(RNG.standard_normal((NY, NX, 4)))
-    flat = np.concatenate([np.full(7 * 4, np.nan), field.ravel()])  # another tile before it
+    # another tile before it
+    flat = np.concatenate([np.full(7 * 4, np.nan), framed(field).ravel()])
     gradient = interpolate.spline_gradient if spline else interpolate.bilinear_gradient
 
     def at(u, v):
@@ -137,7 +154,8 @@ def test_many_gradients_at_once_are_those_of_one(spline):
     """
     The same numbers as point by point, added to what is there; round-off of another order of sums.
     """
-    flat, count, block = RNG.standard_normal(4 * NY * NX), 50, interpolate.BLOCK
+    flat = framed(RNG.standard_normal((NY, NX, 4))).ravel()
+    count, block = 50, interpolate.BLOCK
     one, many = (
         (interpolate.spline_gradient, interpolate.spline_gradients)
         if spline

@@ -90,7 +90,7 @@ def test_waves_and_rates(dtype, eps):
 
 
 @pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (-1, -1), (1, -1)])
-def test_scale_derive_and_mix(signs):
+def test_scaled_derive_and_mix(signs):
     one, two, factor, power, other = (
         complex_rows(),
         complex_rows(),
@@ -99,7 +99,7 @@ def test_scale_derive_and_mix(signs):
     )
     first, second = signs
     out = np.empty((ROWS, N))
-    passes.scale(one.real.copy(), factor, out)
+    passes.scaled(one.real.copy(), factor, out)
     assert np.array_equal(out, one.real * factor)
     mixed = np.empty((ROWS, N), dtype=complex)
     halves = [part.copy() for part in (one.real, one.imag)]
@@ -122,60 +122,72 @@ def test_scale_derive_and_mix(signs):
     )  # the compiler may fuse a multiply and an add
 
 
-@pytest.mark.parametrize("columns", [1, 4, 8, 19])
-def test_transpose(columns):
-    block = RNG.standard_normal((20, 11)) + 1j
-    for dtype in (np.complex64, np.complex128):
-        source, out = block.astype(dtype), np.zeros((11, 3, 30), dtype=dtype)
-        moved = (
-            (source, out)
-            if dtype == np.complex128
-            else (source.view(np.float64), out.view(np.float64))
-        )
-        passes.transpose(moved[0], 1, 5, columns, moved[1])
-        assert np.array_equal(out[:, 1, 5 : 5 + columns], source[:columns].T)
-        out[:, 1, 5 : 5 + columns] = 0
-        assert not np.any(out)
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("ny", [1, 7, 8, 19])
+def test_tile(ny, dtype):
+    """Each number goes to its row, spectrum and column, and nothing else changes."""
+    width, spectra, tiles, bands, stride = 16, 2, 3, -(-ny // 8), 2 * ny + 6
+    results = RNG.standard_normal((spectra, width, stride)).astype(dtype)
+    out = np.zeros((bands, tiles, spectra, 8, 8, 2), dtype=dtype)
+    passes.tile(results.reshape(-1), 8, width, spectra, ny, 1, tiles, out.reshape(-1))
+    pairs = results[:, 8:, : 2 * ny].reshape(spectra, 8, ny, 2)
+    for y in range(ny):
+        assert np.array_equal(out[y // 8, 1, :, y % 8], pairs[:, :, y])
+        out[y // 8, 1, :, y % 8] = 0.0
+    assert not np.any(out)
 
 
-@pytest.mark.parametrize("nx", [1, 2, 7, 8])
+@pytest.mark.parametrize("nx", [1, 2, 7, 8, 15, 16, 33, 64])
 def test_pack_and_split(nx):
     """
     Two half spectra go in as A + iB and A - iB; numpy's transform of the packed row has the two
     real fields as its parts.
     """
     columns = (nx + 1) // 2
-    a, b = np.zeros((2, 3, columns), dtype=complex)
+    tiles = -(-columns // 8)
+    a, b = np.zeros((2, columns), dtype=complex)
     for field in (a, b):
-        field[:, 1:] = RNG.standard_normal((3, columns - 1)) + 1j * RNG.standard_normal(
-            (3, columns - 1)
-        )
+        field[1:] = RNG.standard_normal(columns - 1) + 1j * RNG.standard_normal(columns - 1)
     k = 0.7 * np.arange(columns)
-    between = np.stack([a + 1j * b, a - 1j * b, a], axis=1)
-    padded = np.zeros((3, nx // 2 + 1), dtype=complex)
-    packed = np.zeros((3, nx), dtype=complex)
-    first, second = np.empty((2, 2, nx))
+    # the row is number 3 of its tiles; numbers beyond the columns are never used
+    between = np.full((tiles, 3, 8, 8), np.nan, dtype=complex)
+    for s, half in enumerate((a + 1j * b, a - 1j * b, a)):
+        row = np.full(8 * tiles, 1e3 - 1e3j)
+        row[:columns] = half
+        between[:, s, 3] = row.reshape(tiles, 8)
+    padded = np.zeros(nx // 2 + 1, dtype=complex)
+    packed = np.zeros(2 * nx + 1, dtype=complex)  # two rows, and a place for -0
+    first, second = np.empty((2, nx))
 
     def laid_out(plus, minus):
-        conjugated = np.repeat(minus, 2)[:1:-1]
+        conjugated = np.repeat(minus, 2)[::-1].copy()
         conjugated[1::2] *= -1
         return np.repeat(plus, 2), conjugated
 
     def real_field(half):
-        padded[:, :columns] = half
-        return np.fft.irfft(padded[1:], nx) * nx
+        padded[:columns] = half
+        return np.fft.irfft(padded, nx) * nx
 
+    ones = np.ones(columns)
     for (plus, minus), factors, fields in (
-        ((0, 1), laid_out(np.ones(columns), np.ones(columns)), (real_field(a), real_field(b))),
+        ((0, 1), laid_out(ones, ones), (real_field(a), real_field(b))),
         ((2, 2), laid_out(1 - 0.5 * k, 1 + 0.5 * k), (real_field(a), 0.5 * real_field(1j * k * a))),
     ):
-        passes.pack(parts(between), 1, 2, plus, minus, *factors, parts(packed))
-        transformed = parts(np.fft.ifft(packed[:2], axis=-1) * nx)
-        passes.split(transformed, 4.0, first, second)
-        assert np.max(np.abs(first - fields[0])) < 1e-13
-        assert np.max(np.abs(second - 4.0 * fields[1])) < 1e-13
-        passes.real_parts(transformed, second)
-        assert np.array_equal(first, second)
+        for r in range(2):
+            start, o = 3 * 16, 2 * nx * r
+            passes.pack(
+                parts(between).reshape(-1), start, 3, plus, minus, *factors, parts(packed), o, nx
+            )
+        rows = packed[: 2 * nx].reshape(2, nx)
+        assert np.array_equal(rows[0], rows[1])
+        transformed = parts(np.fft.ifft(rows, axis=-1) * nx).reshape(-1)
+        passes.split_row(transformed, 2 * nx, 4.0, first, second)
+        assert np.max(np.abs(first - fields[0])) < 1e-13 * nx
+        assert np.max(np.abs(second - 4.0 * fields[1])) < 1e-13 * nx
+        alone = np.empty((2, nx))
+        passes.real_part(transformed, 2 * nx, alone[0])
+        passes.imaginary_part(transformed, 2 * nx, 4.0, alone[1])
+        assert np.array_equal(alone, [first, second])
 
 
 @pytest.mark.parametrize("t", [0.0, 3.7, -1e6, 1e7, 123456789.123, 1e9, 1e12])

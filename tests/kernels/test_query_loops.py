@@ -42,13 +42,13 @@ def test_reduction(x, size):
     In the first period, and a whole number of periods away: by Python's own remainder, to the
     rounding of x; beyond 2^52 exactly.
     """
-    reduced = query._reduced(x, size)
+    reduced = query.reduced(x, size)
     rounding = 2 * np.spacing(abs(x) if abs(x) < query.FAR * size else size)
     if rounding < size:
         assert -size - rounding <= reduced <= size + rounding
     apart = (reduced - math.fmod(x, size)) / size
     assert abs(apart - round(apart)) * size <= rounding
-    assert query._reduced(x, np.inf) == x
+    assert query.reduced(x, np.inf) == x
 
 
 @pytest.mark.parametrize("steepness", [0.1, 0.6, 0.99])
@@ -134,8 +134,9 @@ def test_texels_and_waves_of_several_tiles_add_up():
             )
             / response
         )
-        flat.append(np.tile(row, (n, 1, 1)).ravel())
-    layout = np.array([[0, n, n], [n * n, n, n]])
+        tile = np.pad(np.tile(row, (n, 1, 1)), ((1, 2), (1, 2), (0, 0)), mode="wrap")
+        flat.append(tile.ravel())
+    layout = np.array([[0, n, n], [(n + 3) ** 2, n, n]])
     x, y = RNG.uniform(-50, 50, (2, 30))
     expected = invert(waves, x, y, 1.0, sizes=sizes, first=np.array([0, 1, 2]))
     offsets, (heights, residuals, jacobians) = np.empty((30, 2)), np.empty((3, 30))
@@ -159,11 +160,9 @@ def test_texels_and_waves_of_several_tiles_add_up():
 def test_sums_against_numpy():
     m = 6
     kx, ky, a, start, omega = RNG.uniform(0.2, 1.0, (5, m))
-    k = np.hypot(kx, ky)
-    potential, depth = 0.7 * a / k, 3.0
+    potential = 0.7 * a / np.hypot(kx, ky)
     waves = np.array([kx, ky, a, potential, start])
-    x, y, z = RNG.uniform(-5, 5, (3, 7))
-    z = -np.mod(z, depth)
+    x, y = RNG.uniform(-5, 5, (2, 7))
     offsets = RNG.uniform(-1, 1, (7, 2))
     tiles = tuple(query.Tiles(np.full((1, 2), np.inf), *NO_TEXELS, np.array([0, m]), waves))
     origin = np.empty((1, 2))
@@ -183,28 +182,6 @@ def test_sums_against_numpy():
     columns += [omega**2 * kx * potential * s, omega**2 * ky * potential * s, -(omega**2) * a * c]
     assert (
         np.max(np.abs(out - np.stack([np.sum(column, axis=1) for column in columns], axis=-1)))
-        < 1e-13
-    )
-    heights = np.empty(7)
-    query.sum_heights(tiles, x, y, origin, heights)
-    f = np.outer(x, kx) + np.outer(y, ky) - start
-    assert np.max(np.abs(heights - np.sum(a * np.cos(f), axis=1))) < 1e-13
-    below = np.empty((7, 7))
-    query.sum_below(tiles, omega, depth, x, y, z, origin, below)
-    along = a * omega * np.cosh(np.outer(z + depth, k)) / np.sinh(k * depth)
-    up = a * omega * np.sinh(np.outer(z + depth, k)) / np.sinh(k * depth)
-    c, s = np.cos(f), np.sin(f)
-    columns = [
-        along * kx / k * c,
-        along * ky / k * c,
-        up * s,
-        along * omega * kx / k * s,
-        along * omega * ky / k * s,
-        -up * omega * c,
-    ]
-    columns += [along * omega / k * c]
-    assert (
-        np.max(np.abs(below - np.stack([np.sum(column, axis=1) for column in columns], axis=-1)))
         < 1e-13
     )
 

@@ -2,27 +2,17 @@
 Kernels as `wgpu` takes them: the WGSL, and SPIR-V of the HLSL and of the generated GLSL.
 """
 
-import os
 import shutil
 import subprocess
 from pathlib import Path
 
-import pytest
+from builders import require
 
 from fftocean.runtime.shaders import ENTRY_POINTS, files
 
 FORMAT = "FFTOCEAN_IMAGE_FORMAT=[[spv::format_rgba16f]] [[spv::nonreadable]]"
 KINDS = ("wgsl", "hlsl-glslang", "hlsl-glslc", "glsl")
 """The WGSL; HLSL by two compilers, one of which optimises; and the GLSL that is generated."""
-
-
-def require(found, reason):
-    """Skip the test if a tool is missing; fail it if FFTOCEAN_REQUIRE_CLIENTS is set."""
-    if found:
-        return
-    if os.environ.get("FFTOCEAN_REQUIRE_CLIENTS", "0") not in ("", "0"):
-        pytest.fail(f"{reason}, and FFTOCEAN_REQUIRE_CLIENTS is set", pytrace=False)
-    pytest.skip(f"{reason}: see tests/clients/README.md")
 
 
 def require_command(name):

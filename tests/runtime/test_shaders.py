@@ -63,7 +63,7 @@ def test_generated_files_are_what_their_tools_make():
 
 def test_a_stale_file_is_told(tmp_path, monkeypatch):
     """After a change of the source, of a generated file, and with one that belongs to no kernel."""
-    for file in shaders._HERE.iterdir():
+    for file in tool.FOLDER.iterdir():
         if file.suffix in (".hlsl", ".glsl", ".metal"):
             (tmp_path / file.name).write_bytes(file.read_bytes())
     monkeypatch.setattr(tool, "FOLDER", tmp_path)
@@ -88,7 +88,7 @@ def test_a_changed_byte_is_told(tmp_path, monkeypatch):
         require_command(command)
     if tool.recorded(tool.file_of("foam", "glsl"))[1] != tool.tool_versions():
         pytest.skip("the tools are not those that made the committed files")
-    for file in shaders._HERE.iterdir():
+    for file in tool.FOLDER.iterdir():
         if file.suffix in (".hlsl", ".glsl", ".metal"):
             (tmp_path / file.name).write_bytes(file.read_bytes())
     monkeypatch.setattr(tool, "FOLDER", tmp_path)

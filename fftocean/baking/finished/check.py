@@ -63,13 +63,22 @@ MIN_STEPS = 8  # steps inside that the step across an edge is compared with
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One problem of a bake."""
+    """
+    One problem of a bake.
+
+    Args:
+        kind: kind of the problem.
+        path: path in the folder.
+        detail: the problem in words.
+        map: map that the file belongs to.
+        frame: frame of the loop.
+    """
 
     kind: Kind
-    path: str  # in the folder
+    path: str
     detail: str
     map: str | None = None
-    frame: int | None = None  # of the loop
+    frame: int | None = None
 
     def __str__(self) -> str:
         frame = "" if self.frame is None else f", frame {self.frame}"

@@ -23,11 +23,17 @@ class Bake:
     """
     Maps of a bake: `bake["height"]` is (frames, ny, nx, channels), float32, row 0 south, x east, y
     north, z up, SI.
+
+    Args:
+        maps: arrays by the name of their map, each (frames, ny, nx, channels), in SI units.
+        times: times of the frames, (frames,) [s].
+        frames: their numbers in the loop.
+        manifest: manifest of the bake, as `manifest.json` has it.
     """
 
     maps: Mapping[str, Real]
-    times: Real  # of the frames, (frames,) [s]
-    frames: tuple[int, ...]  # their numbers in the loop
+    times: Real
+    frames: tuple[int, ...]
     manifest: Mapping[str, Any]
 
     def __repr__(self) -> str:
@@ -50,10 +56,19 @@ class Bake:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BakedCascade:
-    """Tiles of a baked cascade, the largest first; each is a `Bake`."""
+    """
+    Tiles of a baked cascade, the largest first; each is a `Bake`.
+
+    Args:
+        tiles: bakes of the tiles, the largest first.
+        manifest: the list of the tiles, as `cascade.json` has it.
+    """
 
     tiles: tuple[Bake, ...]
-    manifest: Mapping[str, Any]  # the list, `cascade.json`
+    manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        return shortened(f"BakedCascade({', '.join(map(repr, self.tiles))})")
 
     def __len__(self) -> int:
         """Return the number of tiles."""

@@ -9,6 +9,7 @@ from typing import Any
 
 import fftocean
 from fftocean.export.formats import FORMATS
+from fftocean.gpu.device import adapter
 from fftocean.job.job import Job
 from fftocean.job.parameters import PARAMETERS
 from fftocean.transforms import library
@@ -25,7 +26,7 @@ def header_of(job: Job, *, frames: Sequence[int], downsample: int, backend: str)
         job: as the user gave it, before downsampling.
         frames: numbers of the frames in the loop.
         downsample: factor by which the samples a side are fewer than the job's.
-        backend: the FFT library in use.
+        backend: the FFT library in use, or "gpu".
 
     Raises:
         ReaderError: a measured file that cannot be read.
@@ -49,12 +50,10 @@ def _libraries(job: Job, backend: str) -> dict[str, str]:
     """Return the libraries whose next version may give other bits, by their purpose."""
     numba = "numba (off)" if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0") else "numba"
     encoder = (
-        {"encoder": f"OpenEXR {_version('openexr')}"}
-        if FORMATS[job.format].suffix == ".exr"
-        else {}
+        {"encoder": f"isal {_version('isal')}"} if FORMATS[job.format].suffix == ".exr" else {}
     )
     return {
-        "fft": library(backend) or backend,
+        "fft": str(adapter()) if backend == "gpu" else library(backend) or backend,
         "arrays": f"numpy {_version('numpy')}",
         "functions": f"scipy {_version('scipy')}",
         "compiler": f"{numba} {_version('numba')}",

@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from fftocean.errors import OutputError
-from fftocean.files import digest, read_whole, write_whole
+from fftocean.files import AS_BYTES, digest, read_whole, write_whole
 
 MAX_BYTES = 2**33  # a million frames of all maps, each about two thousand
 
@@ -44,9 +44,7 @@ class Journal:
         lines = [_line({"claim": identity}), *map(_line, entries)]
         write_whole(path, b"".join(lines))  # without lines that were cut or changed
         try:
-            self._descriptor = os.open(
-                path, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)
-            )
+            self._descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | AS_BYTES)
         except OSError as error:
             raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
 

@@ -102,7 +102,7 @@ def _with_fixed_values(job: Job, jobs: list[TileJob]) -> list[TileJob]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeaWarning)  # given once, when the tiles are set up
             free = from_oceans(
-                None, settings["ocean.seed"], tuple(tile.job.ocean() for tile in jobs)
+                None, settings["ocean.seed"], tuple(tile.job.ocean(backend="auto") for tile in jobs)
             )
         cascade = constrained(free, *job.fixed)
     except JobError:

@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from fftocean.errors import FolderInUseError, OutputError
+from fftocean.files import AS_BYTES
 
 fcntl: ModuleType | None
 msvcrt: ModuleType | None
@@ -99,7 +100,7 @@ def _acquire(path: Path, deadline: float) -> int:
     """
     while True:
         try:
-            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | AS_BYTES, 0o666)
         except OSError as error:
             raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
         try:

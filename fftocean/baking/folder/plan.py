@@ -37,7 +37,7 @@ class Plan:
 
     def place(self, frame: int) -> int:
         """Return the position of a frame of the loop in the sequence that is baked."""
-        return self.frames.index(frame)
+        return (frame - self.frames[0]) // self.step
 
 
 @dataclass(frozen=True, slots=True)

@@ -271,5 +271,9 @@ def _geometry(frame: Frame | EulerianFrame) -> tuple[Real, Real, Real, Real, Rea
 
 
 def _stacked(channels: Iterable[Real]) -> Real:
-    """Return channels side by side, float32."""
+    """Return channels side by side, float32; those of one such array without a copy."""
+    if isinstance(channels, np.ndarray) and channels.dtype == np.float32:
+        together = np.moveaxis(channels, 0, -1)
+        if together.flags.c_contiguous:
+            return together
     return np.stack([channel.astype(np.float32, copy=False) for channel in channels], axis=-1)

@@ -7,7 +7,9 @@ The same task gives the same bytes.
 import io
 import math
 import threading
+from collections import deque
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +34,9 @@ from fftocean.job.job import Job
 from fftocean.kernels import half
 from fftocean.ocean import Ocean
 from fftocean.products import folding
+
+AHEAD = 2
+"""Most frames that are computed and not written yet, beside the one that is computed."""
 
 STRETCHES = ("stretch_xx", "stretch_xy", "stretch_yy")
 EXTREMES = ("height", "displace_x", "displace_y", *STRETCHES)
@@ -92,7 +97,11 @@ class Scene:
         if isinstance(frame, EulerianFrame):
             moved, water = 0.0, self.ocean.loop_frame(j, self._count, STRETCHES)
         else:
-            moved, water = float(np.max(np.hypot(frame.displace_x, frame.displace_y))), frame
+            square = np.square(frame.displace_x)
+            square += np.square(frame.displace_y)
+            most = np.unravel_index(np.argmax(square), square.shape)
+            moved = math.hypot(frame.displace_x[most], frame.displace_y[most])
+            water = frame
         folds = folding(water)
         return {
             "min_jacobian": folds.min_jacobian,
@@ -100,7 +109,7 @@ class Scene:
             "largest_choppiness": None
             if math.isinf(folds.largest_choppiness)
             else folds.largest_choppiness,
-            "max_height": float(np.max(np.abs(frame.height))),
+            "max_height": max(-float(frame.height.min()), float(frame.height.max())),
             "max_horizontal": frame.choppiness * moved,
         }
 
@@ -114,7 +123,9 @@ class Scene:
             yield from (None for _ in frames)
             return
         span = frames[0] // foam_module.SPAN
-        start = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)[span]
+        starts = np.load(folder / layout.FOAM_STARTS, mmap_mode="r", allow_pickle=False)
+        start = np.array(starts[span])
+        del starts  # a mapped file cannot be removed on Windows
         for j, state in self.foam.states(
             self.ocean, self._count, start, span * foam_module.SPAN, frames[-1] + 1
         ):
@@ -192,11 +203,16 @@ def scene_of(plan: Plan) -> Scene:
     return scene
 
 
-def work(plan: Plan, task: Task) -> Iterator[Entry]:
+def work(plan: Plan, task: Task, *, threads: int = 1) -> Iterator[Entry]:
     """
     Carry out a task; yield an entry for the journal when its result is on the disk.
 
     A task may be repeated, by any worker.
+
+    Args:
+        plan: the plan of the bake.
+        task: what to do of it.
+        threads: number of threads that encode and write frames while the next are computed.
 
     Raises:
         OutputError: a file cannot be written, or cannot store a value.
@@ -205,30 +221,46 @@ def work(plan: Plan, task: Task) -> Iterator[Entry]:
     scene, folder = scene_of(plan), Path(plan.folder)
     if task.kind == "foam":
         yield _write_foam(scene, folder, task.frames, plan.token)
-        return
-    for j, state in zip(task.frames, scene.foam_states(task.frames, folder), strict=True):
-        require_held(folder, plan.token)
-        frame = scene.frame(j)
-        if task.kind == "range":
-            yield {
-                "range": {
-                    "frame": j,
-                    "maps": {name: _range_of(levels) for name, levels in scene.maps(frame, state)},
-                }
-            }
-        else:
+    elif task.kind == "range":
+        for j, state in zip(task.frames, scene.foam_states(task.frames, folder), strict=True):
+            require_held(folder, plan.token)
+            levels = scene.maps(scene.frame(j), state)
+            yield {"range": {"frame": j, "maps": {name: _range_of(one) for name, one in levels}}}
+    else:
+        yield from _write_frames(plan, scene, folder, task.frames, threads)
+
+
+def _write_frames(
+    plan: Plan, scene: Scene, folder: Path, frames: Sequence[int], threads: int
+) -> Iterator[Entry]:
+    """
+    Compute frames, and write them by other threads meanwhile; yield the entry of each in order.
+
+    When this ends or is closed, no thread writes any more.
+    """
+    waiting: deque[tuple[dict[str, Any], dict[str, Future[dict[str, Any]]]]] = deque()
+    pool = ThreadPoolExecutor(threads, "fftocean-writer")
+    try:
+        for j, state in zip(frames, scene.foam_states(frames, folder), strict=True):
+            require_held(folder, plan.token)
+            frame = scene.frame(j)
             files = {
-                name: _write_map(plan, scene, folder, name, j, levels)
+                name: pool.submit(_write_map, plan, scene, folder, name, j, levels)
                 for name, levels in scene.maps(frame, state)
             }
-            yield {
-                "row": {
-                    "frame": j,
-                    "t": frame.t,
-                    "extremes": scene.extremes(j, frame),
-                    "files": files,
-                }
-            }
+            row = {"frame": j, "t": frame.t, "extremes": scene.extremes(j, frame)}
+            waiting.append((row, files))
+            if len(waiting) > AHEAD:
+                yield _finished(*waiting.popleft())
+        while waiting:
+            yield _finished(*waiting.popleft())
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _finished(row: dict[str, Any], files: dict[str, "Future[dict[str, Any]]"]) -> Entry:
+    """Return the entry of a frame, once its files are on the disk."""
+    return {"row": {**row, "files": {name: file.result() for name, file in files.items()}}}
 
 
 def _write_foam(scene: Scene, folder: Path, frames: Sequence[int], token: str) -> Entry:
@@ -252,7 +284,8 @@ def _write_foam(scene: Scene, folder: Path, frames: Sequence[int], token: str) -
 def _write_map(
     plan: Plan, scene: Scene, folder: Path, name: str, j: int, levels: list[Real]
 ) -> dict[str, Any]:
-    """Write a map of a frame; return its entry of the manifest."""
+    """Write a map of a frame, in a thread of its own; return its entry of the manifest."""
+    require_held(folder, plan.token)
     place = plan.place(j)
     file = layout.frame_file(scene.form, name, j, place)
     low, high = plan.ranges.get(name, (None, None))
@@ -276,9 +309,11 @@ def _write_map(
 
 def _channel_ranges(values: Real) -> list[tuple[float, float]]:
     """Return the least and the greatest value of each channel."""
-    return [
-        (float(values[..., c].min()), float(values[..., c].max())) for c in range(values.shape[-1])
-    ]
+    rows, channels = values.shape[0], values.shape[-1]
+    lines = values.reshape(rows, -1)  # along rows first, where numbers lie side by side
+    low = lines.min(axis=0).reshape(-1, channels).min(axis=0)
+    high = lines.max(axis=0).reshape(-1, channels).max(axis=0)
+    return list(zip(low.tolist(), high.tolist(), strict=True))
 
 
 def _range_of(levels: list[Real]) -> list[float]:

@@ -2,7 +2,7 @@
 
 from fftocean.baking.workers import cluster
 from fftocean.baking.workers.local import Executor, Processes, Serial
-from fftocean.errors import JobError
+from fftocean.errors import JobError, suggestion
 from fftocean.job.parameters import spelled
 
 EXECUTORS = ("auto", "serial", "processes", "dask")
@@ -19,7 +19,7 @@ def check_executor(name: str, workers: int | None) -> str:
     if name not in EXECUTORS and "://" not in name:
         raise JobError(
             f"executor must be one of {', '.join(EXECUTORS)}, or an address such as "
-            f"tcp://host:8786, got {name!r:.80}"
+            f"tcp://host:8786, got {name!r:.80}{suggestion(name, EXECUTORS)}"
         )
     if workers is not None and (
         isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= 1024

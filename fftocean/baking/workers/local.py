@@ -20,6 +20,7 @@ from fftocean.baking.folder.journal import Entry
 from fftocean.baking.folder.plan import Plan, Task
 from fftocean.baking.workers import process as worker_process
 from fftocean.errors import OutputError
+from fftocean.host import cores
 
 ATTEMPTS = 3
 """How often a task is begun; if all of its workers die, the task is taken for the cause."""
@@ -52,7 +53,7 @@ class Executor(Protocol):
 
 
 class Serial:
-    """This process alone."""
+    """This process alone: one thread computes, the others encode and write."""
 
     name, workers = "serial", 1
 
@@ -61,7 +62,7 @@ class Serial:
         from fftocean.baking.scene.scene import work
 
         for task in tasks:
-            yield from work(plan, task)
+            yield from work(plan, task, threads=cores())
 
     def __enter__(self) -> "Serial":
         return self

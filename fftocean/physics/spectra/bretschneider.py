@@ -19,13 +19,20 @@ class Bretschneider:
     Pierson-Moskowitz with height and period set free: any wind sea, developed or not. m0 = Hs^2/16
     in closed form.
 
+    Args:
+        hs: significant wave height [m].
+        tp: peak period [s].
+
+    Raises:
+        ParameterError: a height or a period out of its range.
+
     Source: Bretschneider 1959; 15th ITTC (1978), S = A omega^-5 exp(-B omega^-4) with A = 173
     Hs^2/T1^4, B = 691/T1^4.
     Pinned by tests/physics/test_composed_spectra.py: 173, 691, and the closed m0.
     """
 
-    hs: float  # significant wave height [m]
-    tp: float  # peak period [s]
+    hs: float
+    tp: float
 
     def __post_init__(self) -> None:
         keep_checked(self, hs=SIGNIFICANT_WAVE_HEIGHT, tp=PERIOD)
@@ -36,6 +43,9 @@ class Bretschneider:
         """
         Return the sea of mean period `t1` = 2 pi m0/m1 [s]: Tp = (5/4)^(1/4) Gamma(3/4) T1 = 1.296
         T1.
+
+        Raises:
+            ParameterError: a height or a period out of its range.
         """
         return cls(hs=hs, tp=PERIOD.check("t1", t1) * 1.25**0.25 * math.gamma(0.75))
 
@@ -44,6 +54,9 @@ class Bretschneider:
         """
         Return the sea of zero-crossing period `tz` = 2 pi sqrt(m0/m2) [s]: Tp = (5 pi/4)^(1/4) Tz =
         1.408 Tz.
+
+        Raises:
+            ParameterError: a height or a period out of its range.
         """
         return cls(hs=hs, tp=PERIOD.check("tz", tz) * (1.25 * math.pi) ** 0.25)
 

@@ -12,10 +12,20 @@ from fftocean.limits import PEAK, keep_checked
 
 @dataclass(frozen=True, slots=True)
 class CustomSpectrum:
-    """Any function of omega, with its peak. It must return finite values >= 0 of the same shape."""
+    """
+    Any function of omega, with its peak. It must return finite values >= 0 of the same shape.
 
-    function: Callable[[Real], RealLike]  # S(omega) [m^2 s/rad]
-    peak: float  # omega_p [rad/s]
+    Args:
+        function: S(omega) [m^2 s/rad].
+        peak: omega_p [rad/s].
+
+    Raises:
+        ParameterError: a function that cannot be called or gives no finite values >= 0, or a peak
+            out of its range.
+    """
+
+    function: Callable[[Real], RealLike]
+    peak: float
 
     def __post_init__(self) -> None:
         if not callable(self.function):

@@ -51,6 +51,15 @@ class Elfouhaily(WavenumberForm):
     Its own directions are in `spreading`. A `Sea` made of it has its depth and surface tension, or
     is refused.
 
+    Args:
+        speed: wind speed U10 [m/s].
+        fetch: distance over which the wind blows [m]; inf is a fully developed sea.
+        depth: depth of the `Sea` [m]; the spectrum itself is one of deep water.
+        surface_tension: surface tension of the `Sea` [N/m].
+
+    Raises:
+        ParameterError: a wind, fetch, depth or surface tension out of its range.
+
     Source: Elfouhaily, Chapron, Katsaros & Vandemark, J. Geophys. Res. 102 (1997), 15781-15796,
     doi:10.1029/97JC00467, eq. 2, 3, 31-34, 40, 41, 44; the correction of eq. 41 after Mobley (Ocean
     Optics Web Book), who has it from the first author.
@@ -58,10 +67,10 @@ class Elfouhaily(WavenumberForm):
     second peak of B at k_m.
     """
 
-    speed: float  # U10 [m/s]
-    fetch: float = math.inf  # [m]; inf is a fully developed sea
-    depth: float = math.inf  # of the Sea [m]; the spectrum itself is one of deep water
-    surface_tension: float = SURFACE_TENSION  # of the Sea [N/m]
+    speed: float
+    fetch: float = math.inf
+    depth: float = math.inf
+    surface_tension: float = SURFACE_TENSION
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "speed", checked_wind(self.speed))
@@ -117,7 +126,7 @@ class Elfouhaily(WavenumberForm):
         return tuple(np.unique(angular_frequency(k, self.depth, self.surface_tension)).tolist())
 
     def curvature(self, k: RealLike) -> Real:
-        """Return B = k^3 F at `k` [rad/m], > 0: the saturation of the waves of that length [-]."""
+        """Return B = k^3 F at `k` [rad/m], > 0: the saturation there [-], shaped like `k`."""
         omega_c, k_p, friction = (
             self.inverse_wave_age,
             self._peak_wavenumber,
@@ -151,7 +160,7 @@ class Elfouhaily(WavenumberForm):
         return b
 
     def wavenumber_density(self, k: RealLike) -> Real:
-        """Return F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
+        """Return F at `k` [rad/m], > 0: variance per wavenumber [m^3/rad], shaped like `k`."""
         k = np.maximum(np.asarray(k, dtype=np.float64), 0.03 * self._peak_wavenumber)
         f: Real = self.curvature(k) / k**3
         return f

@@ -35,11 +35,19 @@ class JONSWAP:
 
     r = exp(-(omega - omega_p)^2 / (2 sigma^2 omega_p^2)), sigma = 0.07 up to the peak and 0.09
     beyond.
+
+    Args:
+        peak: omega_p [rad/s].
+        alpha: Phillips constant [-].
+        gamma: peak enhancement [-].
+
+    Raises:
+        ParameterError: a peak, alpha or gamma out of its range.
     """
 
-    peak: float  # omega_p [rad/s]
-    alpha: float = 8.1e-3  # Phillips constant [-]
-    gamma: float = 3.3  # peak enhancement [-]
+    peak: float
+    alpha: float = 8.1e-3
+    gamma: float = 3.3
 
     def __post_init__(self) -> None:
         keep_checked(self, peak=PEAK, alpha=PHILLIPS_CONSTANT, gamma=PEAK_ENHANCEMENT)

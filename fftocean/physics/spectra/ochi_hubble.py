@@ -26,14 +26,25 @@ class OchiHubble:
     exp(-(4 lambda + 1)/4 (omega_p/omega)^4). Each half has m0 = Hs^2/16; lambda = 1 is
     Bretschneider, larger is narrower.
 
+    Args:
+        hs_low: significant wave height of the low-frequency half [m].
+        tp_low: its peak period [s], the longer.
+        lambda_low: its shape [-].
+        hs_high: significant wave height of the high-frequency half [m].
+        tp_high: its peak period [s].
+        lambda_high: its shape [-].
+
+    Raises:
+        ParameterError: a height, period or shape out of its range.
+
     Source: Ochi & Hubble, On six-parameter wave spectra, Proc. 15th Coastal Engineering Conf.
     (1976), 301-328, doi:10.9753/icce.v15.18.
     """
 
-    hs_low: float  # significant wave height of the low-frequency half [m]
-    tp_low: float  # its peak period [s], the longer
-    lambda_low: float  # its shape [-]
-    hs_high: float  # the same of the high-frequency half
+    hs_low: float
+    tp_low: float
+    lambda_low: float
+    hs_high: float
     tp_high: float
     lambda_high: float
     _halves: tuple[GammaSpectrum, ...] = field(init=False, repr=False, compare=False)

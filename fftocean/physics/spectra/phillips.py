@@ -42,16 +42,27 @@ class Phillips(WavenumberForm):
     that. The cos^2 of the source lets as many waves run against the wind as with it;
     `CosineSquared` is its front half.
 
+    Args:
+        speed: wind speed V [m/s]; the source does not say how high it blows.
+        amplitude: A [-].
+        cutoff: l [m]: waves shorter than about 2 pi l are smoothed away.
+        depth: depth of the `Sea` [m].
+        surface_tension: surface tension of the `Sea` [N/m].
+
+    Raises:
+        ParameterError: a value out of its range, or a depth or surface tension that no such sea
+            has.
+
     Source: Tessendorf, Simulating Ocean Water, SIGGRAPH course notes (2001), eq. 23 and 24; the
     form from Phillips 1958. Pinned by tests/physics/test_wavenumber_spectra.py, against the closed
     m0 and against `PiersonMoskowitz`.
     """
 
-    speed: float  # V [m/s]; the source does not say how high it blows
-    amplitude: float  # A [-]
-    cutoff: float = 0.0  # l [m]: waves shorter than about 2 pi l are smoothed away
-    depth: float = math.inf  # of the Sea [m]
-    surface_tension: float = 0.0  # of the Sea [N/m]
+    speed: float
+    amplitude: float
+    cutoff: float = 0.0
+    depth: float = math.inf
+    surface_tension: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "speed", checked_wind(self.speed))
@@ -134,7 +145,7 @@ class Phillips(WavenumberForm):
         )
 
     def wavenumber_density(self, k: RealLike) -> Real:
-        """Return F at `k` [rad/m], > 0: variance per wavenumber magnitude [m^3/rad]."""
+        """Return F at `k` [rad/m], > 0: variance per wavenumber [m^3/rad], shaped like `k`."""
         amplitude = self.amplitude if self.speed else 0.0
         # there exp(-1/x^2) is 0 in double precision
         kl = np.maximum(np.asarray(k, dtype=np.float64) * self._longest, 0.03)

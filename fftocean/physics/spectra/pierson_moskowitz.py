@@ -30,10 +30,17 @@ class PiersonMoskowitz:
     """
     S = alpha g^2 omega^-5 exp(-5/4 (omega_p/omega)^4), the fully developed sea  (Pierson &
     Moskowitz 1964).
+
+    Args:
+        peak: omega_p [rad/s].
+        alpha: Phillips constant [-].
+
+    Raises:
+        ParameterError: a peak or alpha out of its range.
     """
 
-    peak: float  # omega_p [rad/s]
-    alpha: float = 8.1e-3  # Phillips constant [-]
+    peak: float
+    alpha: float = 8.1e-3
 
     def __post_init__(self) -> None:
         keep_checked(self, peak=PEAK, alpha=PHILLIPS_CONSTANT)
@@ -43,6 +50,9 @@ class PiersonMoskowitz:
         """
         Return the fully developed sea under a wind of `speed` (U10) [m/s]: omega_p = 0.877 g /
         (1.026 U10).
+
+        Raises:
+            ParameterError: a wind speed out of its range.
         """
         speed = checked_wind(speed)
         return cls(
@@ -55,6 +65,9 @@ class PiersonMoskowitz:
         """
         Return the sea of significant wave height `hs` [m] and peak period `tp` [s]: alpha follows
         from m0 = alpha g^2 / (5 omega_p^4).
+
+        Raises:
+            ParameterError: a height or a period out of its range.
         """
         tp = PERIOD.check("tp", tp)
         return cls(peak=2.0 * np.pi / tp, alpha=phillips_constant(hs, tp, 0.2))

@@ -25,14 +25,22 @@ class TabulatedSpectrum:
     Frequencies in Hz and densities in m^2/Hz, as buoys report them; the call takes and gives omega
     like any other spectrum. With a `depth` it states that of the water in which it was measured,
     which a `Sea` then has.
+
+    Args:
+        frequency: f [Hz], strictly ascending, > 0.
+        density: S(f) [m^2/Hz], >= 0.
+        depth: still-water depth of the measurement [m]; None states none.
+        tail: exponent of the tail [-]; None has none.
+
+    Raises:
+        ParameterError: tables of different lengths, frequencies that do not rise, negative
+            densities, or a tail out of its range.
     """
 
-    frequency: Sequence[float]  # f [Hz], strictly ascending, > 0
-    density: Sequence[float]  # S(f) [m^2/Hz], >= 0
-    depth: float | None = field(default=None, kw_only=True)  # [m]; None states none
-    tail: float | None = field(
-        default=None, kw_only=True
-    )  # exponent of the tail [-]; None has none
+    frequency: Sequence[float]
+    density: Sequence[float]
+    depth: float | None = field(default=None, kw_only=True)
+    tail: float | None = field(default=None, kw_only=True)
     _omega: Real = field(init=False, repr=False, compare=False)
     _s: Real = field(init=False, repr=False, compare=False)
 

@@ -42,10 +42,17 @@ class TMA:
     `spectrum` is the sea as it would be in deep water, so `TMA(JONSWAP.from_sea_state(hs=3, tp=9),
     depth=10)` has *less* than 3 m of waves; `TMA.from_sea_state(hs=3, tp=9, depth=10)` has 3 m in
     that depth.
+
+    Args:
+        spectrum: spectrum of the sea in deep water.
+        depth: still-water depth [m].
+
+    Raises:
+        ParameterError: a depth out of its range, or a spectrum without a peak.
     """
 
-    spectrum: FrequencySpectrum  # in deep water
-    depth: float  # [m]
+    spectrum: FrequencySpectrum
+    depth: float
 
     def __post_init__(self) -> None:
         require_spectrum("spectrum", self.spectrum)
@@ -141,7 +148,7 @@ class TMA:
     def at_waves(self, omega: RealLike, k: Real) -> Real:
         """
         Return S at `omega` where the wavenumbers `k` [rad/m] of gravity waves in this depth are
-        known, [m^2 s/rad].
+        known, [m^2 s/rad]; all have one shape.
         """
         return self.spectrum(omega) * kitaigorodskii_at(k, self.depth)
 

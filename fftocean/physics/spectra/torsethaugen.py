@@ -35,16 +35,25 @@ class Torsethaugen:
     `exact=False` norms gamma with the published regression (rounded to (1 + 1.1 ln^1.19
     gamma)/gamma in the simplified form): Hs is then up to 2.5 % off.
 
+    Args:
+        hs: significant wave height of everything [m].
+        tp: peak period of the higher system, nearly always [s].
+        form: "simplified" or "full".
+        exact: True for an Hs that is exactly `hs`, False for the published norms.
+
+    Raises:
+        ParameterError: a height or a period out of its range, or an unknown form.
+
     Source: Torsethaugen, SINTEF report STF22 A96204 (1996); Torsethaugen & Haver, Simplified double
     peak spectral model for ocean waves, Proc. 14th ISOPE (2004), paper 2004-JSC-193; DNV-RP-C205
     (2010), appendix A. None of them has a doi. Pinned by tests/physics/test_composed_spectra.py,
     against an independent implementation's figures.
     """
 
-    hs: float  # significant wave height of everything [m]
-    tp: float  # peak period of the higher system, nearly always [s]
-    form: str = "simplified"  # or "full"
-    exact: bool = True  # Hs to the last digit, not as the published norms have it
+    hs: float
+    tp: float
+    form: str = "simplified"
+    exact: bool = True
     _systems: tuple[GammaSpectrum, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -14,11 +14,19 @@ from fftocean.physics.spreading.donelan_banner import DonelanBanner
 class Blend:
     """
     (1 - weight) first + weight second: from the first model at weight 0 to the second at weight 1.
+
+    Args:
+        first: model at weight 0.
+        second: model at weight 1.
+        weight: share of `second` [-].
+
+    Raises:
+        ParameterError: a weight outside 0 to 1.
     """
 
     first: Spreading = field(default_factory=DonelanBanner)
     second: Spreading = field(default_factory=CosineSquared)
-    weight: float = field(default=0.5, kw_only=True)  # share of `second` [-]
+    weight: float = field(default=0.5, kw_only=True)
 
     def __post_init__(self) -> None:
         require_spreading("first", self.first)

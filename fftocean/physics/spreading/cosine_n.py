@@ -19,9 +19,15 @@ class CosineN:
 
     n = 2 is `CosineSquared`, n = 0 the even half circle. Source: Pierson, Neumann & James 1955 (n =
     2); the general n in DNV-RP-C205.
+
+    Args:
+        n: exponent [-].
+
+    Raises:
+        ParameterError: an exponent out of its range.
     """
 
-    n: float  # exponent [-]
+    n: float
 
     def __post_init__(self) -> None:
         keep_checked(self, n=SPREADING_EXPONENT)

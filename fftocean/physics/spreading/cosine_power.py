@@ -24,9 +24,15 @@ class CosinePower:
     """
     D = Gamma(s+1) / (2 sqrt(pi) Gamma(s+1/2)) cos^2s(theta/2), one s for all frequencies
     (Longuet-Higgins et al. 1963).
+
+    Args:
+        s: exponent [-]; 0 is all round, 25 a narrow swell.
+
+    Raises:
+        ParameterError: an exponent out of its range.
     """
 
-    s: float  # exponent [-]: 0 is all round, 25 a narrow swell
+    s: float
 
     def __post_init__(self) -> None:
         keep_checked(self, s=SPREADING_EXPONENT)

@@ -21,13 +21,19 @@ class CustomSpreading:
     so a bell round any of them of any width down to 0.1 degree is good to 1e-12, and so is anything
     smooth; a function with a kink or a jump that `breaks` does not name is refused when the
     quadrature sees it. Between frequencies the norm is interpolated, to 1e-12 as well.
+
+    Args:
+        function: f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi].
+        breaks: angles theta at which it has a kink, a jump or a narrow bell [rad], besides 0,
+            +-pi/2 and +-pi.
+
+    Raises:
+        ParameterError: a function that cannot be called, gives negative values, or has a kink that
+            `breaks` does not name.
     """
 
-    function: Function  # f(omega, theta, peak) >= 0, any size; theta [rad] in [-pi, pi]
-    breaks: Sequence[
-        float
-        # where it has a kink, a jump or a narrow bell in theta [rad], besides 0, +-pi/2 and +-pi
-    ] = ()
+    function: Function
+    breaks: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         if not callable(self.function) or isinstance(self.function, type):

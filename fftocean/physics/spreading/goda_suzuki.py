@@ -16,16 +16,22 @@ class GodaSuzuki:
     Mitsuyasu's law with a given s at the peak: 10 for wind waves, 25 for young swell, 75 for swell
     from far away.
 
+    Args:
+        s_max: s at the peak [-].
+
+    Raises:
+        ParameterError: an exponent out of its range.
+
     Source: Goda & Suzuki 1975; Goda, Random Seas and Design of Maritime Structures.
     """
 
-    s_max: float  # s at the peak [-]
+    s_max: float
 
     def __post_init__(self) -> None:
         keep_checked(self, s_max=SPREADING_EXPONENT)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """Return the exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
+        """Return the exponent s [-] at `omega` [rad/s], at most `SHARPEST`, shaped like it."""
         return peaked_exponent(relative(omega, peak), self.s_max)
 
     def __call__(self, omega: RealLike, theta: RealLike, peak: float, /) -> Real:

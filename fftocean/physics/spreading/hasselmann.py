@@ -22,17 +22,23 @@ class Hasselmann:
     narrow the peak is. At 1.05 the published fit steps by 3 %; splitting at 1, as is often printed,
     makes that a step of 40 % at the very peak.
 
+    Args:
+        speed: wind speed U10 [m/s].
+
+    Raises:
+        ParameterError: a wind speed out of its range.
+
     Source: Hasselmann, Dunckel & Ewing, J. Phys. Oceanogr. 10 (1980), 1264-1280,
     doi:10.1175/1520-0485(1980)010<1264:DWSODJ>2.0.CO;2.
     """
 
-    speed: float  # U10 [m/s]
+    speed: float
 
     def __post_init__(self) -> None:
         keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """Return the exponent s [-] at `omega` [rad/s]."""
+        """Return the exponent s [-] at `omega` [rad/s], shaped like it."""
         x = relative(omega, peak)
         mu = -2.33 - 1.45 * (self.speed * peak / GRAVITY - 1.17)
         return np.where(

@@ -26,17 +26,23 @@ class Mitsuyasu:
 
     The older the sea (the slower the wind beside its waves), the narrower. c_p = g/omega_p.
 
+    Args:
+        speed: wind speed U10 [m/s].
+
+    Raises:
+        ParameterError: a wind speed out of its range.
+
     Source: Mitsuyasu et al., J. Phys. Oceanogr. 5 (1975), 750-760,
     doi:10.1175/1520-0485(1975)005<0750:OOTDSO>2.0.CO;2.
     """
 
-    speed: float  # U10 [m/s]
+    speed: float
 
     def __post_init__(self) -> None:
         keep_checked(self, speed=WIND_SPEED)
 
     def exponent(self, omega: RealLike, peak: float) -> Real:
-        """Return the exponent s [-] at `omega` [rad/s]; at most `SHARPEST`."""
+        """Return the exponent s [-] at `omega` [rad/s], at most `SHARPEST`, shaped like it."""
         # a hundredth makes s_p a million already
         inverse_age = max(self.speed * peak / GRAVITY, 1e-2)
         return peaked_exponent(relative(omega, peak), 11.5 * inverse_age**-2.5)

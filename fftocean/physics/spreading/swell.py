@@ -30,12 +30,19 @@ class SwellElongation:
     base is itself a power of cos(theta/2) the exponents add and the norm is closed; else it is a
     quadrature like `CustomSpreading`'s.
 
+    Args:
+        base: spreading that is elongated.
+        xi: swell, 0 to 1 [-].
+
+    Raises:
+        ParameterError: xi outside 0 to 1, or a base that is no spreading.
+
     Source: Horvath, Empirical directional wave spectra for computer graphics, DigiPro 2015,
     doi:10.1145/2791261.2791267 (his own code has 16.1 for 16 and a norm over the front half only).
     """
 
     base: Spreading = field(default_factory=DonelanBanner)
-    xi: float = field(default=0.5, kw_only=True)  # swell [-], 0 to 1
+    xi: float = field(default=0.5, kw_only=True)
 
     def __post_init__(self) -> None:
         require_spreading("base", self.base)
@@ -52,7 +59,7 @@ class SwellElongation:
         return tuple(getattr(self.base, "frequency_breaks", ()))
 
     def exponent_added(self, omega: RealLike, peak: float) -> Real:
-        """Return 16 tanh(omega_p/omega) xi^2 [-] at `omega`."""
+        """Return 16 tanh(omega_p/omega) xi^2 [-] at `omega`, shaped like it."""
         s: Real = 16.0 * np.tanh(1.0 / relative(omega, peak)) * self.xi**2
         return s
 

@@ -22,9 +22,15 @@ class WrappedNormal:
     Its circular spread (Kuik et al. 1988), which `moments.mean_direction_and_spread` measures, is
     sqrt(2 (1 - exp(-sigma^2/2))): a little less than sigma. Source: Mardia, Statistics of
     Directional Data (1972); Briggs et al. 1995 for waves.
+
+    Args:
+        spread: sigma, the standard deviation before winding [degrees].
+
+    Raises:
+        ParameterError: a spread out of its range.
     """
 
-    spread: float  # sigma, the standard deviation before winding [degrees]
+    spread: float
 
     def __post_init__(self) -> None:
         keep_checked(self, spread=SPREAD)

@@ -5,9 +5,8 @@ Kernels by which a graphics processor runs the sea of a package; docs/kernels.md
 one file an entry point: GLSL 450 for Vulkan and Godot, and Metal.
 """
 
-from pathlib import Path
-
 from fftocean.errors import ParameterError
+from fftocean.shader_files import shader
 
 ENTRY_POINTS = ("rows", "columns", "mips", "mips_far", "textures", "foam", "heights")
 """The kernels, in the order in which a frame runs them."""
@@ -19,8 +18,6 @@ LANGUAGES = SOURCES + GENERATED
 MOST_SIDE = 512
 """Samples a side of a tile, at most: four complex fields of one line fill 16 KiB."""
 MOST_TILES = 16
-
-_HERE = Path(__file__).resolve().parent
 
 
 def names(language: str) -> tuple[str, ...]:
@@ -47,4 +44,4 @@ def files(language: str) -> dict[str, bytes]:
     Raises:
         ParameterError: there are no kernels in this language.
     """
-    return {name: (_HERE / name).read_bytes() for name in names(language)}
+    return {name: shader(name) for name in names(language)}

@@ -1,0 +1,95 @@
+"""Functions and arrays at given addresses, and shared counters, for compiled code."""
+
+import ctypes
+from typing import Any
+
+import numba
+import numpy as np
+from llvmlite import ir
+from numba.core import types
+from numba.extending import overload
+
+from fftocean.arrays import Integer, Real
+
+_intrinsic: Any = numba.extending.intrinsic
+_carray: Any = numba.carray  # type: ignore[attr-defined]
+_EXECUTE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)
+
+
+def execute(function: int, plan: int, source: int, result: int) -> None:
+    """
+    Call function(plan, source, result), all four given as addresses.
+
+    It is the signature of `fftw_execute_dft`.
+    """
+    _EXECUTE(function)(plan, source, result)
+
+
+@overload(execute, strict=False)
+def _compiled_execute(function: Any, plan: Any, source: Any, result: Any) -> Any:
+    return lambda function, plan, source, result: _execute(function, plan, source, result)
+
+
+@_intrinsic
+def _execute(context: Any, function: Any, plan: Any, source: Any, result: Any) -> Any:
+    signature = types.void(types.intp, types.intp, types.intp, types.intp)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        address = ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [address] * 3)
+        callee = builder.inttoptr(arguments[0], kind.as_pointer())
+        builder.call(callee, [builder.inttoptr(a, address) for a in arguments[1:]])
+        return context.get_dummy_value()
+
+    return signature, generate
+
+
+def take(counter: Integer) -> int:
+    """
+    Return the first number of an array, and add 1 to it.
+
+    In compiled code no other thread can come in between, so threads that take numbers in turns get
+    each once.
+    """
+    number = int(counter[0])
+    counter[0] += 1
+    return number
+
+
+@overload(take, strict=False)
+def _compiled_take(counter: Any) -> Any:
+    return lambda counter: _take(counter)
+
+
+@_intrinsic
+def _take(context: Any, counter: Any) -> Any:
+    signature = types.int64(counter)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        kind = signature.args[0]
+        data = context.make_array(kind)(context, builder, arguments[0]).data
+        return builder.atomic_rmw("add", data, ir.IntType(64)(1), "monotonic")
+
+    return signature, generate
+
+
+def numbers_at(address: int, count: int, like: Real) -> Real:
+    """Return the array of `count` numbers at an address, of the type of another array's."""
+    held: Any = (ctypes.c_char * (count * like.itemsize)).from_address(address)
+    numbers: Real = np.frombuffer(held, like.dtype)
+    return numbers
+
+
+@overload(numbers_at, strict=False)
+def _compiled_numbers_at(address: Any, count: Any, like: Any) -> Any:
+    return lambda address, count, like: _carray(_pointer(address, like), count)
+
+
+@_intrinsic
+def _pointer(context: Any, address: Any, like: Any) -> Any:
+    signature = types.CPointer(like.dtype)(types.intp, like)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
+
+    return signature, generate

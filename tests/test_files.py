@@ -1,0 +1,58 @@
+"""Whole files on systems where an open file keeps its name, and a folder cannot be opened."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from fftocean import files
+from fftocean.errors import OutputError
+
+
+def held(monkeypatch, times):
+    """Let a file be open elsewhere for some attempts to rename it; return those that failed."""
+    real, failed = Path.replace, []
+
+    def replace(path, target):
+        if len(failed) < times:
+            failed.append(path)
+            raise PermissionError(13, "Permission denied")
+        return real(path, target)
+
+    monkeypatch.setattr(Path, "replace", replace)
+    return failed
+
+
+def test_a_file_that_is_open_for_a_moment_is_waited_for(tmp_path, monkeypatch):
+    """As on Windows, where a virus scanner opens what was just written."""
+    monkeypatch.setattr(files, "PATIENCE", 60.0)
+    failed = held(monkeypatch, 3)
+    files.write_whole(tmp_path / "a", b"one\n")
+    assert len(failed) == 3
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"one\n"
+
+
+def test_one_that_stays_open_is_an_error(tmp_path, monkeypatch):
+    """Nothing temporary is left, and what was there is unchanged."""
+    (tmp_path / "a").write_bytes(b"before")
+    monkeypatch.setattr(files, "PATIENCE", 0.05)
+    held(monkeypatch, 10**9)
+    with pytest.raises(OutputError, match="a could not be written: Permission denied"):
+        files.write_whole(tmp_path / "a", b"one\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"before"
+
+
+def test_a_folder_is_no_file(tmp_path, monkeypatch):
+    """Windows refuses to open one, as it does a file without the right to read it."""
+    assert files.read_whole(tmp_path) is None
+
+    def refuse(*_):
+        raise PermissionError(13, "Permission denied")
+
+    (tmp_path / "a").write_bytes(b"one")
+    monkeypatch.setattr(os, "open", refuse)
+    assert files.read_whole(tmp_path) is None
+    with pytest.raises(OutputError, match="a cannot be read: Permission denied"):
+        files.read_whole(tmp_path / "a")
