@@ -154,3 +154,12 @@ def test_locks_are_renewed_in_the_child_only(monkeypatch):
     with held:
         assert forked(lambda: 0 if holder["lock"].acquire(timeout=1.0) else 1) == 0
         assert holder["lock"] is held
+
+
+def test_a_child_is_not_the_process_that_made_an_object():
+    process = forks.Process()
+    assert process.is_current
+    pid = os.fork()
+    if not pid:
+        os._exit(17 if process.is_current else 0)
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0

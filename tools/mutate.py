@@ -320,24 +320,20 @@ class Runner:
 
     def run(self, mutations: Sequence[Mutation]) -> list[Result]:
         """Return the results of all, in the order given."""
-        for tests in dict.fromkeys(m.tests for m in mutations if not m.equivalent):
-            pending = [m for m in mutations if m.tests == tests and not m.equivalent]
-            if all(key_of(m) in self.known for m in pending):
-                continue
+        pending = [m for m in mutations if not m.equivalent and key_of(m) not in self.known]
+        sets = dict.fromkeys(m.tests for m in pending)
+        for tests in sets:
             if baseline_key(tests) not in self.known:
                 self._start(tests, None, 3600.0, baseline_key(tests), "baseline")
-                self._wait()
-            baseline = self.known[baseline_key(tests)]
+        self._wait()
+        seconds = {tests: self.known[baseline_key(tests)].seconds for tests in sets}
+        for mutation in sorted(pending, key=lambda m: seconds[m.tests]):
+            key, baseline = key_of(mutation), self.known[baseline_key(mutation.tests)]
+            if baseline.outcome != "survived":
+                self._keep(Result(mutation.name, key, "baseline", 0.0, baseline.test))
+                continue
             limit = max(LEAST_LIMIT, LIMIT_FACTOR * baseline.seconds)
-            for mutation in pending:
-                if key_of(mutation) in self.known:
-                    continue
-                if baseline.outcome != "survived":
-                    self._keep(
-                        Result(mutation.name, key_of(mutation), "baseline", 0.0, baseline.test)
-                    )
-                    continue
-                self._start(tests, mutation, limit, key_of(mutation), mutation.name)
+            self._start(mutation.tests, mutation, limit, key, mutation.name)
         self._wait()
         return [
             Result(m.name, "", "equivalent", 0.0) if m.equivalent else self.known[key_of(m)]
