@@ -23,8 +23,15 @@ class FFTOceanError(Exception):
     exit_code = 2
 
     def __str__(self) -> str:
-        """Return the message on one line, as a value in it may have several: an array, a text."""
-        return " ".join(line.strip() for line in super().__str__().splitlines())
+        r"""
+        Return the message on one line, as a value in it may have several: an array, whose lines are
+        indented, or a text, whose breaks are written as \n.
+        """
+        lines = super().__str__().splitlines()
+        return "".join(
+            f" {line.strip()}" if line[:1].isspace() else f"\\n{line}" if i else line
+            for i, line in enumerate(lines)
+        ).strip()
 
 
 class ParameterError(FFTOceanError, ValueError):

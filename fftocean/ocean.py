@@ -453,10 +453,12 @@ class Ocean:
         Return the water at time t in the memory of the graphics processor.
 
         Args:
-            t, fields: as in `frame`.
+            t: time [s], as in `frame`.
+            fields: as in `frame`.
 
         Returns:
-            The fields as buffers of `wgpu`; their `read` gives `frame(t, fields)`.
+            The fields as buffers of `wgpu`, (ny, nx) each and normals (ny, nx, 3); their `read`
+            gives `frame(t, fields)`.
 
         Raises:
             ParameterError: this ocean is not one of `backend="gpu"`, and as `frame`.

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -84,12 +85,14 @@ def test_a_bake_runs_without_stdout(monkeypatch, capsys):
 
 @pytest.mark.usefixtures("fast_bakes")
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-@pytest.mark.parametrize(("at", "there"), [(1, 0), (2, 1), (5, 3)])
+@pytest.mark.parametrize(("at", "there"), [(1, 0), (2, 1), (5, None)])
 def test_a_signal_leaves_no_manifest(run, number, code, at, there, monkeypatch):
     """
     A signal in the middle of the at-th write removes the temporary file and leaves no final one.
 
-    The writes are the journal, the job, and for each frame its map and its line in the journal.
+    The writes are the journal, the job, and for each frame its map and its line in the journal;
+    maps are written by threads, so that from there on the sequence, and the number of frames that
+    are finished, is chance.
     """
     before = signal.getsignal(signal.SIGINT)
     signal.signal(
@@ -112,9 +115,17 @@ def test_a_signal_leaves_no_manifest(run, number, code, at, there, monkeypatch):
     assert left == code
     assert not out
     assert err.count("\n") <= 2
-    assert ("1 of 4 frames are finished; run the same command again to resume" in err) == (at == 5)
-    assert len(calls) == at
-    assert len([p for p in Path("out").rglob("*") if p.is_file()]) == there
+    files = [p for p in Path("out").rglob("*") if p.is_file()]
+    assert not [p for p in files if p.suffix == ".tmp"]
+    if there is None:
+        finished = re.search(r"(\d) of 4 frames are finished; run the same command again", err)
+        assert finished
+        maps = [p for p in files if p.suffix == ".exr"]
+        assert int(finished[1]) <= len(maps) < 4
+    else:
+        assert "frames are finished" not in err or "0 of 4" in err
+        assert len(calls) == at
+        assert len(files) == there
     assert not Path("out/manifest.json").exists()
 
 
