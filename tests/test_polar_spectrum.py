@@ -29,3 +29,15 @@ def test_narrow_seas_keep_their_energy(spreading):
     frequency, theta, density = polar_spectrum(sea, 0.5)
     total = np.sum(density) * (frequency[1] - frequency[0]) * math.degrees(theta[1] - theta[0])
     assert total == pytest.approx(fo.moments.moment(spectrum, 0, 0.0, np.pi), rel=1e-3)
+
+
+@pytest.mark.parametrize("direction", [10.0, 100.0, 190.0, 350.0])
+@pytest.mark.parametrize("spreading", [fo.LongCrested(), fo.CosinePower(s=1e6)])
+def test_energy_lies_in_the_direction_of_the_sea(direction, spreading):
+    """The mean direction of the cells is the sea's to half a cell of 1.5 degrees."""
+    spectrum = fo.JONSWAP.from_sea_state(hs=2.0, tp=8.0)
+    sea = fo.Sea(fo.WaveSystem(spectrum=spectrum, spreading=spreading, direction=direction))
+    _, theta, density = polar_spectrum(sea, 0.5)
+    middle = 0.5 * (theta[1:] + theta[:-1])
+    mean = np.degrees(np.angle(np.sum(density @ np.exp(1j * middle)))) % 360.0
+    assert mean == pytest.approx(direction, abs=0.75)

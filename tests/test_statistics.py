@@ -262,3 +262,10 @@ def test_peak_period_of_one_and_of_two_lines(omega):
     assert peak_period(np.array([5.0, 1.0]), lines) == pytest.approx(
         2.0 * math.pi / omega, rel=0.01
     )
+
+
+def test_share_of_the_skewness():
+    from fftocean.statistics import Skewness
+
+    assert Skewness(specified=0.2, resolved=0.15, expected=0.1, realised=0.3).share == 0.15 / 0.2
+    assert Skewness(specified=None, resolved=0.15, expected=0.1, realised=0.3).share == 0.0
