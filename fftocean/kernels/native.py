@@ -22,7 +22,7 @@ def execute(function: int, plan: int, source: int, result: int) -> None:
 
     It is the signature of `fftw_execute_dft`.
     """
-    _EXECUTE(function)(plan, source, result)
+    _EXECUTE(int(function))(int(plan), int(source), int(result))
 
 
 @overload(execute, strict=False)
@@ -75,7 +75,7 @@ def _take(context: Any, counter: Any) -> Any:
 
 def numbers_at(address: int, count: int, like: Real) -> Real:
     """Return the array of `count` numbers at an address, of the type of another array's."""
-    held: Any = (ctypes.c_char * (count * like.itemsize)).from_address(address)
+    held: Any = (ctypes.c_char * (int(count) * like.itemsize)).from_address(int(address))
     numbers: Real = np.frombuffer(held, like.dtype)
     return numbers
 
