@@ -330,6 +330,28 @@ def test_overwriting_removes_what_was_baked_and_nothing_else(copy, tmp_path):
     assert fo.check(copy) == ()
 
 
+def test_an_unfinished_cascade_has_no_list(copy):
+    """Nor while it is baked again: the list goes before the first tile is touched."""
+
+    def stop(_):
+        raise InterruptedError
+
+    same = JOB.replaced({"bake.pictures": ["sheet", "tiling"]})
+    with pytest.raises(InterruptedError):
+        bake(copy, same, listen=stop)
+    assert not (copy / "cascade.json").exists()
+    assert ("unfinished", "cascade.json") in told(copy)
+
+
+def test_one_tile_is_replaced_by_a_cascade_on_request(tmp_path):
+    """Nothing of the one tile is left among the tiles."""
+    fo.bake(JOB.replaced({"ocean.n": 8}), tmp_path / "sea", executor="serial")
+    bake(tmp_path / "sea", overwrite=True)
+    bake(tmp_path / "fresh")
+    assert tree(tmp_path / "sea") == tree(tmp_path / "fresh")
+    assert fo.check(tmp_path / "sea") == ()
+
+
 def test_a_folder_in_use_is_refused(copy, capsys):
     """Exit code 6 for the cascade, for a bake of one tile into it, and for a check."""
     copy_flags = ["bake", "-o", str(copy), "--quiet", "--frames", "1"]

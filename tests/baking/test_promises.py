@@ -2,7 +2,11 @@
 
 import contextlib
 import dataclasses
+import os
+import queue
+import signal
 import threading
+from pathlib import Path
 from types import SimpleNamespace
 
 import builders
@@ -21,7 +25,9 @@ from fftocean.baking.folder.lock import locked
 from fftocean.baking.folder.plan import Plan, Task, frames_of
 from fftocean.baking.folder.sealed import read_sealed, sealed
 from fftocean.baking.scene import scene as scenes
-from fftocean.baking.workers.local import ATTEMPTS, Serial, _remaining
+from fftocean.baking.workers import local
+from fftocean.baking.workers.cluster import Cluster
+from fftocean.baking.workers.local import ATTEMPTS, Serial, _remaining, _Worker
 from fftocean.errors import FolderInUseError, IntegrityError, JobError, OutputError
 from fftocean.files import as_json
 
@@ -332,3 +338,93 @@ def test_the_rest_of_a_dead_worker_s_task():
     assert _remaining(foam, 1, {-1}, 1) == [(foam, 2)]
     with pytest.raises(OutputError, match=r"frame 4 to 7 could not be baked: .* exit code -9; few"):
         _remaining(task, ATTEMPTS, set(), -9)
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """Return the keywords with which a worker would be started, which none is."""
+    seen = []
+
+    def start(_command, **keywords):
+        seen.append(keywords)
+        raise OSError(12, "Cannot allocate memory")
+
+    monkeypatch.setattr(local.subprocess, "Popen", start)
+    with pytest.raises(OutputError, match="a worker could not be started: Cannot allocate memory"):
+        _Worker(17, queue.SimpleQueue())
+    return seen[0]
+
+
+def test_a_worker_has_one_thread(started):
+    """Of each library that has threads, as there is a worker for each processor."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+    assert {started["env"][name] for name in names} == {"1"}
+    assert {**started["env"], **os.environ} == {**dict.fromkeys(names, "1"), **os.environ}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows inherits no descriptors")
+def test_a_worker_holds_the_lock_too(started):
+    """So a worker that outlives its bake keeps the folder until it has ended."""
+    assert started["pass_fds"] == (17,)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs signals of POSIX")
+@pytest.mark.process
+def test_a_worker_is_not_interrupted_by_itself(tmp_path):
+    """Ctrl-C reaches every process of the group; the one with the lock decides."""
+    answers = queue.SimpleQueue()
+    with locked(tmp_path) as hold:
+        worker = _Worker(hold.descriptor, answers)
+        try:
+            for _ in range(2):  # it has begun when it has answered once
+                worker.send(("no plan", None))
+                sender, answer = answers.get(timeout=600.0)
+                assert sender is worker
+                assert answer is not None
+                assert answer[0] == "failed"
+                worker.process.send_signal(signal.SIGINT)
+        finally:
+            worker.stop()
+
+
+def test_a_cluster_gives_each_entry_once(monkeypatch):
+    """
+    A worker reports a frame when it is finished, and again with its task; it is told the folder by
+    its whole name, as it has another current one.
+    """
+    pytest.importorskip("distributed")
+    told = []
+
+    class Future:
+        def __init__(self, entries):
+            self.entries = entries
+
+        def add_done_callback(self, call):
+            call(self)
+
+        def result(self):
+            return self.entries
+
+    class Client:
+        def subscribe_topic(self, _topic, handler):
+            self.handler = handler
+
+        def submit(self, _function, plan, task, _topic, **_options):
+            told.append(plan.folder)
+            entries = [{"row": row(j)} for j in task.frames]
+            for entry in (*entries, entries[0]):
+                self.handler((0.0, {"entry": entry}))
+            return Future(entries)
+
+        def cancel(self, _futures):
+            pass
+
+        def unsubscribe_topic(self, _topic):
+            pass
+
+    cluster = Cluster(None, 2)
+    monkeypatch.setattr(cluster, "_client", Client())
+    tasks = [Task("frame", (0, 1)), Task("frame", (2, 3))]
+    entries = list(cluster.run(plan_of("out", "token"), tasks))
+    assert sorted(entry["row"]["frame"] for entry in entries) == [0, 1, 2, 3]
+    assert set(told) == {str(Path.cwd() / "out")}
