@@ -493,13 +493,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the status is 0 if 95 % are killed and the table is without faults."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[1])
     parser.add_argument("--check", action="store_true", help="only find the texts in the modules")
-    parser.add_argument("--only", metavar="PATTERN", default="*", help="names, kinds as `kind:5`")
+    parser.add_argument(
+        "--only",
+        metavar="PATTERN",
+        action="append",
+        help="names, or kinds as `kind:5`; may be given several times",
+    )
     parser.add_argument("--results", type=Path, default=Path("mutations.jsonl"))
     parser.add_argument("--parallel", type=int, default=1, metavar="N")
     parser.add_argument("--summary", type=Path, help="write the rates into this file")
     parser.add_argument("--known", action="store_true", help="summarise without running anything")
     given = parser.parse_args(arguments)
-    mutations = [m for m in read_table() if _matches(m, given.only)]
+    patterns = given.only or ["*"]
+    mutations = [m for m in read_table() if any(_matches(m, p) for p in patterns)]
     wrong = faults(mutations)
     for line in wrong:
         print(f"error: {line}")
