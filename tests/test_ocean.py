@@ -9,6 +9,7 @@ import fractions
 import math
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -318,6 +319,29 @@ def test_a_flat_sea_is_exactly_flat():
             frame.normal, np.broadcast_to(np.array([0, 0, 1], dtype="f4"), (16, 16, 3))
         )
         assert np.all(frame.jacobian == 1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("height", "m"),
+        ("displace_x", "m"),
+        ("displace_y", "m"),
+        ("slope_x", "-"),
+        ("slope_y", "-"),
+        ("stretch_xx", "-"),
+        ("stretch_xy", "-"),
+        ("stretch_yy", "-"),
+        ("velocity_x", "m/s"),
+        ("velocity_y", "m/s"),
+        ("velocity_z", "m/s"),
+    ],
+)
+def test_fields_are_documented_with_their_units(name, unit):
+    """A caption with a capital, but for the d of a derivative, which is a symbol."""
+    caption = getattr(fo.Frame, name).__doc__
+    assert re.match(r"[A-Z]|d [a-z_]+ / d", caption), caption
+    assert caption.endswith(f" [{unit}].")
 
 
 def test_only_what_is_asked_is_there():
