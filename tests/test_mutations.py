@@ -82,7 +82,7 @@ OTHER = ("other", "area.area(3, 5) == 15")
 
 @pytest.mark.process
 def test_the_test_that_noticed_runs_first(tree):
-    """Where the tests have changed, the one that noticed an error last time does for all."""
+    """Once tests have changed, the one that noticed an error last time is enough."""
     assert ran(tree, SQUARE, OBLONG) == (["square", "oblong"], 0, "killed")
     assert ran(tree, SQUARE, OBLONG) == ([], 0, "killed")  # known
     assert ran(tree, OTHER, SQUARE, OBLONG) == (["oblong"], 0, "killed")
