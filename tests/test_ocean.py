@@ -597,16 +597,17 @@ def test_frames_come_in_order_with_the_bits_of_frame(ahead, reuse):
     assert j == 6
 
 
-def test_frames_reuse_arrays_only_when_told_to():
+@pytest.mark.parametrize("ahead", [0, 1, 3])
+def test_frames_reuse_arrays_only_when_told_to(ahead):
+    """Frames that are kept go on showing their own times."""
     ocean = fo.Ocean(WATER, n=16, size=100.0)
-    kept = list(ocean.frames(range(6), ("height",)))
+    kept = list(ocean.frames(range(6), ("height",), ahead=ahead))
+    assert [frame.t for frame in kept] == list(range(6))
+    for frame in kept:
+        assert np.array_equal(frame.height, ocean.frame(frame.t, ("height",)).height)
     assert len({frame.height.ctypes.data for frame in kept}) == 6
-    assert (
-        len(
-            {frame.height.ctypes.data for frame in ocean.frames(range(40), ("height",), reuse=True)}
-        )
-        <= 3
-    )  # one out, one ahead
+    reused = ocean.frames(range(40), ("height",), ahead=ahead, reuse=True)
+    assert len({frame.height.ctypes.data for frame in reused}) <= 2 + ahead  # one is out
 
 
 def test_an_endless_sea_can_be_left_at_any_time():
