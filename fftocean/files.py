@@ -6,13 +6,15 @@ A file is written under a temporary name, flushed to the disk, then renamed.
 
 import contextlib
 import errno
+import fnmatch
 import hashlib
 import json
 import os
 import stat
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from io import BufferedReader
 from pathlib import Path
 from typing import Any
 
@@ -129,13 +131,19 @@ def remove_temporary_files(folder: Path) -> None:
         OutputError: one cannot be removed.
     """
     if not folder.is_symlink():
-        for temporary in folder.glob(".*.[0-9]*.tmp"):
+        for temporary in [*temporary_files(folder)]:
             remove(temporary)
 
 
-def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
+def temporary_files(folder: Path) -> Iterator[Path]:
+    """Yield the temporary files in a folder, in no order."""
+    yield from entries_like(folder, ".*.[0-9]*.tmp")
+
+
+@contextlib.contextmanager
+def opened(path: Path, most: int = MAX_FILE) -> Iterator[BufferedReader | None]:
     """
-    Return the bytes of a file; None if there is none, or a link, a folder or a device.
+    Open a file to read its bytes; None if there is none, or a link, a folder or a device.
 
     Raises:
         OutputError: the file exists and cannot be read, or is larger than `most` bytes.
@@ -145,22 +153,62 @@ def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
         descriptor = os.open(path, os.O_RDONLY | AS_BYTES | getattr(os, "O_NONBLOCK", 0))
     except OSError as error:
         if error.errno in (errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO) or path.is_dir():
-            return None  # Windows opens no folder
+            yield None  # Windows opens no folder
+            return
         raise OutputError(f"{path} cannot be read: {error.strerror or error}") from None
     try:
         found = os.fstat(descriptor)
         if not stat.S_ISREG(found.st_mode):
-            return None
+            yield None
+            return
         if found.st_size > most:
             raise OutputError(f"{path} must have at most {most} bytes, and has {found.st_size}")
         with os.fdopen(descriptor, "rb", closefd=False) as file:
-            return file.read(found.st_size)
+            yield file
     except OSError as error:
         if isinstance(error, OutputError):
             raise
         raise OutputError(f"{path} cannot be read: {error.strerror or error}") from None
     finally:
         os.close(descriptor)
+
+
+def read_whole(path: Path, most: int = MAX_FILE) -> bytes | None:
+    """
+    Return the bytes of a file; None if there is none, or a link, a folder or a device.
+
+    Raises:
+        OutputError: the file exists and cannot be read, or is larger than `most` bytes.
+    """
+    with opened(path, most) as file:
+        return None if file is None else file.read()
+
+
+def digest_whole(path: Path, most: int = MAX_FILE) -> str | None:
+    """
+    Return the SHA-256 of a file, read in parts; None where `read_whole` returns None.
+
+    Raises:
+        OutputError: the file exists and cannot be read, or is larger than `most` bytes.
+    """
+    with opened(path, most) as file:
+        return None if file is None else hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def entries_like(folder: Path, pattern: str) -> Iterator[Path]:
+    """
+    Yield the entries of a folder whose names have a pattern as in a shell, in no order.
+
+    Their names are not held, however many there are. There are none where the folder is missing or
+    may not be read.
+    """
+    with (
+        contextlib.suppress(FileNotFoundError, NotADirectoryError, PermissionError),
+        os.scandir(folder) as entries,
+    ):
+        for entry in entries:
+            if fnmatch.fnmatch(entry.name, pattern):
+                yield folder / entry.name
 
 
 def make_folder(path: Path) -> None:

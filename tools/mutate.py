@@ -519,6 +519,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name in PRELOADED:
         importlib.import_module(name)
     with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
+        Path(folder).chmod(0o755)  # tests that give up the rights of root import modules there
         runner = Runner(Path(folder), given.results, 0 if given.known else given.parallel)
         if given.known:
             mutations = [m for m in mutations if m.equivalent or key_of(m) in runner.known]

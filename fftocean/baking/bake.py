@@ -6,8 +6,9 @@ journal records and the disk still holds unchanged. So a bake can be stopped at 
 same command resumes it and ends with the same bytes.
 """
 
+import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from fftocean.baking.folder.journal import (
     Journal,
     Listen,
     Progress,
+    Recorded,
     RunLog,
     entries_of,
 )
@@ -36,6 +38,8 @@ from fftocean.baking.folder.ownership import (
     require_same_bake,
 )
 from fftocean.baking.folder.plan import Plan, frames_of, tasks_of
+from fftocean.baking.folder.rows import PackedRows, RowList
+from fftocean.baking.folder.sealed import write_sealed
 from fftocean.baking.previews import previews
 from fftocean.baking.scene import maps
 from fftocean.baking.scene.maps import MAPS
@@ -46,7 +50,7 @@ from fftocean.baking.workers.local import Executor
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, described
 from fftocean.export import engines, formats
 from fftocean.export.profiles import Profile
-from fftocean.files import as_json, make_folder, path_of, remove_temporary_files, write_whole
+from fftocean.files import make_folder, path_of, remove_temporary_files
 from fftocean.host import available_memory, cores
 from fftocean.job.job import Job
 from fftocean.ocean import memory_needed
@@ -103,6 +107,39 @@ def bake(
         FolderInUseError: another process bakes into the folder.
         JobError: the job asks for something that cannot be baked.
     """
+    manifest = bake_packed(
+        job,
+        folder,
+        overwrite=overwrite,
+        frames=frames,
+        downsample=downsample,
+        executor=executor,
+        workers=workers,
+        progress=progress,
+        listen=listen,
+        scene=scene,
+    )
+    return {**manifest, "frames": list(manifest["frames"])}
+
+
+def bake_packed(
+    job: Job,
+    folder: str | Path = "out",
+    *,
+    overwrite: bool = False,
+    frames: str | None = None,
+    downsample: int = 1,
+    executor: str = "auto",
+    workers: int | None = None,
+    progress: Progress | None = None,
+    listen: Listen | None = None,
+    scene: Scene | None = None,
+) -> dict[str, Any]:
+    """
+    Bake as `bake` does; return the manifest with its rows packed, as a `RowList`.
+
+    The rows of many small frames take more memory as plain data than all else together.
+    """
     if not isinstance(job, Job):
         raise JobError(
             f"a job must be a Job, such as Job.default() or Job.read('sea.toml'), got "
@@ -121,13 +158,13 @@ def bake(
         try:
             if layout.is_cascade(folder):
                 replace_cascade(folder, overwrite=overwrite)
-            known = _earlier_entries(folder, plan, scene, overwrite)
+            recorded = Recorded(_earlier_entries(folder, plan, scene, overwrite))
             make_folder(folder / layout.WORK_FOLDER)
-            with Journal(folder / layout.JOURNAL, plan.identity, known) as journal:
+            with Journal(folder / layout.JOURNAL, plan.identity, recorded.entries()) as journal:
                 mark(folder, header, overwrite=overwrite)
-                log = RunLog(folder, journal, known, progress, listen)
+                log = RunLog(folder, journal, recorded, progress, listen)
                 rows, containers = _kept_frames(plan, scene, log)
-                todo = [j for j in chosen if j not in rows]
+                todo = [j for j in chosen if plan.place(j) not in rows] if rows else chosen
                 name, count = choose_workers(executor, workers, scene, len(todo))
                 chosen_executor = choose_executor(name, count, lock.descriptor)
                 log.report(
@@ -146,7 +183,7 @@ def bake(
                         plan = survey(chosen_executor, plan, scene, log)
                         _write(chosen_executor, plan, todo, rows, log)
                     _remove_temporary_files(folder)  # a worker may have died while it wrote
-                manifest = _finish(plan, scene, [rows[j] for j in chosen], containers, log)
+                manifest = _finish(plan, scene, RowList(rows), containers, log)
             with suppress(OutputError):  # the bake is finished without that
                 remove_workspace(folder)
         except BaseException:
@@ -211,7 +248,7 @@ def require_usable(job: Job) -> Profile:
         raise JobError(f"{job.source}: bake.engine and bake.format: {error}") from None
 
 
-def _earlier_entries(folder: Path, plan: Plan, scene: Scene, overwrite: bool) -> list[Entry]:
+def _earlier_entries(folder: Path, plan: Plan, scene: Scene, overwrite: bool) -> Iterable[Entry]:
     """
     Return the entries of earlier runs: those of the journal, or the rows of a manifest.
 
@@ -241,30 +278,28 @@ def _earlier_entries(folder: Path, plan: Plan, scene: Scene, overwrite: bool) ->
             known.append({"containers": manifest["containers"]})
         else:
             unpack(folder, scene, manifest)
-    return [*known, *({"row": row} for row in manifest["frames"])]
+    return itertools.chain(known, ({"row": row} for row in manifest["frames"]))
 
 
-def _kept_frames(
-    plan: Plan, scene: Scene, log: RunLog
-) -> tuple[dict[int, dict[str, Any]], dict[str, Any]]:
+def _kept_frames(plan: Plan, scene: Scene, log: RunLog) -> tuple[PackedRows, dict[str, Any]]:
     """
-    Return the rows of earlier runs with unchanged files, by frame, and the finished containers.
+    Return the rows of earlier runs with unchanged files, by place, and the finished containers.
     """
-    containers: dict[str, Any] = next(iter(log.recorded("containers")), {})
-    places = {j: place for place, j in enumerate(plan.frames)}
+    containers: dict[str, Any] = next(iter(log.recorded.of("containers")), {})
 
-    def is_intact(row: Mapping[str, Any]) -> bool:
+    def is_intact(row: Mapping[str, Any], place: int) -> bool:
         files = [
-            (
-                layout.frame_file(scene.form, name, row["frame"], places[row["frame"]]),
-                row["files"][name],
-            )
+            (layout.frame_file(scene.form, name, row["frame"], place), row["files"][name])
             for name in scene.job.maps
         ]
         return all(log.is_unchanged(path, entry["sha256"]) for path, entry in files)
 
-    rows = {row["frame"]: row for row in log.recorded("row") if row["frame"] in places}
-    return {j: row for j, row in rows.items() if containers or is_intact(row)}, containers
+    rows = PackedRows()
+    for frame, row in log.recorded.of_frames("row").items():
+        place = plan.place(frame)
+        if frame in plan.frames and (containers or is_intact(row, place)):
+            rows.put(place, row)
+    return rows, containers
 
 
 def choose_workers(executor: str, workers: int | None, scene: Scene, todo: int) -> tuple[str, int]:
@@ -285,10 +320,10 @@ def _write(
     executor: Executor,
     plan: Plan,
     todo: Sequence[int],
-    rows: dict[int, dict[str, Any]],
+    rows: PackedRows,
     log: RunLog,
 ) -> None:
-    """Write frames; add each to the journal and to `rows`."""
+    """Write frames; add each to the journal and, by its place, to `rows`."""
     total = len(plan.frames)
     if "foam" in plan.job.maps:
         size = foam.SPAN
@@ -299,10 +334,11 @@ def _write(
     with closing(executor.run(plan, tasks_of("frame", todo, size))) as entries:
         for entry in entries:
             row = entry["row"]
-            if row["frame"] in rows:
+            place = plan.place(row["frame"])
+            if place in rows:
                 continue  # its task was carried out twice
             log.add(entry)
-            rows[row["frame"]] = row
+            rows.put(place, row)
             log.progress(len(rows), total)
             log.report("frame", frame=row["frame"], t=row["t"], done=len(rows), frames=total)
 
@@ -310,7 +346,7 @@ def _write(
 def _finish(
     plan: Plan,
     scene: Scene,
-    rows: list[dict[str, Any]],
+    rows: RowList,
     containers: dict[str, Any],
     log: RunLog,
 ) -> dict[str, Any]:
@@ -329,5 +365,4 @@ def _finish(
             log.folder, plan.header["job"], layout.MANIFEST_FILE
         ),
     )
-    write_whole(log.folder / layout.MANIFEST_FILE, as_json(manifest))
-    return manifest
+    return write_sealed(log.folder / layout.MANIFEST_FILE, manifest)

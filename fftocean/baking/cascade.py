@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fftocean.baking.bake import bake
+from fftocean.baking.bake import bake_packed
 from fftocean.baking.cascade_setup import TileSet, outside, prepare, tile_in_words
 from fftocean.baking.estimate import Estimate, estimate
 from fftocean.baking.folder import engine_files, layout, listing
@@ -18,9 +18,9 @@ from fftocean.baking.workers.choice import check_executor
 from fftocean.cascade import Tile
 from fftocean.files import (
     as_json,
+    digest_whole,
     make_folder,
     path_of,
-    read_whole,
     remove,
     remove_temporary_files,
     write_whole,
@@ -81,7 +81,7 @@ def bake_tiles(
             zip(tile_set.tile_jobs, tile_set.scenes, strict=True)
         ):
             place = folder / tile.path
-            manifest = bake(
+            manifest = bake_packed(
                 tile.job,
                 place,
                 overwrite=overwrite,
@@ -93,7 +93,7 @@ def bake_tiles(
                 listen=_listen(listen, index, len(tile_set.tile_jobs)),
                 scene=scene,
             )
-            rows.append(tile.row(read_whole(place / MANIFEST_FILE) or b"", manifest))
+            rows.append(tile.row(digest_whole(place / MANIFEST_FILE), manifest))
             manifests.append(manifest)
         listed = tile_set.listed(
             rows,

@@ -62,7 +62,7 @@ class TileSet:
         job: Job,
         tile_jobs: Sequence[TileJob],
         scenes: Sequence[Scene],
-        chosen: tuple[int, ...],
+        chosen: range,
         downsample: int,
     ) -> None:
         self.job, self.tile_jobs, self.scenes, self.chosen = job, tile_jobs, scenes, chosen

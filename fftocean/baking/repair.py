@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from fftocean.baking.bake import bake
+from fftocean.baking.bake import bake_packed
 from fftocean.baking.cascade import bake_tiles
 from fftocean.baking.cascade_setup import summable
 from fftocean.baking.finished.check import check
@@ -15,7 +15,7 @@ from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.folder.identity import HEADER, differences
 from fftocean.baking.folder.journal import Listen, Progress
-from fftocean.baking.folder.sealed import read_sealed, sealed
+from fftocean.baking.folder.sealed import CHECK, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError, SeaWarning
 from fftocean.files import as_json, path_of, remove, write_whole
 from fftocean.job.job import Job
@@ -92,7 +92,7 @@ def repair(
             remove(folder / finding.path)
     subset = None if header["subset"] == "all" else header["subset"]
     downsample = header["downsample"]
-    again = bake(
+    again = bake_packed(
         job,
         folder,
         frames=subset,
@@ -102,10 +102,10 @@ def repair(
         progress=progress,
         listen=listen,
     )
-    if manifest is not None and again != sealed(manifest):
+    if manifest is not None and {**again, CHECK: None} != {**manifest, CHECK: None}:
         changes = differences(manifest, again) or "checksums of frames"
         raise IntegrityError(f"{folder} was repaired, and differs from the first bake: {changes}")
-    return again
+    return {**again, "frames": list(again["frames"])}
 
 
 def _within(path: str, name: str) -> bool:

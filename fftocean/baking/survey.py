@@ -20,7 +20,7 @@ from fftocean.files import write_whole
 
 def with_recorded_ranges(plan: Plan, log: RunLog) -> Plan:
     """Return the plan with the ranges that an earlier run recorded."""
-    found = log.recorded("ranges")
+    found = log.recorded.of("ranges")
     return _with_ranges(plan, found[-1]) if found else plan
 
 
@@ -57,7 +57,7 @@ def _foam(executor: Executor, plan: Plan, scene: Scene, log: RunLog) -> None:
     spans = foam.spans_of(scene.job.frames)
     made = {
         part["first"]: part
-        for part in log.recorded("foam")
+        for part in log.recorded.of("foam")
         if log.is_unchanged(layout.foam_file(part["first"]), part["sha256"])
     }
     tasks = [Task("foam", tuple(range(first, stop))) for first, stop in spans if first not in made]
@@ -76,25 +76,29 @@ def _ranges(executor: Executor, plan: Plan, scene: Scene, log: RunLog) -> dict[s
     Return the least and greatest value of each map over the whole loop, whichever of its frames are
     baked; a normal's are fixed.
     """
-    seen = {part["frame"]: part["maps"] for part in log.recorded("range")}
     count, names = scene.job.frames, scene.job.maps
+    seen = log.recorded.of_frames("range")
+    found: dict[str, list[float]] = {}
+    for part in seen.values():
+        _widen(found, part["maps"])
     measured = [name for name in names if MAPS[name].kind != "normal"]
     if measured:
         tasks = tasks_of("range", [j for j in range(count) if j not in seen], foam.SPAN)
         for entry in _surveyed(executor, plan, tasks, log, "range", count, len(seen)):
-            seen[entry["range"]["frame"]] = entry["range"]["maps"]
-    ranges = {
-        name: [
-            min(maps[name][0] for maps in seen.values()),
-            max(maps[name][1] for maps in seen.values()),
-        ]
-        for name in measured
-    }
+            _widen(found, entry["range"]["maps"])
+    ranges = {name: found[name] for name in measured}
     ranges |= {
         name: list(range_of_normals(scene.profile)) for name in names if name not in measured
     }
     log.add({"ranges": ranges})
     return ranges
+
+
+def _widen(ranges: dict[str, list[float]], maps: Mapping[str, Sequence[float]]) -> None:
+    """Let the range of each map hold one more range."""
+    for name, (low, high) in maps.items():
+        least, most = ranges.get(name, (low, high))
+        ranges[name] = [min(least, low), max(most, high)]
 
 
 def _surveyed(

@@ -155,14 +155,14 @@ def _bake_tile(
     print_json: Callable[[Event], None] | None,
 ) -> None:
     """Bake one tile, with a progress bar and a summary."""
-    from fftocean.baking.bake import bake
+    from fftocean.baking.bake import bake_packed
 
     start = time.perf_counter()
     silent = options.quiet or options.json
     with progress_bar("baking", "frames", shown=not silent) as show:
         follower = _Follower(show, print_json)
         try:
-            manifest = bake(
+            manifest = bake_packed(
                 job,
                 options.output,
                 overwrite=options.overwrite,

@@ -485,7 +485,7 @@ def test_tasks_stay_within_a_span(chosen, size, shares):
     ],
 )
 def test_a_part_of_the_loop_is_a_slice(text, frames):
-    assert frames_of(text, 100) == tuple(frames)
+    assert tuple(frames_of(text, 100)) == tuple(frames)
 
 
 @pytest.mark.parametrize(

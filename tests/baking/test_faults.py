@@ -333,7 +333,7 @@ def test_a_worker_s_full_disk_is_that_of_the_bake(tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert caught.value.exit_code == 4
-    assert entries_of(tmp_path / "out/.work/journal", identity(sea_job)) == []
+    assert [*entries_of(tmp_path / "out/.work/journal", identity(sea_job))] == []
     assert not list(tmp_path.rglob("*.tmp"))
     assert frames_written(sea_job, tmp_path / "out") == list(range(6))
 

@@ -22,7 +22,7 @@ from fftocean.baking.folder.lock import require_free
 from fftocean.baking.folder.sealed import read_sealed
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, OutputError
-from fftocean.files import digest, path_of, read_whole
+from fftocean.files import digest, path_of, read_whole, temporary_files
 
 Kind = Literal[
     "unfinished",
@@ -188,7 +188,7 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
         found += _player(folder, listed, layout.CASCADE_FILE)
         for key in layout.PREVIEWS:
             if key in listed and (
-                fault := _fault(read_whole(folder / listed[key]["path"]), listed[key], {})
+                fault := _fault(read_whole(folder / listed[key]["path"]), listed[key])
             ):
                 found.append(Finding(fault[0], listed[key]["path"], fault[1]))
     previews = (
@@ -196,16 +196,16 @@ def _cascade(folder: Path, progress: Callable[[int, int], None] | None) -> tuple
         if listed
         else set(layout.PREVIEW_FILES)
     )
-    for path in layout.bake_files(folder):
-        if (relative := path.relative_to(folder).as_posix()) not in previews:
-            found.append(
-                Finding(
-                    "extra",
-                    relative,
-                    f"not listed in {layout.CASCADE_FILE}",
-                )
+    there = (path.relative_to(folder).as_posix() for path in layout.bake_files(folder))
+    for relative in sorted(path for path in there if path not in previews):
+        found.append(
+            Finding(
+                "extra",
+                relative,
+                f"not listed in {layout.CASCADE_FILE}",
             )
-    for path in sorted(folder.glob(".*.[0-9]*.tmp")):
+        )
+    for path in sorted(temporary_files(folder)):
         found.append(Finding("extra", path.name, "left-over temporary file"))
     return tuple(found)
 
@@ -294,7 +294,7 @@ def _beside(contents: Contents) -> Iterator[Finding]:
             )
         elif path not in containers:
             data = contents.read(path)
-            fault = _fault(data, entry, {})
+            fault = _fault(data, entry)
             if fault and not (data and has_written_lines(contents, path, data)):
                 yield Finding(fault[0], path, fault[1])
 
@@ -307,24 +307,24 @@ def _player(folder: Path, listed: Mapping[str, Any], document: str) -> Iterator[
         yield Finding("manifest", document, detail)
         return
     for entry in entries:
-        if fault := _fault(read_whole(folder / entry["path"]), entry, {}):
+        if fault := _fault(read_whole(folder / entry["path"]), entry):
             yield Finding(fault[0], entry["path"], fault[1])
 
 
 def _fault(
-    data: bytes | None, entry: Mapping[str, Any], known: Mapping[str, str]
+    data: bytes | None, entry: Mapping[str, Any], known: Callable[[], Mapping[str, str]] = dict
 ) -> tuple[Kind, str] | None:
     """
     Return the problem of a file's bytes, by size and checksum, or None.
 
-    `known` names the frames by their checksums.
+    `known` returns the names of frames by their checksums.
     """
     if data is None:
         return "missing", "it does not exist"
     if (sha256 := digest(data)) == entry["sha256"]:
         return None
-    if sha256 in known:
-        return "swapped", f"it holds {known[sha256]}"
+    if sha256 in known():
+        return "swapped", f"it holds {known()[sha256]}"
     if len(data) < entry["bytes"]:
         return "cut", f"it has {len(data)} of {entry['bytes']} bytes"
     if len(data) > entry["bytes"]:
@@ -339,7 +339,8 @@ def _fault(
 class _Sequence:
     """Sums over the frames of a map, for the checks of the whole sequence."""
 
-    steps: list[float] = field(default_factory=list)  # from each frame to the next
+    steps: int = 0  # from one frame to the next: their number and the roughest
+    roughest: float = 0.0
     first: Real | None = None
     last: Real | None = None
     unbroken: bool = True
@@ -357,11 +358,15 @@ def _map(contents: Contents, name: str, progress: Callable[[int], None] | None) 
     """Return the problems of a map."""
     found: list[Finding] = []
     places, sequence = range(len(contents.frames)), _Sequence()
-    known = {
-        contents.entry(other, place)["sha256"]: f"{other} of frame {contents.frames[place]}"
-        for other in contents.job.maps
-        for place in places
-    }
+
+    @functools.cache
+    def known() -> dict[str, str]:  # read if there is a fault: it names every file of a bake
+        return {
+            contents.entry(other, place)["sha256"]: f"{other} of frame {contents.frames[place]}"
+            for other in contents.job.maps
+            for place in places
+        }
+
     source = contents.data(name, places)
     if contents.form.scope == "sequence":
         found, parts = _container(contents, name)
@@ -401,7 +406,7 @@ def _container(contents: Contents, name: str) -> tuple[list[Finding], list[bytes
     if entry is None:
         return [Finding("manifest", layout.MANIFEST_FILE, f"it does not list {path}", name)], []
     data = contents.read(path)
-    fault = _fault(data, entry, {})
+    fault = _fault(data, entry)
     if fault and contents.form.name in INSEPARABLE:
         return [Finding(fault[0], path, fault[1], name)], []
     try:
@@ -451,7 +456,8 @@ def _frame(
     if sequence.first is None:
         sequence.first = values
     if sequence.last is not None:
-        sequence.steps.append(_rms(values - sequence.last))
+        sequence.steps += 1
+        sequence.roughest = max(sequence.roughest, _rms(values - sequence.last))
     sequence.last = values
 
 
@@ -468,8 +474,8 @@ def _whole(contents: Contents, name: str, sequence: _Sequence) -> Iterator[tuple
             fault := _foam_forgotten(last, first, step / count, contents)
         ):
             yield "loop", fault
-    elif len(sequence.steps) >= MIN_STEPS:
-        home, roughest = _rms(first - last), max(sequence.steps)
+    elif sequence.steps >= MIN_STEPS:
+        home, roughest = _rms(first - last), sequence.roughest
         if home > LARGEST_STEP * roughest + _half_step(contents, name):
             yield (
                 "loop",
@@ -560,11 +566,6 @@ def _weigh_crests(values: Real, contents: Contents, sequence: _Sequence) -> None
 def _extra(contents: Contents) -> Iterator[Finding]:
     """Yield the files that are named like those of a bake, and are not listed in the manifest."""
     listed = {
-        contents.path(name, place)
-        for name in contents.job.maps
-        for place in range(len(contents.frames))
-    }
-    listed |= {
         entry["path"]
         for entries in contents.manifest.get("containers", {}).values()
         for entry in entries
@@ -572,16 +573,19 @@ def _extra(contents: Contents) -> Iterator[Finding]:
     listed |= {
         contents.manifest[key]["path"] for key in layout.PREVIEWS if key in contents.manifest
     }
-    for path in layout.bake_files(contents.folder):
-        relative = path.relative_to(contents.folder).as_posix()
-        if relative not in listed:
-            yield Finding(
-                "extra",
-                relative,
-                "not listed in the manifest",
-            )
+    names = (
+        path.relative_to(contents.folder).as_posix() for path in layout.bake_files(contents.folder)
+    )
+    for relative in sorted(
+        name for name in names if name not in listed and not contents.holds(name)
+    ):
+        yield Finding(
+            "extra",
+            relative,
+            "not listed in the manifest",
+        )
     for inner in layout.folders_of(contents.folder):
-        for path in sorted(inner.glob(".*.[0-9]*.tmp")):
+        for path in sorted(temporary_files(inner)):
             yield Finding(
                 "extra",
                 path.relative_to(contents.folder).as_posix(),

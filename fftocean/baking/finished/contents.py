@@ -5,6 +5,7 @@ Pixels are returned as the file has them, in an engine's conventions, or restore
 package.
 """
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fftocean.arrays import Real
+from fftocean.baking.finished.manifest import merged
 from fftocean.baking.folder import layout
 from fftocean.baking.folder.plan import frames_of
 from fftocean.baking.scene.maps import MAPS
@@ -36,7 +38,7 @@ class Contents:
     folder: Path
     manifest: Mapping[str, Any]
     job: Job  # as it is baked: downsampled already
-    frames: tuple[int, ...]
+    frames: range
     form: Format
     profile: Profile
     shape: tuple[int, int]  # (rows, columns)
@@ -84,12 +86,14 @@ class Contents:
     def _require_consistent(self) -> None:
         """Raise if redundant entries of the manifest disagree."""
         rows = self.manifest["frames"]
-        if [row["frame"] for row in rows] != list(self.frames):
+        if len(rows) != len(self.frames):
             raise ValueError("its frames are not those of its job")
         if list(self.manifest["maps"]) != list(self.job.maps):
             raise ValueError("its maps are not those of its job")
         loop = self.manifest["ocean"]["loop"]
         for place, row in enumerate(rows):
+            if row["frame"] != self.frames[place]:
+                raise ValueError("its frames are not those of its job")
             if row["t"] != loop * row["frame"] / self.job.frames:
                 raise ValueError(f"frame {row['frame']} is not at {row['t']} s")
             for name in self.job.maps:
@@ -112,11 +116,7 @@ class Contents:
         for name, m in self.manifest["maps"].items():
             if tuple(m["shape"]) != (*self.shape, len(MAPS[name].names)):
                 raise ValueError(f"{name} has not the shape {m['shape']}")
-            parts = [row["files"][name]["range"] for row in rows]
-            whole = [
-                [min(part[c][0] for part in parts), max(part[c][1] for part in parts)]
-                for c in range(len(parts[0]))
-            ]
+            whole = merged(row["files"][name]["range"] for row in rows)
             if m["channel_ranges"] != whole or m["range"] != [
                 min(low for low, _ in whole),
                 max(high for _, high in whole),
@@ -132,6 +132,18 @@ class Contents:
         if self.form.scope == "sequence":
             return layout.container(self.form, name)
         return layout.frame_file(self.form, name, self.frames[place], place)
+
+    def holds(self, path: str) -> bool:
+        """Return whether a file is that of a map of a frame."""
+        if self.form.scope == "sequence":
+            return path in {layout.container(self.form, name) for name in self.job.maps}
+        name = re.split(r"[/.]", path, maxsplit=1)[0]
+        places = range(len(self.frames)) if self.form.numbered == "place" else self.frames
+        numbers = {int(digits[:18]) for digits in re.findall("[0-9]+", path)}
+        return name in self.job.maps and any(
+            number in places and path == layout.frame_file(self.form, name, number, number)
+            for number in numbers
+        )
 
     def entry(self, name: str, place: int) -> Mapping[str, Any]:
         """Return the manifest's entry of a map, for the frame at a place of the sequence."""

@@ -183,7 +183,8 @@ def _bake(
     loaded = {name: read_frames(contents, name, places, verify) for name in wanted}
     rows = contents.manifest["frames"]
     times = np.array([rows[place]["t"] for place in places])
-    return Bake(loaded, times, tuple(contents.frames[place] for place in places), contents.manifest)
+    manifest = {**contents.manifest, "frames": list(rows)}
+    return Bake(loaded, times, tuple(contents.frames[place] for place in places), manifest)
 
 
 def read_frames(contents: Contents, name: str, places: Sequence[int], verify: bool = True) -> Real:

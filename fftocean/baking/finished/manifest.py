@@ -1,13 +1,13 @@
 """Manifest of a finished bake: written last, with a checksum over all of its own bytes."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from fftocean.baking.folder.layout import MANIFEST_FILE
 from fftocean.baking.folder.plan import Plan
-from fftocean.baking.folder.sealed import read_sealed, sealed
+from fftocean.baking.folder.sealed import read_sealed
 from fftocean.baking.scene import video_memory
 from fftocean.baking.scene.maps import MAPS
 from fftocean.baking.scene.scene import Scene
@@ -30,7 +30,7 @@ def compose(
     engine_files: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
     """
-    Return the manifest of a bake as plain data.
+    Return the manifest of a bake as plain data, with its rows as they are given.
 
     Args:
         plan: the plan of the bake.
@@ -47,7 +47,7 @@ def compose(
     entries = {}
     for name in job.maps:
         m = MAPS[name]
-        ranges = merged([row["files"][name]["range"] for row in rows])
+        ranges = merged(row["files"][name]["range"] for row in rows)
         meaning = profiles.meaning(scene.profile, m.kind, m.names)
         low, high = plan.ranges.get(name, (None, None))
         entries[name] = {
@@ -67,7 +67,7 @@ def compose(
             "shape": [*shape, len(m.names)],
             "levels": scene.levels,
         }
-    manifest = {
+    return {
         **plan.header,
         "ocean": _tile(scene.ocean),
         **({"measured": notes} if (notes := job.measured_notes()) else {}),
@@ -91,9 +91,8 @@ def compose(
         **({"containers": dict(containers)} if containers else {}),
         **pictures,
         **({"engine_files": list(engine_files)} if engine_files else {}),
-        "frames": list(rows),
+        "frames": rows,
     }
-    return sealed(manifest)
 
 
 def _numbers(plan: Plan, scene: Scene, rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
@@ -122,12 +121,13 @@ _LOOKUP = {
 }
 
 
-def merged(ranges: Sequence[Sequence[Sequence[float]]]) -> list[list[float]]:
-    """Return the least and greatest value of each channel over many frames."""
-    return [
-        [min(frame[c][0] for frame in ranges), max(frame[c][1] for frame in ranges)]
-        for c in range(len(ranges[0]))
-    ]
+def merged(ranges: Iterable[Sequence[Sequence[float]]]) -> list[list[float]]:
+    """Return the least and greatest value of each channel over many frames, one at least."""
+    whole: list[list[float]] = []
+    for frame in ranges:
+        pairs = zip(whole or frame, frame, strict=True)
+        whole = [[min(a[0], b[0]), max(a[1], b[1])] for a, b in pairs]
+    return whole
 
 
 def extremes_over(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -170,7 +170,7 @@ def _stated(sea: Sea) -> dict[str, str]:
 
 def read_manifest(folder: Path) -> dict[str, Any]:
     """
-    Read the manifest of a finished bake.
+    Read the manifest of a finished bake; its frames are a `RowList`.
 
     Raises:
         OutputError: the file cannot be read.

@@ -6,15 +6,17 @@ A `RunLog` reports the same steps to the caller.
 
 import contextlib
 import hashlib
+import itertools
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from fftocean.baking.folder.rows import PackedRows
 from fftocean.errors import OutputError
-from fftocean.files import AS_BYTES, digest, read_whole, write_whole
+from fftocean.files import AS_BYTES, digest, opened, read_whole, write_parts
 
 MAX_BYTES = 2**33  # a million frames of all maps, each about two thousand
 
@@ -37,12 +39,12 @@ class Journal:
     is on the disk before the line is.
     """
 
-    def __init__(self, path: Path, identity: str, entries: list[Entry]) -> None:
+    def __init__(self, path: Path, identity: str, entries: Iterable[Entry]) -> None:
         """Write a journal of the bake with an identity that begins with known entries."""
         self.path = path
         # the first line's key is part of the format of the journal
-        lines = [_line({"claim": identity}), *map(_line, entries)]
-        write_whole(path, b"".join(lines))  # without lines that were cut or changed
+        lines = map(_line, itertools.chain([{"claim": identity}], entries))
+        write_parts(path, lines)  # without lines that were cut or changed
         try:
             self._descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | AS_BYTES)
         except OSError as error:
@@ -78,6 +80,34 @@ class Journal:
             os.close(self._descriptor)
 
 
+class Recorded:
+    """Results of earlier runs: those of frames are packed, as there may be any number of them."""
+
+    def __init__(self, entries: Iterable[Entry] = ()) -> None:
+        self._frames = {kind: PackedRows() for kind in ("row", "range")}  # by frame of the loop
+        self._others: list[Entry] = []
+        for entry in entries:
+            kind = next(iter(entry), "")
+            if kind in self._frames:
+                self._frames[kind].put(entry[kind]["frame"], entry[kind])
+            else:
+                self._others.append(entry)
+
+    def of(self, kind: str) -> list[Any]:
+        """Return the values of all entries of one kind, not one of frames, in order."""
+        return [entry[kind] for entry in self._others if kind in entry]
+
+    def of_frames(self, kind: str) -> PackedRows:
+        """Return the values of all entries of one kind, "row" or "range", by frame of the loop."""
+        return self._frames[kind]
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield all entries."""
+        yield from self._others
+        for kind, rows in self._frames.items():
+            yield from ({kind: row} for row in rows.values())
+
+
 class RunLog:
     """Entries of earlier runs, the journal of this one, and its listeners."""
 
@@ -85,17 +115,13 @@ class RunLog:
         self,
         folder: Path,
         journal: Journal,
-        known: Sequence[Entry],
+        recorded: Recorded,
         progress: Progress | None = None,
         listen: Listen | None = None,
     ) -> None:
         self.folder = folder
-        self._journal, self._known = journal, known
+        self._journal, self.recorded = journal, recorded
         self._progress, self._listen = progress, listen
-
-    def recorded(self, kind: str) -> list[Any]:
-        """Return the values of all entries of one kind that earlier runs recorded, in order."""
-        return [entry[kind] for entry in self._known if kind in entry]
 
     def is_unchanged(self, path: str, sha256: str) -> bool:
         """Return whether a file of the folder exists and has a checksum."""
@@ -117,20 +143,21 @@ class RunLog:
             self._listen({"event": event, **details})
 
 
-def entries_of(path: Path, identity: str) -> list[Entry]:
+def entries_of(path: Path, identity: str) -> Iterator[Entry]:
     """
-    Return every entry of a bake's journal whose line is whole, in order.
+    Yield every entry of a bake's journal whose line is whole, in order.
 
     There are none where the file does not exist, or is the journal of another bake.
 
     Raises:
         OutputError: the file exists and cannot be read.
     """
-    data = read_whole(path, MAX_BYTES)
-    first, *lines = (data or b"").splitlines(keepends=True) or [b""]
-    if _entry(first) != {"claim": identity}:
-        return []
-    return [entry for line in lines if (entry := _entry(line)) is not None]
+    with opened(path, MAX_BYTES) as file:
+        if file is None or _entry(file.readline()) != {"claim": identity}:
+            return
+        for line in file:
+            if (entry := _entry(line)) is not None:
+                yield entry
 
 
 def _line(entry: Mapping[str, Any]) -> bytes:

@@ -1,11 +1,13 @@
 """Names of files and folders in the folder of a bake."""
 
+import contextlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
 
 from fftocean.export.formats import FORMATS, Format
 from fftocean.export.recipes import FRAME_SUFFIX, PAGES
+from fftocean.files import entries_like
 from fftocean.job.parameters import MAPS
 
 JOB_FILE, MANIFEST_FILE, WORK_FOLDER = "job.json", "manifest.json", ".work"
@@ -89,19 +91,33 @@ def folders_of(folder: Path) -> Iterator[Path]:
         *(folder / f"{name}.zarr" for name in MAPS),
     ):
         if inner.is_dir() and not inner.is_symlink():
-            yield inner
-            for path, folders, _ in os.walk(inner, followlinks=False):
-                yield from (
-                    Path(path) / name for name in folders if not (Path(path) / name).is_symlink()
-                )
+            yield from _folders_in(inner)
+
+
+def _folders_in(folder: Path) -> Iterator[Path]:
+    """Yield a folder and all that are in it; of its files, any number, the names are not held."""
+    yield folder
+    inner: list[str] = []
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        inner = [entry.name for entry in entries if entry.is_dir(follow_symlinks=False)]
+    for name in inner:
+        yield from _folders_in(folder / name)
+
+
+def _files_in(folder: Path) -> Iterator[Path]:
+    """Yield what is in a folder and is no folder, such as a link to one, in no order."""
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if not entry.is_dir(follow_symlinks=False):
+                yield folder / entry.name
 
 
 def bake_files(folder: Path) -> Iterator[Path]:
     """
-    Yield every file in a folder that is named like one of a bake, of whatever job: frames,
-    containers, sidecars, previews.
+    Yield every file in a folder that is named like one of a bake, of whatever job: frames, in no
+    order, containers, sidecars, previews.
     """
-    suffixes = {form.suffix for form in FORMATS.values()}
+    suffixes = tuple({form.suffix for form in FORMATS.values()})
     for preview in PREVIEW_FILES:
         if os.path.lexists(folder / preview):
             yield folder / preview
@@ -111,18 +127,20 @@ def bake_files(folder: Path) -> Iterator[Path]:
             if path.is_symlink() or path.is_file():
                 yield path
             elif path.is_dir():
-                yield from (p for p in sorted(path.rglob("*")) if p.is_symlink() or not p.is_dir())
+                for inner in _folders_in(path):
+                    yield from _files_in(inner)
         inner = folder / name
         if inner.is_dir() and not inner.is_symlink():
-            for suffix in sorted(suffixes):
-                yield from sorted(inner.glob(f"[0-9]*{suffix}"))
+            found = entries_like(inner, "[0-9]*")
+            yield from (path for path in found if os.path.normcase(path.name).endswith(suffixes))
 
 
 def frame_settings(folder: Path) -> Iterator[Path]:
     """
-    Yield every file of an engine's settings beside a frame's image, a bake's or the engine's own.
+    Yield every file of an engine's settings beside a frame's image, a bake's or the engine's own,
+    in no order.
     """
     for name in MAPS:
         inner = folder / name
         if inner.is_dir() and not inner.is_symlink():
-            yield from sorted(inner.glob(f"[0-9]*.exr{FRAME_SUFFIX}"))
+            yield from entries_like(inner, f"[0-9]*.exr{FRAME_SUFFIX}")

@@ -18,7 +18,7 @@ from fftocean.cascade import from_oceans, tile_jobs
 from fftocean.cells import Band
 from fftocean.constraints import constrained
 from fftocean.errors import IntegrityError, JobError, OutputError, ParameterError, SeaWarning
-from fftocean.files import digest, read_json, read_whole, remove, remove_temporary_files
+from fftocean.files import digest_whole, read_json, remove, remove_temporary_files
 from fftocean.fixed_values import Rarity
 from fftocean.grid import Grid
 from fftocean.job import fixed_tables
@@ -45,8 +45,8 @@ class TileJob:
     job: Job
     rarity: Rarity | None = None  # of the values that the sum of all tiles is made to have
 
-    def row(self, data: bytes, manifest: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a tile's entry of the list, from its manifest and that file's bytes."""
+    def row(self, sha256: str | None, manifest: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a tile's entry of the list, from its manifest and that file's SHA-256."""
         return {
             "path": self.path,
             "n": [self.grid.nx, self.grid.ny],
@@ -55,7 +55,7 @@ class TileJob:
             "band": [self.band[0], finite_or_word(self.band[1])],
             "m0": manifest["statistics"]["resolved"],
             "maps": sorted(manifest["maps"]),
-            "sha256": digest(data),
+            "sha256": sha256,
         }
 
 
@@ -194,7 +194,7 @@ def listed_tiles(folder: Path, listed: Mapping[str, Any]) -> Iterator[Path]:
     """
     for row in listed["tiles"]:
         path = folder / row["path"] / layout.MANIFEST_FILE
-        if digest(read_whole(path) or b"") != row["sha256"]:
+        if digest_whole(path) != row["sha256"]:
             raise IntegrityError(
                 f"{path} is not the manifest that {layout.CASCADE_FILE} lists; "
                 "`fftocean check` names all problems"
@@ -318,10 +318,9 @@ def inconsistencies(
     bounds, found = {"max_height": 0.0, "max_horizontal": 0.0}, []
     for tile, row in zip(jobs, rows, strict=True):
         path = f"{tile.path}/{layout.MANIFEST_FILE}"
-        data = read_whole(folder / path)
         try:
             manifest = read_sealed(folder / path)
-            expected = tile.row(data or b"", manifest)
+            expected = tile.row(digest_whole(folder / path), manifest)
             for key in bounds:
                 bounds[key] += manifest["extremes"][key]
         except (IntegrityError, KeyError, TypeError):

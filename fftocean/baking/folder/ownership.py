@@ -30,6 +30,7 @@ from fftocean.baking.folder.layout import (
     folders_of,
     frame_settings,
 )
+from fftocean.baking.folder.rows import RowList
 from fftocean.baking.folder.sealed import is_sealed, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError
 from fftocean.export.formats import FORMATS
@@ -112,7 +113,7 @@ def _paths_in(tree: Any) -> set[str]:
     if isinstance(tree, Mapping):
         here = {tree["path"]} if isinstance(tree.get("path"), str) else set()
         return here.union(*(_paths_in(value) for value in tree.values()))
-    if isinstance(tree, list):
+    if isinstance(tree, (list, RowList)):
         return set().union(*(_paths_in(value) for value in tree))
     return set()
 

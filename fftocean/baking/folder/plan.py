@@ -1,5 +1,6 @@
 """The serialisable plan of a bake, and the tasks that it is divided into."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -18,7 +19,7 @@ class Plan:
     job: Job  # as the user gave it, before downsampling
     downsample: int  # factor by which the samples a side are fewer
     header: Mapping[str, Any]  # everything that determines the bytes; see `identity.header_of`
-    frames: tuple[int, ...]  # of the loop's `job.frames`
+    frames: range  # of the loop's `job.frames`
     folder: str
     token: str  # of the lock on the folder
     ranges: Mapping[str, tuple[float, float]] = field(
@@ -45,7 +46,7 @@ class Task:
     """Some frames, to be surveyed or written."""
 
     kind: TaskKind
-    frames: tuple[int, ...]
+    frames: Sequence[int]
 
 
 def identity_of(header: Mapping[str, Any]) -> str:
@@ -55,17 +56,17 @@ def identity_of(header: Mapping[str, Any]) -> str:
 
 def tasks_of(kind: TaskKind, frames: Sequence[int], size: int) -> list[Task]:
     """
-    Divide frames into tasks: those between two multiples of `size` go together.
+    Divide rising frames into tasks: those between two multiples of `size` go together.
 
     So a task never reaches across a span of foam, if `size` divides its length.
     """
-    groups: dict[int, list[int]] = {}
-    for frame in frames:
-        groups.setdefault(frame // size, []).append(frame)
-    return [Task(kind, tuple(group)) for group in groups.values()]
+    ends = [i for i in range(1, len(frames)) if frames[i] // size != frames[i - 1] // size]
+    parts = [frames[i:j] for i, j in itertools.pairwise([0, *ends, len(frames)])]
+    # a range stays one: it takes no memory, however long it is
+    return [Task(kind, part if isinstance(part, range) else tuple(part)) for part in parts if part]
 
 
-def frames_of(text: str | None, count: int) -> tuple[int, ...]:
+def frames_of(text: str | None, count: int) -> range:
     """
     Parse `start:stop:step` as Python slices the loop's `count` frames; None is all of them.
 
@@ -73,12 +74,12 @@ def frames_of(text: str | None, count: int) -> tuple[int, ...]:
         JobError: the text is no slice, goes backward, or leaves no frame.
     """
     if text is None:
-        return tuple(range(count))
+        return range(count)
     try:
         parts = [int(part) if part.strip() else None for part in text.split(":")]
         if len(parts) not in (2, 3):
             raise ValueError
-        chosen = tuple(range(count))[slice(*parts)]
+        chosen = range(count)[slice(*parts)]
     except (ValueError, OverflowError):
         raise JobError(
             "frames must be a count, or start:stop or start:stop:step such as 0:64:2, "

@@ -18,7 +18,7 @@ from fftocean.baking.folder.journal import Entry
 from fftocean.baking.folder.plan import Plan, Task
 from fftocean.baking.workers.local import ATTEMPTS, ONE_THREAD
 from fftocean.errors import FFTOceanError, JobError, OutputError, how_to_install
-from fftocean.files import as_json
+from fftocean.files import as_json, digest
 
 PATIENCE = 10.0  # [s] for a scheduler to answer
 START = 120.0  # [s] for the first worker of a local cluster, which imports the package, to be there
@@ -150,8 +150,8 @@ class Cluster:
                     continue
                 left -= kind == "done"
                 for entry in _result(value) if kind == "done" else [value]:
-                    if (text := as_json(entry)) not in seen:
-                        seen.add(text)
+                    if (known := bytes.fromhex(digest(as_json(entry)))) not in seen:
+                        seen.add(known)
                         yield entry
         finally:
             self._client.cancel(futures)
