@@ -1,5 +1,7 @@
 """Compiled loops against their NumPy twins, and the phases at any time."""
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
@@ -188,6 +190,23 @@ def test_pack_and_split(nx):
         passes.real_part(transformed, 2 * nx, alone[0])
         passes.imaginary_part(transformed, 2 * nx, 4.0, alone[1])
         assert np.array_equal(alone, [first, second])
+
+
+@pytest.mark.parametrize(
+    ("kind", "count", "most"),
+    [(1, 1, 50), (1, 24, 50), (1, 2**26, 50), (2, 24, 63), (2, 2**32 - 5, 63), (2, 2**32, 63)],
+)
+def test_phases_of_a_loop_lie_within_half_a_cycle(kind, count, most):
+    """cycles step / count less the nearest whole number, by fractions; to the last division."""
+    cycles = np.array([[0.0, 1.0, 2.0, 3.0, *np.floor(2.0 ** RNG.uniform(1, most, 50))]])
+    out = np.empty_like(cycles)
+    for step in {0, 1, count // 2, count // 3, count - 1}:
+        passes.phases(kind, float(step), float(count), cycles, out)
+        assert np.max(np.abs(out)) <= 0.5
+        for c, phase in zip(cycles[0], out[0], strict=True):
+            whole = Fraction(int(c) * step, count)
+            off = (whole - Fraction(phase) + Fraction(1, 2)) % 1 - Fraction(1, 2)
+            assert abs(off) <= Fraction(1, 2**53)
 
 
 @pytest.mark.parametrize("t", [0.0, 3.7, -1e6, 1e7, 123456789.123, 1e9, 1e12])
