@@ -120,7 +120,25 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
             )
             for key, (what, unit) in WHAT.items()
         ]
-    return readings
+    return [*readings, *growth(readings)]
+
+
+def growth(readings: Sequence[Reading]) -> list[Reading]:
+    """Return the ratios of the times of a frame at the most frames to those at the fewest."""
+    counts = sorted(int(r.at["frames"]) for r in readings if r.what == WHAT["bake"][0])
+    found = []
+    for what, unit in WHAT.values():
+        if unit == "ms" and len(counts) > 1:
+            few, many = (
+                next(r for r in readings if r.what == what and r.at["frames"] == count)
+                for count in (counts[0], counts[-1])
+            )
+            ratio = many.median / few.median
+            at = {"frames": counts[-1], "n": many.at["n"]}
+            found.append(
+                Reading.single(f"{what}, of the most / the fewest", "x", ratio, at, clock="cpu")
+            )
+    return found
 
 
 def draw(result: Result, path: Path) -> None:
