@@ -39,6 +39,7 @@ from fftocean.phases import AtTime, InLoop, Moment
 from fftocean.physics import dispersion
 from fftocean.physics.plausibility import require_plausible
 from fftocean.physics.sea import Sea
+from fftocean.transforms import aligned_empty
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -563,7 +564,7 @@ class Ocean:
         plane = self._synthesis.shape
         shapes = {name: (*plane, 3) if name == "normal" else plane for name in fields}
         if out is None:
-            return {name: np.empty(shape, self.dtype) for name, shape in shapes.items()}
+            return {name: aligned_empty(shape, self.dtype) for name, shape in shapes.items()}
         arrays: dict[str, Real] = {}
         if not isinstance(out, Frame) or not set(fields) <= set(out.fields):
             raise ParameterError(

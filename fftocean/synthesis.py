@@ -41,7 +41,7 @@ from fftocean.bound_waves import BoundSpectrum, Shown
 from fftocean.computation import Computation
 from fftocean.fields import FIELDS, GEOMETRY, POINTWISE, Field, potential_factor
 from fftocean.kernels import passes, whole_passes
-from fftocean.kernels.vectors import TILE
+from fftocean.kernels.vectors import CACHE_LINE, TILE
 from fftocean.phases import Moment
 from fftocean.physics import dispersion
 from fftocean.transforms import aligned, aligned_numbers, chosen_backend, inverse_rows, row_plan
@@ -54,6 +54,13 @@ SOURCES: tuple[Source, ...] = (("height", 0), ("height", 1), ("potential", 0), (
 
 GRADIENTS = np.array([tuple(FIELDS).index(name) for name in GEOMETRY], np.int64)
 """Places of the gradients among the fields."""
+
+STREAMED_FROM = 2**22
+"""
+Bytes from which arrays are written past the caches: more than a core keeps for itself.
+
+They would leave the cache before they are read again, and would be read into it to be written.
+"""
 
 WIDTH = 64
 """Columns or rows in a block where transforms are called from Python."""
@@ -345,6 +352,7 @@ class Synthesis:
             choppiness=self._dtype.type(choppiness),
             normal=outputs.get("normal", empty).reshape(-1),
             jacobian=outputs.get("jacobian", empty).reshape(-1),
+            streamed=_are_streamed(outputs),
         )
         if self._workspaces[0].compiled:
             blocks = np.zeros((2, 16), np.int64)  # on a cache line each
@@ -514,6 +522,7 @@ class _Second:
     choppiness: float
     normal: Real
     jacobian: Real
+    streamed: bool
 
 
 class _Workspace:
@@ -588,6 +597,7 @@ class _Workspace:
             self._columns,
             self._calls[0],
             between,
+            between.nbytes >= STREAMED_FROM,
         )
 
     def second_pass(self, counter: Integer, second: _Second, between: Real) -> None:
@@ -606,6 +616,7 @@ class _Workspace:
             second.normal,
             second.jacobian,
             self._unit,
+            second.streamed,
             self._ny,
             self._nx,
         )
@@ -624,7 +635,7 @@ class _Workspace:
         results = _parts(self._results[: spectra * width]).reshape(-1)
         for c in range(0, count, TILE):
             place = (block.start + c) // TILE
-            passes.tile(results, c, width, spectra, self._ny, place, self._tiles, between)
+            passes.tile(results, c, width, spectra, self._ny, place, self._tiles, between, False)
 
     def do_rows(self, block: slice, second: _Second, between: Real) -> None:
         """Do a block of the second pass, with transforms called from Python."""
@@ -636,7 +647,7 @@ class _Workspace:
             whole_passes.pack_rows(y, count, p, second.spectra, second.rows, between, source, nx)
             self._second.source[:] = packed
             self._second()
-            whole_passes.split_rows(y, count, p, second.rows, result, places, nx)
+            whole_passes.split_rows(y, count, p, second.rows, result, places, second.streamed, nx)
         if second.normal.size or second.jacobian.size:
             whole_passes.finish_rows(
                 y,
@@ -647,6 +658,7 @@ class _Workspace:
                 second.normal,
                 second.jacobian,
                 self._unit,
+                second.streamed,
                 nx,
             )
 
@@ -664,6 +676,15 @@ def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
         column[:] = dispersion.turns_per_second(omega)
     return frequency
+
+
+def _are_streamed(outputs: Mapping[str, Real]) -> bool:
+    """Return whether outputs are so large, and so placed, that they are written past the caches."""
+    large = sum(array.nbytes for array in outputs.values()) >= STREAMED_FROM
+    return large and all(
+        array.ctypes.data % CACHE_LINE == 0 and array.strides[0] % CACHE_LINE == 0
+        for array in outputs.values()
+    )
 
 
 def _parts(array: Complex) -> Real:

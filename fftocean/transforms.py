@@ -142,9 +142,21 @@ def aligned(shape: tuple[int, int], dtype: str) -> Complex:
 
 def aligned_numbers(shape: tuple[int, ...], kind: Any) -> np.ndarray[Any, np.dtype[Any]]:
     """Return zeros of any type that start on a cache line."""
+    return _aligned(np.zeros, shape, kind)
+
+
+def aligned_empty(shape: tuple[int, ...], kind: Any) -> np.ndarray[Any, np.dtype[Any]]:
+    """Return an array of any type that starts on a cache line, with whatever the memory holds."""
+    return _aligned(np.empty, shape, kind)
+
+
+def _aligned(
+    make: Callable[..., np.ndarray[Any, np.dtype[np.uint8]]], shape: tuple[int, ...], kind: Any
+) -> np.ndarray[Any, np.dtype[Any]]:
+    """Return an array on a cache line, in memory that is made by a function of NumPy."""
     kind = np.dtype(kind)
     size = math.prod(shape) * kind.itemsize
-    raw = np.zeros(size + ALIGNMENT, dtype=np.uint8)
+    raw = make(size + ALIGNMENT, dtype=np.uint8)
     start = -raw.ctypes.data % ALIGNMENT
     numbers: np.ndarray[Any, np.dtype[Any]] = raw[start : start + size].view(kind)
     return numbers.reshape(shape)

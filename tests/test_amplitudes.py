@@ -202,6 +202,13 @@ def test_waves_on_one_wavenumber_add_up():
     assert sorted(np.round(m.amplitude, 12)) == [0.25, 1.5, 2.0]
 
 
+@pytest.mark.parametrize("draw", ["", "Gaussian", "given", "constrained", "normal", None, 1])
+def test_a_draw_that_is_not_known_is_refused(draw):
+    """Also those of amplitudes that were not drawn."""
+    with pytest.raises(fo.ParameterError, match="must be 'gaussian' or 'fixed', got "):
+        seed_amplitudes(fo.Sea(), Grid.of(8, 10.0), draw=draw)
+
+
 def test_a_sea_that_is_not_a_number_is_refused():
     sea = fo.Sea(
         fo.WaveSystem(

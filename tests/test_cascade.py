@@ -308,6 +308,44 @@ def test_automatic_bands_lie_where_both_tiles_hold_every_wave():
     assert made.bands == band_edges([ocean.grid for ocean in made.oceans])
 
 
+@pytest.mark.parametrize("n", [8, 9, (8, 13), (15, 6)])
+@pytest.mark.parametrize("size", [50.0, (80.0, 30.0), (20.0, 90.0)])
+def test_a_tile_reaches_as_far_as_circles_lie_within_its_cells(n, size):
+    """
+    Points of a circle belong to the nearest wavenumber of the tile: a little beyond the lowest |k|
+    none belongs to k = 0, a little below it some do; a little below the highest all have one on
+    the grid, short of Nyquist, a little beyond it some have not.
+    """
+    grid = Grid.of(n, size)
+    theta = np.linspace(0.0, 2.0 * np.pi, 200_001)  # so fine that 1e-3 of a radius is seen
+    low, high = reach_of(grid)
+
+    def indices(radius):
+        return (
+            np.rint(radius * np.cos(theta) / (2.0 * np.pi / grid.lx)),
+            np.rint(radius * np.sin(theta) / (2.0 * np.pi / grid.ly)),
+        )
+
+    for factor, whole in ((1.001, True), (0.999, False)):
+        mx, my = indices(factor * low)
+        assert np.all((mx != 0) | (my != 0)) == whole
+        mx, my = indices(high / factor)
+        assert np.all((np.abs(mx) <= (grid.nx - 1) // 2) & (np.abs(my) <= (grid.ny - 1) // 2)) == (
+            whole
+        )
+
+
+def test_an_automatic_edge_is_a_geometric_mean():
+    """Of 0.5 sqrt(2) dk of the small tile and (n/2 - 0.5) dk of the large one, if both square."""
+    grids = [Grid.of(32, 100.0), Grid.of(32, 17.0), Grid.of(16, 5.0)]
+    dk = [2.0 * math.pi / grid.lx for grid in grids]
+    edges = [
+        math.sqrt(math.sqrt(0.5) * dk[i + 1] * (grids[i].nx / 2 - 0.5) * dk[i]) for i in range(2)
+    ]
+    expected = [(0.0, edges[0]), (edges[0], edges[1]), (edges[1], math.inf)]
+    assert np.array(band_edges(grids)) == pytest.approx(np.array(expected), rel=1e-14)
+
+
 def test_given_bands():
     bands = ((0.05, 0.3), (0.3, 2.0), (2.0, 6.0))
     made = cascade(bands=bands)

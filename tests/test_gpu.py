@@ -8,7 +8,6 @@ import pickle
 import signal
 import threading
 import warnings
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -18,7 +17,6 @@ import fftocean as fo
 from fftocean.fields import EIGHT, FIELDS
 from fftocean.gpu import device as devices
 from fftocean.gpu import kernels
-from fftocean.gpu.stages import stages
 
 pytestmark = pytest.mark.client
 
@@ -292,33 +290,3 @@ def test_a_wrong_kernel_is_seen(monkeypatch, right, wrong):
         assert not worst <= 100.0 * CLOSE
     finally:
         devices.forget(devices.device())
-
-
-@pytest.mark.parametrize("n", [(2, 2), (512, 16), (1024, 8), (8, 1024), (2048, 4096)])
-def test_each_step_reads_and_writes_every_sample_once(n):
-    """So no sample is left from the tile before, and no two threads write to one place."""
-    nx, ny = n
-    for stage in stages(nx, ny):
-        line, sample = np.arange(stage.lines)[:, None], np.arange(stage.length)
-        for element, out, within in (stage.read, stage.write):
-            at = element * sample + out * (line // stage.inner) + within * (line % stage.inner)
-            assert np.array_equal(np.sort(at, axis=None), np.arange(nx * ny))
-
-
-def test_time_is_split_exactly():
-    """Whole and 2^-64 parts of a moment, two's complement, and in 2^-32 of a loop."""
-    from fftocean.gpu.synthesis import _block
-    from fftocean.phases import AtTime, InLoop
-
-    def value(moment, loop):
-        words = np.frombuffer(_block(moment, loop, 0, False, 1.0), np.uint32)[:4]
-        low, high, part_low, part_high = (int(word) for word in words)
-        whole = low + (high << 32)
-        whole -= 2**64 if whole >= 2**63 else 0
-        return whole + Fraction(part_low + (part_high << 32), 2**64)
-
-    for t in (0.0, 1.5, -1.5, -1e12 + 0.25, 1e12 - 0.125):
-        assert value(AtTime(t), None) == Fraction(t)
-    assert value(InLoop(3, 2**32, True), 10.0) == 3
-    third = value(InLoop(1, 3, True), 10.0)
-    assert abs(third - Fraction(2**32, 3)) <= Fraction(1, 2**65)

@@ -9,6 +9,7 @@ import fractions
 import math
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -320,6 +321,29 @@ def test_a_flat_sea_is_exactly_flat():
         assert np.all(frame.jacobian == 1.0)
 
 
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("height", "m"),
+        ("displace_x", "m"),
+        ("displace_y", "m"),
+        ("slope_x", "-"),
+        ("slope_y", "-"),
+        ("stretch_xx", "-"),
+        ("stretch_xy", "-"),
+        ("stretch_yy", "-"),
+        ("velocity_x", "m/s"),
+        ("velocity_y", "m/s"),
+        ("velocity_z", "m/s"),
+    ],
+)
+def test_fields_are_documented_with_their_units(name, unit):
+    """A caption with a capital, but for the d of a derivative, which is a symbol."""
+    caption = getattr(fo.Frame, name).__doc__
+    assert re.match(r"[A-Z]|d [a-z_]+ / d", caption), caption
+    assert caption.endswith(f" [{unit}].")
+
+
 def test_only_what_is_asked_is_there():
     o = ocean()
     frame = o.frame(0.0, fields=("height", "height"))
@@ -573,16 +597,17 @@ def test_frames_come_in_order_with_the_bits_of_frame(ahead, reuse):
     assert j == 6
 
 
-def test_frames_reuse_arrays_only_when_told_to():
+@pytest.mark.parametrize("ahead", [0, 1, 3])
+def test_frames_reuse_arrays_only_when_told_to(ahead):
+    """Frames that are kept go on showing their own times."""
     ocean = fo.Ocean(WATER, n=16, size=100.0)
-    kept = list(ocean.frames(range(6), ("height",)))
+    kept = list(ocean.frames(range(6), ("height",), ahead=ahead))
+    assert [frame.t for frame in kept] == list(range(6))
+    for frame in kept:
+        assert np.array_equal(frame.height, ocean.frame(frame.t, ("height",)).height)
     assert len({frame.height.ctypes.data for frame in kept}) == 6
-    assert (
-        len(
-            {frame.height.ctypes.data for frame in ocean.frames(range(40), ("height",), reuse=True)}
-        )
-        <= 3
-    )  # one out, one ahead
+    reused = ocean.frames(range(40), ("height",), ahead=ahead, reuse=True)
+    assert len({frame.height.ctypes.data for frame in reused}) <= 2 + ahead  # one is out
 
 
 def test_an_endless_sea_can_be_left_at_any_time():

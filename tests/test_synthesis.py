@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import fftocean as fo
 from fftocean import synthesis
 from fftocean.fields import FIELDS, multiplier
+from fftocean.frame import Frame
 from fftocean.synthesis import PAIRS, plan_fields
 from fftocean.transforms import BACKENDS, library
 
@@ -33,6 +34,35 @@ def by_the_table(ocean, name, t):
     return np.fft.irfft2(
         multiplier(FIELDS[name], kx, ky, ocean.depth) * h, s=ocean.grid.shape, norm="forward"
     )
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("n", [(128, 72), (72, 128), (130, 70)])
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_arrays_written_past_the_caches_have_the_same_bytes(n, threads, dtype, monkeypatch):
+    """Of any length of rows: only those of whole cache lines are written so."""
+    ocean = fo.Ocean(SEA, n=n, size=(150.0, 90.0), dtype=dtype, threads=threads)
+    fields = (*FIELDS, "normal", "jacobian")
+    usual = ocean.frame(3.0, fields)
+    out = ocean.frame(1.0, fields)
+    monkeypatch.setattr(synthesis, "STREAMED_FROM", 0)
+    streamed = ocean.frame(3.0, fields, out=out)
+    whole_lines = n[0] * np.dtype(dtype).itemsize % 64 == 0
+    assert synthesis._are_streamed({name: out[name] for name in fields}) == whole_lines
+    for name in fields:
+        assert streamed[name].tobytes() == usual[name].tobytes(), name
+
+
+def test_arrays_that_start_amid_a_cache_line_are_written_too(monkeypatch):
+    ocean = fo.Ocean(SEA, n=64, size=100.0)
+    usual = ocean.frame(3.0)
+    monkeypatch.setattr(synthesis, "STREAMED_FROM", 0)
+    odd = {name: np.empty(64 * 64 + 1, np.float32)[1:].reshape(64, 64) for name in usual.fields}
+    assert not synthesis._are_streamed(odd)
+    out = Frame(0.0, usual.grid, usual.choppiness, odd)
+    frame = ocean.frame(3.0, out=out)
+    for name in usual.fields:
+        assert frame[name].tobytes() == usual[name].tobytes()
 
 
 @pytest.mark.parametrize("threads", [1, 3])

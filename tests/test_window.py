@@ -215,3 +215,13 @@ def test_a_window_as_labelled_data(cascade):
         fo.to_xarray(cascade, [0.0])
     with pytest.raises(fo.ParameterError, match=r"each of cascade\.oceans"):
         fo.verify(cascade)
+
+
+def test_more_samples_than_there_is_memory_for_are_refused(cascade, monkeypatch):
+    """128 bytes a sample, for positions, sums and a frame: 2 GiB of 4096 x 4096."""
+    monkeypatch.setattr("fftocean.host.available_memory", lambda: 2.0**30)
+    with pytest.raises(
+        fo.ParameterError, match=r"a window of n = 4096 x 4096 needs about 2\.\d GiB of memory"
+    ):
+        fo.Window(cascade, n=4096)
+    fo.Window(cascade, n=64)

@@ -7,7 +7,8 @@ is written into a copy of the tree, never into the tree itself, and its tests ru
     python tools/mutate.py --results mutations.jsonl
 
 An interrupted run goes on where it was. Results are those of the module and the tests as they are
-now: a changed one runs again. `--check` only finds the texts.
+now: a changed one runs again, the test that noticed an error last time first, and all its tests
+only if that one no longer does. `--check` only finds the texts.
 """
 
 import argparse
@@ -269,9 +270,10 @@ def _run_tests(root: Path, compiled: Path, log: Path, tests: Sequence[str]) -> N
         os.environ["NUMBA_CACHE_DIR"] = str(compiled)
         os.environ["PYTHONPATH"] = str(root)
         sys.path[:] = [str(root), *(p for p in sys.path if p != str(ROOT / "tools"))]
-        numba = sys.modules["numba"]
-        numba.config.CACHE_DIR = str(compiled)
+        if numba := sys.modules.get("numba"):
+            numba.config.CACHE_DIR = str(compiled)
         options = ["-x", "-q", "--tb=short", "-p", "no:cacheprovider"]
+        options += ["-p", "no:zarr"]  # its plugin is slow to import
         status = int(sys.modules["pytest"].main([*options, *tests]))
     except BaseException:
         traceback.print_exc()
@@ -312,7 +314,9 @@ class Runner:
     def __init__(self, folder: Path, results: Path, parallel: int) -> None:
         self.results = results
         # Runs that said nothing about an error are made again.
-        self.known = {r.key: r for r in read_results(results) if r.outcome not in SILENT}
+        found = read_results(results)
+        self.known = {r.key: r for r in found if r.outcome not in SILENT}
+        self.noticed = {r.name: r.test for r in found if r.outcome == "killed" and r.test}
         self.free = [Copy(folder / str(i)) for i in range(parallel)]
         self.at_work: dict[
             int, tuple[Copy, Mutation | None, float, float, Callable[..., None]]
@@ -321,27 +325,43 @@ class Runner:
     def run(self, mutations: Sequence[Mutation]) -> list[Result]:
         """Return the results of all, in the order given."""
         pending = [m for m in mutations if not m.equivalent and key_of(m) not in self.known]
-        sets = dict.fromkeys(m.tests for m in pending)
-        for tests in sets:
-            if baseline_key(tests) not in self.known:
-                self._start(tests, None, 3600.0, baseline_key(tests), "baseline")
-        self._wait()
-        seconds = {tests: self.known[baseline_key(tests)].seconds for tests in sets}
-        for mutation in sorted(pending, key=lambda m: seconds[m.tests]):
-            key, baseline = key_of(mutation), self.known[baseline_key(mutation.tests)]
-            if baseline.outcome != "survived":
-                self._keep(Result(mutation.name, key, "baseline", 0.0, baseline.test))
-                continue
-            limit = max(LEAST_LIMIT, LIMIT_FACTOR * baseline.seconds)
-            self._start(mutation.tests, mutation, limit, key, mutation.name)
-        self._wait()
+        # One test that fails because of an error is enough. The one that did so last time is sound
+        # evidence of a changed module or file of tests too, as it passes without the error.
+        last = [(m, (self.noticed[m.name],)) for m in pending if m.name in self.noticed]
+        self._run(last, keep=("killed",))
+        self._run([(m, m.tests) for m in pending if key_of(m) not in self.known])
         return [
             Result(m.name, "", "equivalent", 0.0) if m.equivalent else self.known[key_of(m)]
             for m in mutations
         ]
 
+    def _run(
+        self, pairs: Sequence[tuple[Mutation, tuple[str, ...]]], keep: Sequence[str] = ()
+    ) -> None:
+        """Run each error against its tests, which pass without it; keep these outcomes, or all."""
+        for tests in dict.fromkeys(tests for _, tests in pairs):
+            if baseline_key(tests) not in self.known:
+                self._start(tests, None, 3600.0, baseline_key(tests), "baseline")
+        self._wait()
+        baselines = {tests: self.known[baseline_key(tests)] for _, tests in pairs}
+        for mutation, tests in sorted(pairs, key=lambda pair: baselines[pair[1]].seconds):
+            key, baseline = key_of(mutation), baselines[tests]
+            if baseline.outcome != "survived":
+                if not keep:
+                    self._keep(Result(mutation.name, key, "baseline", 0.0, baseline.test))
+                continue
+            limit = max(LEAST_LIMIT, LIMIT_FACTOR * baseline.seconds)
+            self._start(tests, mutation, limit, key, mutation.name, keep)
+        self._wait()
+
     def _start(
-        self, tests: Sequence[str], mutation: Mutation | None, limit: float, key: str, name: str
+        self,
+        tests: Sequence[str],
+        mutation: Mutation | None,
+        limit: float,
+        key: str,
+        name: str,
+        keep: Sequence[str] = (),
     ) -> None:
         while not self.free:
             self._poll()
@@ -350,7 +370,8 @@ class Runner:
         now = time.monotonic()
 
         def done(outcome: str, seconds: float, test: str) -> None:
-            self._keep(Result(name, key, outcome, seconds, test))
+            if not keep or outcome in keep:
+                self._keep(Result(name, key, outcome, seconds, test))
 
         self.at_work[pid] = (copy, mutation, now, now + limit, done)
 
@@ -408,7 +429,7 @@ def baseline_key(tests: Sequence[str]) -> str:
 
 def _text(test: str) -> str:
     path = ROOT / test.partition("::")[0]
-    files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+    files = sorted(path.rglob("*.py")) if path.is_dir() else [path] * path.is_file()
     return "".join(file.read_text() for file in files)
 
 
@@ -472,13 +493,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the status is 0 if 95 % are killed and the table is without faults."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[1])
     parser.add_argument("--check", action="store_true", help="only find the texts in the modules")
-    parser.add_argument("--only", metavar="PATTERN", default="*", help="names, kinds as `kind:5`")
+    parser.add_argument(
+        "--only",
+        metavar="PATTERN",
+        action="append",
+        help="names, or kinds as `kind:5`; may be given several times",
+    )
     parser.add_argument("--results", type=Path, default=Path("mutations.jsonl"))
     parser.add_argument("--parallel", type=int, default=1, metavar="N")
     parser.add_argument("--summary", type=Path, help="write the rates into this file")
     parser.add_argument("--known", action="store_true", help="summarise without running anything")
     given = parser.parse_args(arguments)
-    mutations = [m for m in read_table() if _matches(m, given.only)]
+    patterns = given.only or ["*"]
+    mutations = [m for m in read_table() if any(_matches(m, p) for p in patterns)]
     wrong = faults(mutations)
     for line in wrong:
         print(f"error: {line}")
@@ -492,6 +519,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name in PRELOADED:
         importlib.import_module(name)
     with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
+        Path(folder).chmod(0o755)  # tests that give up the rights of root import modules there
         runner = Runner(Path(folder), given.results, 0 if given.known else given.parallel)
         if given.known:
             mutations = [m for m in mutations if m.equivalent or key_of(m) in runner.known]

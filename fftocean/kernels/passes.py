@@ -13,7 +13,15 @@ import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.kernels.compiler import compiled
-from fftocean.kernels.vectors import LANES, TILE, scale, scale_reversed, split, transpose
+from fftocean.kernels.vectors import (
+    LANES,
+    TILE,
+    prefetch,
+    scale,
+    scale_reversed,
+    split,
+    transpose,
+)
 
 SIZE = TILE * LANES  # reals in a tile
 
@@ -246,7 +254,15 @@ def mix(
 
 @compiled
 def tile(
-    results: Real, first: int, width: int, spectra: int, ny: int, place: int, tiles: int, out: Real
+    results: Real,
+    first: int,
+    width: int,
+    spectra: int,
+    ny: int,
+    place: int,
+    tiles: int,
+    out: Real,
+    streamed: bool,
 ) -> None:
     """
     Write eight columns of the results of a first pass into the array between the passes.
@@ -258,6 +274,7 @@ def tile(
         spectra, ny: number of spectra, and of samples in a column.
         place, tiles: number of the tile in its row of tiles, and of tiles in a row.
         out: tiles[y // 8, place, spectrum, y % 8, column], all complex; see `pack`.
+        streamed: whether they are written past the caches.
     """
     stride = results.size // (spectra * width)
     whole = ny // TILE
@@ -265,7 +282,7 @@ def tile(
         o = (row * tiles + place) * spectra * SIZE
         for s in range(spectra):
             at = (s * width + first) * stride + LANES * row
-            transpose(results, at, stride, out, o + s * SIZE)
+            transpose(results, at, stride, out, o + s * SIZE, streamed)
     for y in range(whole * TILE, ny):
         o = (whole * tiles + place) * spectra * SIZE + LANES * (y - whole * TILE)
         for s in range(spectra):
@@ -305,18 +322,25 @@ def pack(
     """
     columns = factors.size // 2
     whole = columns // TILE
+    # The same row eight further on is read next; it is too far for the processor to foresee.
+    ahead = (columns + TILE - 1) // TILE * spectra * SIZE
     end = o + 2 * nx + 2 - mirrored.size
     # First, since -0 is the place after the last, and that may be the next row's.
     for j in range(whole):
         i = mirrored.size - LANES * (j + 1)  # where the mirrored tile begins
-        scale_reversed(mirrored, i, between, start + (j * spectra + minus) * SIZE, out, end + i)
+        at = start + (j * spectra + minus) * SIZE
+        scale_reversed(mirrored, i, between, at, out, end + i)
+        if minus != plus:
+            prefetch(between, at + ahead)
     for k in range(max(whole * TILE, 1), columns):
         at = start + (whole * spectra + minus) * SIZE + 2 * (k - whole * TILE)
         i = mirrored.size - 2 * k - 2
         out[end + i] = mirrored[i] * between[at]
         out[end + i + 1] = mirrored[i + 1] * between[at + 1]
     for j in range(whole):
-        scale(factors, LANES * j, between, start + (j * spectra + plus) * SIZE, out, o + LANES * j)
+        at = start + (j * spectra + plus) * SIZE
+        scale(factors, LANES * j, between, at, out, o + LANES * j)
+        prefetch(between, at + ahead)
     for k in range(whole * TILE, columns):
         at = start + (whole * spectra + plus) * SIZE + 2 * (k - whole * TILE)
         out[o + 2 * k] = factors[2 * k] * between[at]
@@ -324,12 +348,20 @@ def pack(
 
 
 @compiled
-def split_row(packed: Real, p: int, undo: float, real: Real, imag: Real) -> None:
+def split_row(
+    packed: Real,
+    p: int,
+    undo: float,
+    real: Real,
+    imag: Real,
+    stream_real: bool,
+    stream_imag: bool,
+) -> None:
     """Write the two real fields of a packed row, the second times `undo`."""
     nx = real.size
     whole = nx - nx % LANES
     for x in range(0, whole, LANES):
-        split(packed, p + 2 * x, undo, real, x, imag, x)
+        split(packed, p + 2 * x, undo, real, x, imag, x, stream_real, stream_imag)
     for x in range(whole, nx):
         real[x] = packed[p + 2 * x]
         imag[x] = packed[p + 2 * x + 1] * undo

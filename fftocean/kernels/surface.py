@@ -4,6 +4,7 @@ import numpy as np
 
 from fftocean.arrays import Real
 from fftocean.kernels.compiler import compiled
+from fftocean.kernels.vectors import LANES, interleave
 
 
 @compiled
@@ -21,7 +22,7 @@ def normals(
     unit = np.empty(3 * n, xx.dtype)
     for j in range(out.shape[0]):
         row = out[j].reshape(3 * n)
-        normal_row(slope_x[j], slope_y[j], xx[j], xy[j], yy[j], choppiness, unit, row)
+        normal_row(slope_x[j], slope_y[j], xx[j], xy[j], yy[j], choppiness, unit, row, False)
 
 
 @compiled
@@ -34,9 +35,10 @@ def normal_row(
     choppiness: float,
     unit: Real,
     out: Real,
+    streamed: bool,
 ) -> None:
     """
-    Write the normals of one row, 3 n numbers.
+    Write the normals of one row, 3 n numbers; if `streamed` is true, past the caches.
 
     `unit` is a buffer of as many: compilers vectorise a loop that writes to one array.
     """
@@ -57,7 +59,10 @@ def normal_row(
         unit[k] = x * per_length
         unit[second + k] = y * per_length
         unit[third + k] = z * per_length if per_length > nothing else one
-    for i in range(n):
+    whole = n - n % LANES
+    for i in range(0, whole, LANES):
+        interleave(unit, i, n, out, 3 * i, streamed)
+    for i in range(whole, n):
         k = np.uint64(i)
         out[3 * i] = unit[k]
         out[3 * i + 1] = unit[second + k]

@@ -86,6 +86,7 @@ def first_pass(
     buffers: Columns,
     call: Call,
     between: Real,
+    streamed: bool,
 ) -> None:
     """
     Do blocks of the pass along y: advance the waves, derive half-spectra, transform and tile them.
@@ -99,6 +100,7 @@ def first_pass(
         single: None in double precision.
         omega: None where no rate is needed.
         between: has the layout of `passes.tile`.
+        streamed: whether it is written past the caches.
     """
     frequency, table, potential = waves
     used, sources, powers, signs = spectra
@@ -148,7 +150,7 @@ def first_pass(
                 if function != 0:
                     execute(function, plan, from_address, to_address + row * row_bytes)
         if function != 0:
-            tile(transformed, 0, width, count, ny, block, tiles, between)
+            tile(transformed, 0, width, count, ny, block, tiles, between, streamed)
 
 
 @compiled
@@ -167,7 +169,14 @@ def pack_rows(
 
 @compiled
 def split_rows(
-    y: int, count: int, p: int, rows: Rows, result: Real, places: Integer, nx: int
+    y: int,
+    count: int,
+    p: int,
+    rows: Rows,
+    result: Real,
+    places: Integer,
+    streamed: bool,
+    nx: int,
 ) -> None:
     """Write the fields of some transformed rows to their places."""
     table, _, _, undo = rows
@@ -176,7 +185,9 @@ def split_rows(
         at = 2 * nx * r
         if only == 0:
             real, imag = _row(places, one, y, r, nx, result), _row(places, other, y, r, nx, result)
-            split_row(result, at, undo[p], real, imag)
+            past_real = streamed and places[one, 1] == 1  # buffers stay in cache
+            past_imag = streamed and places[other, 1] == 1
+            split_row(result, at, undo[p], real, imag, past_real, past_imag)
         elif only == 1:
             real_part(result, at, _row(places, one, y, r, nx, result))
         else:
@@ -200,6 +211,7 @@ def finish_rows(
     normal: Real,
     jacobian: Real,
     unit: Real,
+    streamed: bool,
     nx: int,
 ) -> None:
     """
@@ -210,6 +222,7 @@ def finish_rows(
             `surface.normals` takes them.
         normal, jacobian: whole outputs, or empty.
         unit: buffer of 3 nx.
+        streamed: whether outputs are written past the caches; their rows are whole cache lines.
     """
     for r in range(count):
         at = (y + r) * nx
@@ -219,7 +232,8 @@ def finish_rows(
         if normal.size:
             sx = _row(places, geometry[0], y, r, nx, unit)
             sy = _row(places, geometry[1], y, r, nx, unit)
-            normal_row(sx, sy, xx, xy, yy, choppiness, unit, normal[3 * at : 3 * (at + nx)])
+            out = normal[3 * at : 3 * (at + nx)]
+            normal_row(sx, sy, xx, xy, yy, choppiness, unit, out, streamed)
         if jacobian.size:
             jacobian_row(xx, xy, yy, choppiness, jacobian[at : at + nx])
 
@@ -239,6 +253,7 @@ def second_pass(
     normal: Real,
     jacobian: Real,
     unit: Real,
+    streamed: bool,
     ny: int,
     nx: int,
 ) -> None:
@@ -252,6 +267,8 @@ def second_pass(
             for p in range(rows[0].shape[0]):
                 pack_rows(y, 1, p, spectra, rows, between, source, nx)
                 execute(function, plan, from_address, to_address)
-                split_rows(y, 1, p, rows, result, places, nx)
+                split_rows(y, 1, p, rows, result, places, streamed, nx)
             if normal.size or jacobian.size:
-                finish_rows(y, 1, geometry, places, choppiness, normal, jacobian, unit, nx)
+                finish_rows(
+                    y, 1, geometry, places, choppiness, normal, jacobian, unit, streamed, nx
+                )

@@ -27,6 +27,8 @@ from fftocean.baking.previews import sheets as preview
 from fftocean.baking.scene.maps import MAPS
 from fftocean.cli import main
 from fftocean.files import as_json
+from fftocean.grid import Grid
+from fftocean.ocean import memory_needed
 
 pytestmark = pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
 TILES = [(32, 200.0), (32, 29.0), (16, 4.1)]
@@ -328,6 +330,28 @@ def test_overwriting_removes_what_was_baked_and_nothing_else(copy, tmp_path):
     assert fo.check(copy) == ()
 
 
+def test_an_unfinished_cascade_has_no_list(copy):
+    """Nor while it is baked again: the list goes before the first tile is touched."""
+
+    def stop(_):
+        raise InterruptedError
+
+    same = JOB.replaced({"bake.pictures": ["sheet", "tiling"]})
+    with pytest.raises(InterruptedError):
+        bake(copy, same, listen=stop)
+    assert not (copy / "cascade.json").exists()
+    assert ("unfinished", "cascade.json") in told(copy)
+
+
+def test_one_tile_is_replaced_by_a_cascade_on_request(tmp_path):
+    """Nothing of the one tile is left among the tiles."""
+    fo.bake(JOB.replaced({"ocean.n": 8}), tmp_path / "sea", executor="serial")
+    bake(tmp_path / "sea", overwrite=True)
+    bake(tmp_path / "fresh")
+    assert tree(tmp_path / "sea") == tree(tmp_path / "fresh")
+    assert fo.check(tmp_path / "sea") == ()
+
+
 def test_a_folder_in_use_is_refused(copy, capsys):
     """Exit code 6 for the cascade, for a bake of one tile into it, and for a check."""
     copy_flags = ["bake", "-o", str(copy), "--quiet", "--frames", "1"]
@@ -421,6 +445,19 @@ LIES = {
 }
 
 
+@pytest.mark.parametrize("bands", [[0.2, 0.1], [0.2, 0.3], [0.2, 0.2, 0.9]])
+def test_a_list_whose_bands_do_not_adjoin_says_so(copy, bands):
+    """From 0 to infinity, each where the one before ends."""
+
+    def change(listed):
+        first, second = listed["tiles"]
+        first["band"], second["band"] = [0.0, bands[0]], [bands[1], (*bands, "inf")[2]]
+
+    relisted(copy, change)
+    details = [finding.detail for finding in fo.check(copy) if finding.path == "cascade.json"]
+    assert any("do not adjoin from 0 to inf" in detail for detail in details)
+
+
 @pytest.mark.parametrize("name", LIES)
 def test_a_list_that_contradicts_its_tiles_is_found(copy, name):
     """Though its own checksum is right."""
@@ -449,6 +486,17 @@ def test_a_tile_of_another_sea_is_found(copy, tmp_path):
             copy, lambda c, sha=sha: c["tiles"][1].update(sha256=sha)
         )  # even where the list names that very manifest
         assert any("its job is not that of tile1" in finding.detail for finding in fo.check(copy))
+
+
+def test_another_manifest_of_the_same_tile_is_found(copy):
+    """Its own checksum is right, and all that the list repeats of it: only its SHA-256 differs."""
+    path = copy / "tile1" / "manifest.json"
+    manifest = json.loads(path.read_text())
+    del manifest["check"]
+    manifest["statistics"]["hs"] *= 1.5
+    path.write_bytes(as_json(sealed(manifest)))
+    assert fo.check(copy / "tile1") == ()
+    assert told(copy) == {("manifest", "tile1/manifest.json")}
 
 
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):
@@ -525,6 +573,26 @@ def test_a_dry_run_says_what_the_run_writes(tmp_path, capsys):
     assert told_before["bytes"] < 2**20
     assert main([*flags, "--maps", "height,foam", "--dry-run"]) == 2
     assert estimate_tiles(JOB, SMALL, executor="serial").frames == 3
+
+
+def test_memory_is_that_of_all_tiles_only_in_one_process():
+    """One process holds the tiles side by side; of several, each holds one tile at a time."""
+    each = [memory_needed(Grid.of(n, size), "float32") for n, size in TILES]
+    assert estimate_tiles(JOB, TILES, executor="serial").memory == sum(each)
+    assert estimate_tiles(JOB, TILES, executor="processes", workers=2).memory == max(each)
+
+
+def test_tiles_are_in_the_order_of_their_numbers(tmp_path):
+    """The eleventh after the third; and nothing that is no folder of a tile."""
+    for name in ("tile10", "tile2", "tile0", "tile", "tile3b", "tiles"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "job.json").write_text("{}")
+    (tmp_path / "tile4").mkdir()
+    (tmp_path / "tile5").write_text("a file")
+    (tmp_path / "tile6").symlink_to(tmp_path / "tile0")
+    (tmp_path / "tile7").mkdir()
+    (tmp_path / "tile7" / "manifest.json").write_text("{}")
+    assert layout.tile_folders(tmp_path) == ["tile0", "tile2", "tile7", "tile10"]
 
 
 def test_info_of_tiles(capsys):

@@ -402,6 +402,34 @@ def test_a_manifest_that_no_bake_wrote_is_named_and_leads_nowhere(
     assert all(".." not in path.parts and exr in path.parents for path in opened)
 
 
+def exchange(manifest):
+    """Let two rows change their numbers and times, as if each were the other's frame."""
+    one, other = manifest["frames"][3], manifest["frames"][7]
+    for key in ("frame", "t"):
+        one[key], other[key] = other[key], one[key]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        exchange,
+        lambda manifest: manifest["frames"].pop(),
+        lambda manifest: manifest["frames"].pop(4),
+        lambda manifest: manifest["frames"].append(manifest["frames"][-1]),
+        lambda manifest: manifest["frames"].reverse(),
+    ],
+)
+def test_a_manifest_of_other_frames_than_its_job_s_is_refused(baked, change, tmp_path):
+    """A container has one path for all frames, so that no path tells them apart."""
+    folder = Path(shutil.copytree(baked("npz"), tmp_path / "out"))
+    forge(folder, change)
+    (found,) = check(folder)
+    assert (found.kind, found.path) == ("manifest", "manifest.json")
+    assert "its frames are not those of its job" in found.detail
+    with pytest.raises(IntegrityError, match="its frames are not those of its job"):
+        fo.load(folder)
+
+
 def test_a_whole_manifest_of_another_bake_is_reported(exr, tmp_path):
     """Each file on its own is whole."""
     fo.bake(

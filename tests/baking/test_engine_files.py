@@ -258,6 +258,19 @@ def test_settings_that_godot_made_itself_are_the_users(tmp_path):
     assert own.read_text() == "Godot's own"
 
 
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_a_link_to_nowhere_is_a_file_of_somebody(overwrite, tmp_path):
+    """It is neither replaced nor written through."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "index.html").symlink_to(tmp_path / "nowhere")
+    with pytest.raises(OutputError, match=r"(contains|holds) index\.html"):
+        bake(job("three"), tmp_path / "out", overwrite=overwrite)
+    assert (tmp_path / "out" / "index.html").is_symlink()
+    assert not (tmp_path / "nowhere").exists()
+    found = engine_files.existing(tmp_path / "out", ["index.html", "sky.js"])
+    assert found == [tmp_path / "out" / "index.html"]
+
+
 @pytest.mark.parametrize(
     ("engine", "form", "changes", "words"),
     [

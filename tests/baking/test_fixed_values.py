@@ -10,6 +10,7 @@ import fftocean as fo
 from fftocean.baking.cascade import bake_tiles
 from fftocean.baking.folder.sealed import CHECK, sealed
 from fftocean.files import as_json
+from fftocean.fixed_values import duration, one_in
 
 CREST = "[[ocean.crest]]\nheight = 1.5\nx = 50.0\ny = 25.0\nt = 10.0\n"
 TILES = [(32, 100.0), (32, 17.3)]
@@ -88,3 +89,35 @@ def test_shares_that_do_not_add_up_are_found(tmp_path):
     del listed[CHECK]
     path.write_bytes(as_json(sealed(listed)))
     assert "add up to 1.5" in " ".join(str(found) for found in fo.check(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (0.5, "1 in 2"),
+        (1.0 / 1234.4, "1 in 1,234"),
+        (1.0 / 9_999_000.0, "1 in 9,999,000"),
+        (1e-12, "1 in 1.0e+12"),
+        (0.0, "less than 1 in 1e300"),
+    ],
+)
+def test_a_probability_is_said_as_one_in_a_number(share, words):
+    assert one_in(share) == words
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (59.6, "59.6 s"),
+        (119.0, "119 s"),
+        (120.0, "2 minutes"),
+        (7200.0, "2 hours"),
+        (47.0 * 3600.0, "47 hours"),
+        (48.0 * 3600.0, "2 days"),
+        (2.0 * 365.25 * 86400.0, "2 years"),
+        (1234.0 * 365.25 * 86400.0, "1,234 years"),
+        (1e8 * 365.25 * 86400.0, "1.0e+08 years"),
+    ],
+)
+def test_a_length_of_time_is_said_in_the_unit_that_suits_it(seconds, words):
+    assert duration(seconds) == words

@@ -1,6 +1,7 @@
 """The journal: damaged lines are ignored, and each line is flushed to the disk."""
 
 import errno
+import hashlib
 import os
 import random
 
@@ -94,6 +95,17 @@ def test_a_journal_goes_on_without_what_was_damaged(path):
 def test_a_file_that_is_no_journal_is_an_empty_one(path, text):
     path.write_bytes(text)
     assert [*entries_of(path, IDENTITY)] == []
+
+
+@pytest.mark.parametrize("text", [b"[1]", b'"row"', b"5", b"null", b"{", b"[" * 5000])
+def test_a_line_that_is_no_table_is_left_out(path, text):
+    """Though its checksum is right: the lines around it count."""
+    first, *lines = path.read_bytes().splitlines(keepends=True)
+    line = hashlib.sha256(text).hexdigest()[:16].encode() + b" " + text + b"\n"
+    path.write_bytes(b"".join([first, lines[0], line, *lines[1:]]))
+    assert entries_of(path, IDENTITY) == ENTRIES
+    path.write_bytes(b"".join([line, *lines]))
+    assert entries_of(path, IDENTITY) == []
 
 
 def test_numbers_come_back_as_they_were(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 
 import fftocean as fo
 from fftocean.baking import bake as baker
-from fftocean.baking.finished.load import load
+from fftocean.baking.finished.load import Bake, BakedCascade, load
 from fftocean.baking.previews import sheets as preview
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
@@ -235,3 +235,14 @@ def test_more_than_there_is_memory_for_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("fftocean.host.available_memory", lambda: 1000.0)
     with pytest.raises(fo.ParameterError, match="GiB"):
         load(tmp_path)
+
+
+def test_each_tile_is_got_by_its_number():
+    """The largest first; frames and times are those of all tiles."""
+    tiles = tuple(Bake({}, np.arange(2.0), (0, 3), {"tile": i}) for i in range(3))
+    baked = BakedCascade(tiles, {})
+    assert [baked[i].manifest["tile"] for i in (0, 1, 2, -1)] == [0, 1, 2, 2]
+    assert len(baked) == 3
+    assert baked.frames == (0, 3)
+    with pytest.raises(IndexError):
+        baked[3]

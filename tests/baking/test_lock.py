@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -52,6 +53,24 @@ def test_a_held_folder_is_refused_at_once_and_names_its_holder(tmp_path, holder)
         ) as caught:
             attempt()
         assert caught.value.exit_code == 6
+
+
+def test_the_second_bake_gives_up_within_two_seconds(tmp_path, monkeypatch):
+    """By a clock that only the waits move."""
+    waits = []
+
+    def sleep(seconds):
+        waits.append(seconds)
+        assert sum(waits) <= 2.0
+
+    clock = SimpleNamespace(monotonic=lambda: sum(waits), sleep=sleep)
+    monkeypatch.setattr(lock, "time", clock)
+    monkeypatch.setattr(lock, "_try_lock", lambda _: False)
+    for attempt in (lambda: locked(tmp_path).__enter__(), lambda: require_free(tmp_path)):
+        waits.clear()
+        with pytest.raises(FolderInUseError, match="in use by another bake"):
+            attempt()
+        assert sum(waits) >= 0.5  # workers of a bake that was just killed have a moment
 
 
 def test_a_lock_ends_with_its_process(tmp_path, holder):

@@ -12,6 +12,7 @@ from builders import lazy
 from command_line import SMALL, events, no_pictures, refusal
 
 from fftocean.cli import main
+from fftocean.cli.bake import _Follower
 
 exr = lazy("fftocean.export.exr")
 
@@ -260,6 +261,62 @@ def test_a_finished_bake_is_reported_as_existing(run):
     assert "nothing to bake: all 3 maps of 8 x 8 exist already: out\n" in run(*flags)[1]
     Path("out/height/0001.exr").unlink()
     assert ", 2 of 3 frames from an earlier run: out\n" in run(*flags)[1]
+
+
+@pytest.mark.usefixtures("fast_bakes")
+def test_frames_of_an_earlier_run_are_counted(run):
+    """Those that were baked now are no work of an earlier run."""
+    flags = ("bake", "-o", "out", "--n", "8", "--frames", "4", "--maps", "height")
+    assert "from an earlier run" not in run(*flags)[1]
+    for name in ("0000", "0001", "0002"):
+        Path(f"out/height/{name}.exr").unlink()
+    _, out, _ = run(*flags)
+    assert "4 maps of 8 x 8 in " in out
+    assert ", 1 of 4 frames from an earlier run: out\n" in out
+
+
+def test_progress_of_tiles_and_previews_is_said():
+    """Tiles are counted from 1; previews come when every frame of one tile is finished."""
+    shown = []
+    follower = _Follower(lambda *told: shown.append(told), None)
+    tile = {"tile": 0, "tiles": 2}
+    for event in (
+        {"event": "start", "frames": 2, "kept": 1, **tile},
+        {"event": "survey", "what": "range", "done": 1, "total": 6, **tile},
+        {"event": "frame", "frames": 2, "done": 2, **tile},
+        {"event": "start", "frames": 2, "kept": 0, **{**tile, "tile": 1}},
+    ):
+        follower(event)
+    assert shown == [
+        (1, 2, "baking tile 1 of 2"),
+        (1, 6, "surveying range tile 1 of 2"),
+        (2, 2, "baking tile 1 of 2"),
+        (0, 2, "baking tile 2 of 2"),
+    ]
+    shown.clear()
+    follower = _Follower(lambda *told: shown.append(told), None)
+    follower({"event": "start", "frames": 2, "kept": 0})
+    follower({"event": "frame", "frames": 2, "done": 1})
+    follower({"event": "frame", "frames": 2, "done": 2})
+    assert shown == [(0, 2, "baking"), (1, 2, "baking"), (2, 2, "rendering previews")]
+
+
+@pytest.mark.usefixtures("fast_bakes")
+@pytest.mark.parametrize("tiles", [(), ("--tiles", "16:100,16:15")])
+@pytest.mark.parametrize(("stop", "code"), [(KeyboardInterrupt(), 130), (SystemExit(143), 143)])
+def test_an_interrupted_bake_says_how_far_it_is(run, stop, code, tiles, monkeypatch):
+    """It leaves with the code of the signal, never as if it were finished."""
+
+    def fail(*_, **__):
+        raise stop
+
+    monkeypatch.setattr("fftocean.baking.bake._finish", fail)
+    flags = ("bake", "-o", "out", "--frames", "2", "--maps", "height", *(tiles or ("--n", "8")))
+    left, out, err = run(*flags)
+    assert left == code
+    assert "preview" not in out
+    of = " of tile 1 of 2" if tiles else ""
+    assert f"2 of 2 frames{of} are finished; run the same command again to resume" in err
 
 
 @pytest.mark.usefixtures("fast_bakes")

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from command_line import SMALL
 
+from fftocean.cli.console import console_for, note, plain, shortened, size_in_words, value_in_words
+
 
 @pytest.mark.parametrize(
     ("command", "name"),
@@ -51,3 +53,44 @@ def test_tables_keep_their_figures_at_80_columns(run, command, monkeypatch):
         "check": ["height/0000.exr"],
     }[command[0]]:
         assert part in out
+
+
+@pytest.mark.parametrize(
+    ("size", "words"),
+    [
+        (0, "0 MiB"),
+        (2**20, "1 MiB"),
+        (10 * 2**20, "10 MiB"),
+        (999 * 2**20, "999 MiB"),
+        (1000 * 2**20, "0.977 GiB"),
+        (3 * 2**30, "3 GiB"),
+    ],
+)
+def test_sizes_are_in_units_of_two_to_the_twenty(size, words):
+    assert size_in_words(size) == words
+
+
+def test_values_are_as_a_job_file_has_them():
+    assert value_in_words([16, 12.5, [1.0, 2]]) == "16, 12.5, 1, 2"
+    assert value_in_words(True) == "True"
+    assert value_in_words(1e-7) == "1e-07"
+
+
+def test_long_values_are_cut_to_the_length():
+    assert shortened("x" * 110) == "x" * 110
+    assert shortened("x" * 111) == "x" * 107 + "..."
+    assert shortened("abcdefgh", 6) == "abc..."
+
+
+def test_plain_text_is_one_line_without_control_characters():
+    assert plain("a\nb\tc\x1b[31m\u202eé") == "a\\nb\\tc\\x1b[31m\\u202eé"
+    assert plain(Path("a\rb")) == "a\\rb"
+
+
+def test_a_note_goes_to_the_error_output(capsys):
+    note("two\nlines")
+    assert capsys.readouterr() == ("", "note: two\\nlines\n")
+
+
+def test_a_table_without_a_terminal_is_as_wide_as_it_needs():
+    assert console_for().width == 140

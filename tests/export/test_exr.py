@@ -196,6 +196,15 @@ def test_noise_is_stored_without_compression(dtype):
     assert bits.nbytes < len(data) <= bits.nbytes + 16 * blocks + 500
 
 
+def test_a_block_that_stays_as_large_is_stored_plain(monkeypatch):
+    """Of exactly its full size, a reader would take it for one without compression."""
+    monkeypatch.setattr(exr, "_deflated", lambda planes: [bytes(len(planes))])
+    pixels = np.random.default_rng(4).standard_normal((35, 9, 3)).astype(np.float32)
+    _, found = raw(exr.encode(pixels))
+    for i, name in enumerate("RGB"):
+        assert np.array_equal(found[name], pixels[..., i])
+
+
 @pytest.mark.parametrize("name", ["height", "displacement", "normal"])
 def test_files_are_hardly_larger_than_those_of_openexr(name):
     """

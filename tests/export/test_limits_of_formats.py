@@ -38,6 +38,34 @@ def test_an_archive_of_another_member_is_refused():
         decode("npz", stream.getvalue(), shape=MAP.shape)
 
 
+class Program:
+    """An object whose unpickling makes a file."""
+
+    def __init__(self, path):
+        self.path = str(path)
+
+    def __reduce__(self):
+        return open, (self.path, "w")
+
+
+def test_an_archive_with_a_program_is_refused(tmp_path):
+    """NumPy's files may hold pickles, which can do anything when they are read."""
+    content, stream = io.BytesIO(), io.BytesIO()
+    array = np.array([Program(tmp_path / "made")], dtype=object)
+    np.lib.format.write_array(content, array, allow_pickle=True)
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as file:
+        file.writestr("pixels.npy", content.getvalue())
+    with pytest.raises(IntegrityError, match="cannot be read"):
+        decode("npz", stream.getvalue(), shape=MAP.shape)
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_archive_has_no_time_of_its_own():
+    """The first that ZIP can tell, so that the same pixels are the same bytes on every day."""
+    with zipfile.ZipFile(io.BytesIO(encode("npz", MAP))) as file:
+        assert [member.date_time for member in file.infolist()] == [(1980, 1, 1, 0, 0, 0)]
+
+
 def test_an_atlas_of_oblong_frames_is_nearly_square():
     """
     Of all arrangements without an empty cell, the one whose longer side is shortest; gutters count

@@ -105,3 +105,22 @@ def test_not_ours():
     )
     with pytest.raises(IntegrityError):  # and only as much is unpacked as can be right
         png.read(png.SIGNATURE + head + body + png._chunk(b"IEND", b""))
+
+
+def test_a_stream_without_its_end_is_refused():
+    """All rows are there; the checksum of the stream is not, though that of the chunk is right."""
+
+    def chunk(name, content):
+        checksum = struct.pack(">I", zlib.crc32(name + content))
+        return struct.pack(">I", len(content)) + name + content + checksum
+
+    header = struct.pack(">IIBBBBB", 4, 3, 16, 0, 0, 0, 0)
+    packed = zlib.compress(b"".join(b"\2" + bytes(8) for _ in range(3)))
+    for stream, whole in ((packed, True), (packed[:-4], False), (packed[:-1], False)):
+        parts = [chunk(b"IHDR", header), chunk(b"IDAT", stream), chunk(b"IEND", b"")]
+        data = bytes([137, 80, 78, 71, 13, 10, 26, 10]) + b"".join(parts)
+        if whole:
+            assert not np.any(png.read(data, (3, 4, 1)))
+        else:
+            with pytest.raises(IntegrityError, match="and nothing after them"):
+                png.read(data, (3, 4, 1))

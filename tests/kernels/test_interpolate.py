@@ -118,8 +118,9 @@ def test_a_frame_repeats_the_tile(shape):
     assert np.array_equal(given, expected)
 
 
+@pytest.mark.parametrize("far", [0.9, 3.0])  # in periods: a tile can be smaller than an offset
 @pytest.mark.parametrize("spline", [False, True])
-def test_gradients_are_those_of_the_interpolant(spline):
+def test_gradients_are_those_of_the_interpolant(spline, far):
     """
     Value from the general routine, slopes from its central differences: h^2 of a third derivative,
     h = 1e-5, and rounding / h.
@@ -138,7 +139,7 @@ def test_gradients_are_those_of_the_interpolant(spline):
         return out[0]
 
     h = 1e-5
-    for u, v in zip(*points(10, far=0.9), strict=True):
+    for u, v in zip(*points(10, far), strict=True):
         a, b, c, a_u, a_v, b_u, b_v = gradient(flat, 7, NX, NY, u, v)
         assert np.max(np.abs(at(u, v)[:3] - [a, b, c])) < 1e-13
         along, across = (
@@ -149,8 +150,9 @@ def test_gradients_are_those_of_the_interpolant(spline):
         assert np.max(np.abs(across[:2] - [a_v, b_v])) < 1e-8
 
 
+@pytest.mark.parametrize("far", [0.9, 3.0])
 @pytest.mark.parametrize("spline", [False, True])
-def test_many_gradients_at_once_are_those_of_one(spline):
+def test_many_gradients_at_once_are_those_of_one(spline, far):
     """
     The same numbers as point by point, added to what is there; round-off of another order of sums.
     """
@@ -163,7 +165,7 @@ def test_many_gradients_at_once_are_those_of_one(spline):
     )
     workspace = np.full(interpolate.ROWS * block, 7.0)
     rows = workspace.reshape(-1, block)
-    rows[:2, :count] = points(count, far=0.9)
+    rows[:2, :count] = points(count, far)
     many(flat, 0, NX, NY, 2.0, 3.0, count, workspace)
     expected = (
         np.array([one(flat, 0, NX, NY, u, v) for u, v in rows[:2, :count].T]).T

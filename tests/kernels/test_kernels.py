@@ -129,7 +129,7 @@ def test_tile(ny, dtype):
     width, spectra, tiles, bands, stride = 16, 2, 3, -(-ny // 8), 2 * ny + 6
     results = RNG.standard_normal((spectra, width, stride)).astype(dtype)
     out = np.zeros((bands, tiles, spectra, 8, 8, 2), dtype=dtype)
-    passes.tile(results.reshape(-1), 8, width, spectra, ny, 1, tiles, out.reshape(-1))
+    passes.tile(results.reshape(-1), 8, width, spectra, ny, 1, tiles, out.reshape(-1), False)
     pairs = results[:, 8:, : 2 * ny].reshape(spectra, 8, ny, 2)
     for y in range(ny):
         assert np.array_equal(out[y // 8, 1, :, y % 8], pairs[:, :, y])
@@ -181,7 +181,7 @@ def test_pack_and_split(nx):
         rows = packed[: 2 * nx].reshape(2, nx)
         assert np.array_equal(rows[0], rows[1])
         transformed = parts(np.fft.ifft(rows, axis=-1) * nx).reshape(-1)
-        passes.split_row(transformed, 2 * nx, 4.0, first, second)
+        passes.split_row(transformed, 2 * nx, 4.0, first, second, False, False)
         assert np.max(np.abs(first - fields[0])) < 1e-13 * nx
         assert np.max(np.abs(second - 4.0 * fields[1])) < 1e-13 * nx
         alone = np.empty((2, nx))

@@ -44,8 +44,10 @@ def test_reduction(x, size):
     """
     reduced = query.reduced(x, size)
     rounding = 2 * np.spacing(abs(x) if abs(x) < query.FAR * size else size)
-    if rounding < size:
-        assert -size - rounding <= reduced <= size + rounding
+    if abs(x) < query.FAR * size:  # floor, not trunc: below 0, too
+        assert -rounding <= reduced <= size + rounding
+    else:
+        assert abs(reduced) <= size
     apart = (reduced - math.fmod(x, size)) / size
     assert abs(apart - round(apart)) * size <= rounding
     assert query.reduced(x, np.inf) == x

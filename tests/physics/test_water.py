@@ -147,6 +147,26 @@ def test_parts_within_parts_are_heard_and_may_not_differ(system, name, value, pa
         assert text in str(refused.value)
 
 
+def nested(times):
+    part = fo.TMA(JONSWAP, 25.0)
+    for _ in range(times):
+        part = Sum(part)
+    return fo.WaveSystem(spectrum=part)
+
+
+@pytest.mark.parametrize("times", [2, 5, 16])
+def test_statements_are_found_sixteen_parts_deep(times):
+    """A statement deeper down is not looked for, so an object that holds itself ends the search."""
+    assert fo.Sea(nested(times)).depth == 25.0
+    assert (
+        fo.Sea(nested(times)).depth_from == "systems[0].spectrum" + ".parts[0]" * times + " (TMA)"
+    )
+    assert fo.Sea(nested(17)).depth == math.inf
+    endless = Sum(JONSWAP)
+    endless.itself = endless
+    assert fo.Sea(fo.WaveSystem(spectrum=endless)).depth == math.inf
+
+
 def test_two_parts_of_two_waters_are_refused():
     with pytest.raises(
         ParameterError,

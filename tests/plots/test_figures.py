@@ -82,6 +82,13 @@ def test_a_sheet_has_all_four_plots(tmp_path, measured, given, flat):
     )  # IHDR
 
 
+def test_the_title_of_a_sheet_is_that_of_the_tile(given, flat):
+    """Sides and samples in the order x, y; depth and loop in words."""
+    title = plots.plot_job(given).get_suptitle()
+    assert title.startswith("A tile of 90 × 70 m, 32 × 24 samples, 4 m deep; repeats every 25 s")
+    assert plots.plot_job(flat).get_suptitle().endswith("deep water; never repeats in time")
+
+
 def test_the_same_sea_gives_the_same_bytes_whatever_the_user_s_style(tmp_path):
     first = plots.save(plots.plot_spectrum(MEASURED), tmp_path / "1.png").read_bytes()
     with matplotlib.rc_context({"font.size": 25.0, "axes.facecolor": "red", "savefig.dpi": 40}):

@@ -133,6 +133,8 @@ def lines_changed(text, *changes):
         ("spotter.csv", ("^1577836800,", "1577836800,1,"),
          "line 2 must hold 274 cells, as line 1 does, got 275"),
         ("spotter.csv", ("^1577836800,", "9e99,"), "Epoch Time must be seconds since 1970"),
+        ("spotter.csv", (r"^(1577836800(?:,[^,]+){3}),[^,]+", r"\1,0.0299"),
+         "line 3 must have the frequencies of line 2, got others"),
         ("spotter.csv", ("^1577836800,", "soon,"),
          "line 2, column Epoch Time, must hold a number here, got 'soon'"),
         ("datawell.spt", (r"(\n|^)10\r\n", "ten\n"), "known format"),

@@ -283,6 +283,26 @@ def test_netcdf_3_headers_that_lie(data, message, tmp_path):
     refused(tmp_path / "a.nc", message)
 
 
+def attribute(length, name=b"history"):
+    """Return a classic header with one attribute of characters, all of which are there."""
+    padded = name + bytes(-len(name) % 4)
+    head = struct.pack(">IIIIII", 0, 0, 0, 12, 1, len(name)) + padded
+    return b"CDF\x01" + head + struct.pack(">II", 2, length) + b"x" * length
+
+
+def test_a_long_attribute_is_not_read(tmp_path):
+    """It would be read and thrown away: 4 MiB at most, though the file has more."""
+    path = tmp_path / "a.nc"
+    path.write_bytes(attribute(5 * 2**20))
+    refused(path, "attribute history must be at most 4 MiB, got 5242880 bytes")
+    path.write_bytes(attribute(2**22))
+    refused(path, "its header is cut short")  # at the list of variables, behind the attribute
+    path.write_bytes(attribute(4, b"n" * 4097))
+    refused(path, "a name must be at most 4096 bytes long, got 4097")
+    path.write_bytes(attribute(4, b"n" * 4096))
+    refused(path, "its header is cut short")
+
+
 def test_many_variables_on_the_same_bytes(tmp_path):
     """Each would be read whole: 100 times the file."""
     data = header(*[(b"v%d" % i, (0,), 6, 8000) for i in range(100)], dims=((b"x", 125_000),))

@@ -182,6 +182,28 @@ def test_ndbc_archive_given_by_any_of_its_files(kind, tmp_path):
     assert data.attrs["source_format"] == "NDBC historical text with directions"
 
 
+@pytest.mark.parametrize("bins", [16, 90])
+@pytest.mark.parametrize("form", ["archive", "realtime", "datawell", "spotter", "swan"])
+def test_moments_become_as_many_directions_as_asked_for(form, bins, tmp_path):
+    """Evenly round the compass, from north on; the energy does not depend on their number."""
+    if form == "realtime":
+        write_ndbc(tmp_path)
+        path = tmp_path
+    else:
+        name, write = {
+            "archive": ("", write_archive),
+            "datawell": ("a.spt", write_datawell),
+            "spotter": ("a.csv", write_spotter),
+            "swan": ("a.spec1d", write_swan_1d),
+        }[form]
+        path = write(tmp_path / name, SPECIFIED)
+    data, usual = readers.open(path, bins=bins), readers.open(path)
+    assert (data.sizes["dir"], usual.sizes["dir"]) == (bins, 72)
+    assert data.dir.values == pytest.approx(360.0 / bins * np.arange(bins))
+    energy = [(made.efth.sum("dir") * 360.0 / made.sizes["dir"]).values for made in (data, usual)]
+    assert energy[0] == pytest.approx(energy[1], rel=1e-9, abs=1e-12)
+
+
 def test_ndbc_archive_given_by_its_folder_or_packed(tmp_path):
     path = write_archive(tmp_path, SPECIFIED)
     want = readers.open(path)

@@ -365,6 +365,9 @@ def test_a_tail_gives_back_the_energy_that_the_instrument_cut():
     assert cut < 0.94 * whole
     (note,) = (note for note in made.notes if "tail" in note)
     assert "a tail f^-5 beyond 0.3 Hz adds" in note
+    with_tail, without = (4.0 * math.sqrt(m0) for m0 in (made.sea.variance, cut))
+    assert f"(Hs {with_tail:.4g} m in place of {without:.4g} m)" in note
+    assert f"variance, {100.0 * (made.sea.variance / cut - 1.0):.2g} %" in note
 
 
 def test_without_a_tail_nothing_is_added():

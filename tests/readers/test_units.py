@@ -54,6 +54,15 @@ DEGREE = 180.0 / math.pi
         ("degrees_true", 1.0 / DEGREE, {"rad": 1}),
         ("degree_T", 1.0 / DEGREE, {"rad": 1}),
         ("1", 1.0, {}),
+        ("ft", 0.3048, {"m": 1}),
+        ("ft2 s", 0.3048**2, DENSITY),
+        ("fathoms", 6 * 0.3048, {"m": 1}),
+        ("km", 1e3, {"m": 1}),
+        ("mm2/Hz", 1e-6, DENSITY),
+        ("ms", 1e-3, {"s": 1}),
+        ("minutes", 60.0, {"s": 1}),
+        ("hr", 3600.0, {"s": 1}),
+        ("m/s/s", 1.0, {"m": 1, "s": -2}),
     ],
 )  # fmt: skip
 def test_spellings(text, scale, powers):
@@ -68,7 +77,8 @@ def test_spellings(text, scale, powers):
     "text",
     ["", " ", "banana", "m2 banana", "m2 s (", "m2)", "m-", "m //s", "m * * s", "m99",
      "10^400 m", "m^0.5", "m2.5", None, 3, "m" * 300, "(" * 190 + "m",
-     "m2 s # comment", "m2 s since 1990-01-01", "/s", "m^", "0 m"],
+     "MM", "Ms", "MHz", "Km2", "FT2 KG-1 x", "m2 s # comment", "m2 s since 1990-01-01", "/s",
+     "m^", "0 m"],
 )  # fmt: skip
 def test_what_is_no_unit(text):
     assert units.parse(text) is None

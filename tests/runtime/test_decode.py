@@ -254,6 +254,7 @@ def refused(package, words):
         (["tiles", 0, "n"], [32], r"tiles\[0\].n must be a list of 2 to 2 items"),
         (["tiles", 0, "size"], [0.0, 1.0], r"tiles\[0\].size\[0\] must be"),
         (["tiles", 0, "band"], [1.0, 0.5], r"tiles\[0\].band must rise"),
+        (["tiles", 0, "band"], [0.5, 0.5], r"tiles\[0\].band must rise"),
         (["tiles", 0, "seed"], -1, r"tiles\[0\].seed must be"),
         (["tiles", 0, "waves"], 1e3, r"tiles\[0\].waves must be a whole number"),
         (["tiles", 0, "waves"], 5, "tile0.waves must have 70 bytes for 5 waves"),
@@ -322,6 +323,14 @@ def record(i, **changes):
 )
 def test_a_record_that_no_package_has_is_refused_by_its_number(changes, words):
     refused(build.with_file("tile0.waves", record(5, **changes)), words)
+
+
+def test_a_wave_that_is_there_twice_is_refused():
+    """The second would take the place of the first in the plane."""
+    mx, my, *_ = struct.unpack_from("<hhHff", build.packed().files["tile0.waves"], 14 * 4)
+    data = record(5, mx=mx, my=my)
+    words = "record 5 of tile0.waves must follow the one before"
+    refused(build.with_file("tile0.waves", data), words)
 
 
 def test_cycles_that_are_not_those_of_the_dispersion_relation_are_refused():

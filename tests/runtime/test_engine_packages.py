@@ -279,6 +279,15 @@ def test_a_project_with_a_file_of_the_package_is_refused(toy, tmp_path):
         fo.export_sea(ocean(), tmp_path / "sea", engine="unity")
 
 
+@pytest.mark.parametrize("name", ["sea.json", "a b.cs", "con.cs", "inner/aux", "é.cs"])
+def test_a_project_with_a_name_that_no_document_can_list_is_refused(name, toy, tmp_path):
+    """A document's own name, and names that some system cannot have."""
+    (toy / name).write_text("x")
+    with pytest.raises(OutputError, match=f"the project of engine unity cannot have a file {name}"):
+        fo.export_sea(ocean(), tmp_path / "sea", engine="unity")
+    assert not list((tmp_path / "sea").glob("*.cs"))
+
+
 @pytest.mark.usefixtures("toy")
 def test_an_engine_whose_project_is_not_installed_is_named(tmp_path):
     with pytest.raises(OutputError, match="example project bevy are not installed"):

@@ -15,8 +15,10 @@ import builders_of_packages as build
 import pytest
 
 import fftocean as fo
+from fftocean.baking.folder import lock
 from fftocean.baking.folder.lock import locked
 from fftocean.errors import FolderInUseError, IntegrityError, OutputError
+from fftocean.runtime import folder as folder_module
 
 FILES = {"README.md", "check.json", "sea.json", "tile0.waves"}
 
@@ -189,6 +191,75 @@ def test_a_damaged_file_is_written_again_by_the_same_export(tmp_path):
     (tmp_path / "check.json").unlink()
     fo.export_sea(ocean(), tmp_path)
     assert build.tree(tmp_path) == before
+
+
+def test_a_damaged_file_is_not_loaded(tmp_path):
+    """Of the right length, of another one, or absent: each file is compared before it is used."""
+    fo.export_sea(ocean(), tmp_path)
+    for name in ("tile0.waves", "check.json", "README.md"):
+        data = (tmp_path / name).read_bytes()
+        bent = bytearray(data)
+        bent[len(data) // 2] ^= 1
+        for other in (bytes(bent), data + b"\0", data[:-1]):
+            (tmp_path / name).write_bytes(other)
+            with pytest.raises(IntegrityError, match=name):
+                fo.load_sea(tmp_path)
+        (tmp_path / name).unlink()
+        with pytest.raises(IntegrityError, match=f"{name} does not exist"):
+            fo.load_sea(tmp_path)
+        (tmp_path / name).write_bytes(data)
+    assert fo.load_sea(tmp_path).modes().kx.size == 2
+
+
+def test_the_mark_is_removed_after_the_document_is_written(tmp_path, monkeypatch):
+    """At every moment one of the two is there, so that the files are never nobody's."""
+    seen = []
+    real = folder_module.write_whole
+
+    def write(path, data):
+        sha256 = real(path, data)
+        seen.append({".export.json", "sea.json"} & {entry.name for entry in tmp_path.iterdir()})
+        return sha256
+
+    monkeypatch.setattr(folder_module, "write_whole", write)
+    fo.export_sea(ocean(), tmp_path)
+    assert seen[:-1] == [{".export.json"}] * (len(seen) - 1)
+    assert seen[-1] == {".export.json", "sea.json"}
+    assert not (tmp_path / ".export.json").exists()
+
+
+def test_the_folder_is_locked_while_it_is_written(tmp_path, monkeypatch):
+    refused = []
+    real = folder_module.write_whole
+    monkeypatch.setattr(lock, "PATIENCE", 0.05)
+
+    def write(path, data):
+        with pytest.raises(FolderInUseError) as error, locked(tmp_path):
+            pass
+        refused.append(error.value.exit_code)
+        return real(path, data)
+
+    monkeypatch.setattr(folder_module, "write_whole", write)
+    fo.export_sea(ocean(), tmp_path)
+    assert set(refused) == {6}
+    assert len(refused) >= len(FILES)
+
+
+def test_the_readme_says_what_is_in_the_folder(tmp_path):
+    """Texels and metres in the order x, y; the last tick; only files that are there."""
+    waves = [(1, 0, 0.1, 0.0), (-1, 2, 0.05, 1.0)]
+    sea = fo.Ocean.from_modes(waves, n=(16, 8), size=(50.0, 30.0), loop=20.0)
+    fo.export_sea(sea, tmp_path / "a", ticks=1024)
+    text = (tmp_path / "a" / "README.md").read_text()
+    assert text.startswith("# A sea that loops after 20 s\n")
+    assert "- `tile0.waves`: 16 x 8 texels over 50 x 30 m, 2 waves\n" in text
+    assert "moment `tick` from 0 to 1023:" in text
+    for words in ("textures", "twiddle", "kernels", "a project for"):
+        assert words not in text
+    fo.export_sea(sea, tmp_path / "b", textures=True)
+    text = (tmp_path / "b" / "README.md").read_text()
+    assert "- `tile0_h0.bin` ...: the same waves as textures of float32" in text
+    assert "- `twiddle.bin`: cosine and sine of 2 pi i/n, float32" in text
 
 
 def test_a_folder_in_use_is_refused(tmp_path):

@@ -7,7 +7,8 @@ import pytest
 import fftocean as fo
 from fftocean import gerstner
 from fftocean.fields import EIGHT
-from fftocean.runtime.reference import ROWS, fields_at, points_of
+from fftocean.runtime.reference import ROWS, fields_at, points_of, reference_of
+from fftocean.runtime.source import Source
 
 TICKS = 2**20
 
@@ -39,3 +40,26 @@ def test_phases_are_exact_at_any_tick():
         fields_at(ocean, columns, rows, [tick], TICKS) for tick in (77, 77 + TICKS * 2**20)
     )
     assert np.array_equal(one, other)
+
+
+def test_moments_are_three_ticks_of_the_loop():
+    """First, middle and last; and each once, where the loop has fewer."""
+    source = Source.of(build.cascade("float64"))
+    for ticks in (2, 4, 1024, TICKS):
+        found = reference_of(source, ticks, 2)
+        moments = found["moments"]
+        assert (moments[0], moments[-1]) == (0, ticks - 1)
+        assert len(set(moments)) == len(moments) == min(3, ticks)
+        assert moments == sorted(moments)
+        for tile in found["tiles"]:
+            assert {len(rows) for rows in tile["fields"].values()} == {len(moments)}
+
+
+def test_points_are_spread_and_occur_once():
+    grid = fo.Ocean.from_modes([], n=(32, 16), size=50.0).grid
+    columns, rows = points_of(grid, 10_000)
+    assert len(set(zip(columns.tolist(), rows.tolist(), strict=True))) == columns.size == 32 * 16
+    columns, rows = points_of(grid, 64)
+    assert columns.size == rows.size == 64
+    assert len(set(columns.tolist())) > 16
+    assert len(set(rows.tolist())) > 8

@@ -151,6 +151,43 @@ def test_a_job_that_bakes_foam_keeps_its_own():
     assert foam == {"decay": 2.0, "threshold": 0.5, "strength": 60.0}
 
 
+def test_still_air_is_no_wind():
+    """Without a speed there is no direction either; slopes below the samples are not known."""
+    still = make_exact(small_state(wind_speed=0.0), 1).document
+    assert still["wind"] is None
+    blowing = make_exact(small_state(wind_speed=6.0, wind_direction=70.0), 1).document
+    assert blowing["wind"] == {"speed": 6.0, "direction": 70.0}
+
+
+def test_a_newer_state_is_wanted_until_its_own_sea_is_made():
+    """The sea of the state before does not count for it."""
+    first, second = small_state(seed=1), small_state(seed=2)
+    seen = []
+
+    async def run():
+        worker = Worker()
+        begun, go = threading.Event(), threading.Event()
+        maker = SeaMaker(worker, lambda sea: seen.append((sea.state, maker.busy)), seen.append)
+        waiting = asyncio.create_task(worker.run(lambda: begun.set() or go.wait(600.0)))
+        while not begun.is_set():
+            await asyncio.sleep(0.001)
+        maker.want(first)
+        making = asyncio.create_task(maker.run())
+        await asyncio.sleep(0)  # the first is being made, behind what the worker waits for
+        maker.want(second)
+        go.set()
+        await waiting
+        while len(seen) < 2:
+            await asyncio.sleep(0.005)
+        making.cancel()
+        assert worker.stop(60.0)
+        return maker.busy
+
+    assert asyncio.run(run()) is False
+    assert [state.values["seed"] for state, _ in seen] == [1, 2]
+    assert [busy for _, busy in seen] == [True, False]
+
+
 def test_notes_are_the_warnings_of_the_library():
     made = make_exact(small_state(wind_speed=0.0, swell_speed=0.0), 1)
     assert any("exactly flat" in note for note in made.notes)

@@ -141,6 +141,22 @@ def test_a_name_is_text_in_every_place(page):
     assert title.startswith(EVIL)
 
 
+@pytest.mark.parametrize(
+    "name", ["</script x", "</SCRIPT/", "</script\n", "<!-- <script ", "&lt;/script ", "a</title b"]
+)
+def test_a_name_that_ends_no_element_by_itself_ends_none_of_the_page_s(page, name):
+    """
+    `</script` ends a script without the `>` of its own, which may come later in the page; `<!--`
+    and `<script` together hide the end.
+    """
+    text = static_page(replace(small_state(), source=name), folder=page).decode()
+    elements = Elements(text)
+    assert [tag for tag, _ in elements.found].count("script") == 4
+    about = elements.text("about")
+    assert not set("<>&") & set(about)
+    assert json.loads(about)["source"] == name
+
+
 def test_a_calm_has_a_page(page):
     state = small_state(wind_speed=0.0, swell_speed=0.0)
     about = json.loads(Elements(static_page(state, folder=page).decode()).text("about"))

@@ -4,6 +4,7 @@ Notebook widget: what it carries, what it answers, and the still of a saved note
 
 import base64
 import io
+import itertools
 import json
 import struct
 import subprocess
@@ -79,6 +80,32 @@ def test_an_ocean_and_a_sea_are_shown():
     wavelength = 2.0 * np.pi / fo.dispersion.wavenumber(SEA.peak, SEA.depth)
     assert document["tiles"][0]["size"][0] >= 12.0 * wavelength
     assert document["tiles"][0]["seed"] == 9
+
+
+def test_options_of_a_call_are_those_of_the_widget(cascade):
+    """`fo.view` is a module that can be called."""
+    widget = fo.view(cascade, height=500, wind=(3.0, 10.0))
+    assert widget.height == 500
+    assert container(widget.sea)["wind"] == {"speed": 3.0, "direction": 10.0}
+    with pytest.raises(TypeError):
+        fo.view(cascade, width=500)
+
+
+@pytest.mark.parametrize("depth", [np.inf, 4.0])
+def test_tiles_of_a_sea_hold_twelve_waves_of_its_peak(depth):
+    """By the wavelength at the depth of the sea: omega^2 = g k tanh(k d), solved by bisection."""
+    spectrum = fo.JONSWAP.from_sea_state(hs=0.6, tp=8.0)
+    sea = fo.Sea(fo.WaveSystem(spectrum=spectrum), depth=depth)
+    low, high = 1e-4, 10.0
+    while high - low > 1e-12:
+        k = 0.5 * (low + high)
+        shallow = np.tanh(k * depth) if np.isfinite(depth) else 1.0
+        low, high = (k, high) if 9.80665 * k * shallow < sea.peak**2 else (low, k)
+    tiles = [tile.grid for tile in module._cascade(sea, 3).oceans]
+    assert tiles[0].lx == pytest.approx(12.0 * 2.0 * np.pi / low, rel=1e-6)
+    assert [tile.nx for tile in tiles] == [128] * 3
+    ratios = [one.lx / other.lx for one, other in itertools.pairwise(tiles)]
+    assert all(abs(ratio - round(ratio)) > 0.1 for ratio in ratios)
 
 
 def test_the_still_is_a_picture_of_the_sea(cascade):
