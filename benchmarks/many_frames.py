@@ -144,7 +144,7 @@ def growth(readings: Sequence[Reading]) -> list[Reading]:
 def draw(result: Result, path: Path) -> None:
     """Draw times and memory over the number of frames."""
     counts = result.settings["frames"]
-    with sheet(path, ASKS, result, width=11.0, height=4.6) as figure:
+    with sheet(path, ASKS, result, width=11.0, height=5.6) as figure:
         times, memory = figure.subplots(1, 2)
         for ax, unit in ((times, "ms"), (memory, "MiB")):
             for what, its_unit in WHAT.values():
@@ -155,7 +155,8 @@ def draw(result: Result, path: Path) -> None:
             ax.set_yscale("log")
             ax.set_xlabel("frames")
             ax.set_ylabel("processor time of a frame [ms]" if unit == "ms" else "memory [MiB]")
-            ax.legend()
+            # below: lines that rise and fall by turns leave no room among them
+            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=1, frameon=False)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
