@@ -227,11 +227,22 @@ def test_turns_are_exact_at_any_time(t):
             assert abs(apart - mpmath.nint(apart)) < 1e-15 + 2.0**-27 * f * abs(t) * 2.2e-16
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("ny", [*range(1, 9), 33, 34, 64, 65, 100, 129, 150])
+def test_what_depends_on_the_wavenumber_is_given_for_ky_from_0(ny, dtype):
+    """By the frequencies of numpy's transforms: |ky|, and the row before and after stay."""
+    k = np.abs(np.fft.fftfreq(ny, 1 / ny)).astype(dtype)
+    out = np.full((3, ny), -1, dtype)
+    passes.unfold(k[: ny // 2 + 1], out[1])
+    assert np.array_equal(out[1], k)
+    assert np.all(out[::2] == -1)
+
+
 def test_frequencies_are_the_nearest_doubles():
     amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((9, 6), (30.0, 50.0)), depth=4.0)
     frequency = _frequencies(amplitudes, 5)
     with mpmath.workdps(40):
-        for omega, f in zip(amplitudes.omega.T.ravel(), frequency.ravel(), strict=True):
+        for omega, f in zip(amplitudes.omega[:4].T.ravel(), frequency.ravel(), strict=True):
             assert float(mpmath.mpf(float(omega)) / (2 * mpmath.pi)) == pytest.approx(
                 f, rel=2.3e-16, abs=0.0
             )
