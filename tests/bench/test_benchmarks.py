@@ -237,9 +237,7 @@ def test_startup_answers(script, tmp_path, monkeypatch):
     assert len({cache for _, cache in cold}) == 2  # each first one had an empty cache of its own
 
 
-def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(
-    script, tmp_path, monkeypatch
-):
+def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path, monkeypatch):
     """And keeps modules compiled, whatever this process does."""
     import fftocean
 
