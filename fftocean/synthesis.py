@@ -32,6 +32,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,7 +53,10 @@ Source = tuple[str, int]
 SOURCES: tuple[Source, ...] = (("height", 0), ("height", 1), ("potential", 0), ("potential", 1))
 """The sources, in the order that `kernels.whole_passes` has them."""
 
-GRADIENTS = np.array([tuple(FIELDS).index(name) for name in GEOMETRY], np.int64)
+NUMBERS = {name: number for number, name in enumerate(FIELDS)}
+"""Places of the fields in their table."""
+
+GRADIENTS = np.array([NUMBERS[name] for name in GEOMETRY], np.int64)
 """Places of the gradients among the fields."""
 
 STREAMED_FROM = 2**22
@@ -285,7 +289,7 @@ class Synthesis:
             if bound is not None and len(bound.waves)
             else None
         )
-        k = grid.k.T[: self.columns]
+        k = grid.k[_half(amplitudes), : self.columns].T
         self._potential = np.ascontiguousarray(potential_factor(k, amplitudes.depth), dtype=dtype)
         self._omega: Real | None = None
         self._buffer = np.zeros(0, dtype=COMPLEX_OF[dtype])
@@ -333,7 +337,8 @@ class Synthesis:
         rates = any(spectrum.source[1] for spectrum in plan.half_spectra)
         if self._omega is None and rates:
             self._omega = np.ascontiguousarray(
-                self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype
+                self._amplitudes.running_omega[_half(self._amplitudes), : self.columns].T,
+                dtype=self._dtype,
             )
         first = _First(
             single=True if self._dtype == np.float32 else None,
@@ -408,9 +413,11 @@ class Synthesis:
 
     def _sum_bound_waves(self, plan: Plan, moment: Moment) -> whole_passes.Bound | None:
         """Compute the second-order height spectra that a plan needs, if there are any."""
-        rates = [dt for of, dt in plan.sources if of == "height"]
         bound = self._bound
-        if bound is None or not rates:
+        if bound is None:
+            return None
+        rates = [dt for of, dt in plan.sources if of == "height"]
+        if not rates:
             return None
         bound.advance(moment, rates)
         self._run_blocks(bound.parts, 1, lambda _, part: bound.sum(part.start, rates))
@@ -441,7 +448,6 @@ class Synthesis:
     def _tables_of(self, plan: Plan) -> _Tables:
         """Return the tables of a plan."""
         number = {source: i for i, source in enumerate(SOURCES)}
-        place = {name: i for i, name in enumerate(FIELDS)}
         used = np.zeros(len(SOURCES), np.int64)
         for of, dt in plan.sources:
             used[number[of, dt]] = 1
@@ -463,7 +469,7 @@ class Synthesis:
         for p, row in enumerate(plan.rows):
             one, two = row.pair[0], row.pair[-1]
             only = 1 if two not in needed or one == two else 2 if one not in needed else 0
-            table[p] = row.plus, row.minus, place[one], place[two], only
+            table[p] = row.plus, row.minus, NUMBERS[one], NUMBERS[two], only
         plus, minus = (
             aligned_numbers((len(factors), 2 * self.columns), self._dtype) for _ in range(2)
         )
@@ -500,8 +506,7 @@ class Synthesis:
         return self._buffer[:size].view(self._dtype)
 
 
-@dataclass(frozen=True, slots=True)
-class _First:
+class _First(NamedTuple):
     """Arguments of the first pass."""
 
     single: bool | None
@@ -512,8 +517,7 @@ class _First:
     spectra: whole_passes.Spectra
 
 
-@dataclass(frozen=True, slots=True)
-class _Second:
+class _Second(NamedTuple):
     """Arguments of the second pass."""
 
     spectra: int
@@ -546,12 +550,15 @@ class _Workspace:
         most = sum(len(_half_spectra(pair)) for pair in row_pairs())
         stride = -(-ny // TILE) * TILE  # each row starts on a cache line
         rows = 1 if self.compiled else width
-        cycles = aligned_numbers((1, ny), np.float64)
-        cosine, sine = (aligned_numbers((1, ny), dtype) for _ in range(2))
+        cycles = aligned_numbers((1, ny // 2 + 1), np.float64)
+        cosine, sine, factor = (aligned_numbers((1, ny), dtype) for _ in range(3))
         parts = aligned_numbers((len(SOURCES), 2, 1, ny), dtype)
         source = aligned((1 if self.compiled else most * width, stride), dtype)
         self._results = aligned((most * width, stride), dtype)
-        self._columns = (cycles, cosine, sine, parts, _parts(source), _parts(self._results))
+        self._columns = (
+            *(cycles, cosine, sine, factor, parts),
+            *(_parts(source), _parts(self._results)),
+        )
         self._scratch = aligned_numbers((len(FIELDS), rows * nx), dtype)
         self._scratch_places = np.array([(row.ctypes.data, 0) for row in self._scratch], np.int64)
         self._unit = aligned_numbers((3 * nx,), dtype)
@@ -575,9 +582,10 @@ class _Workspace:
     def _places(self, outputs: Mapping[str, Real]) -> Integer:
         """Return the places of the linear fields, as `kernels.whole_passes` has them."""
         places = self._scratch_places.copy()
-        for field, name in enumerate(FIELDS):
-            if name in outputs:
-                places[field] = outputs[name].__array_interface__["data"][0], 1
+        for name, array in outputs.items():
+            if name in NUMBERS:
+                place = NUMBERS[name]
+                places[place, 0], places[place, 1] = array.__array_interface__["data"][0], 1
         return places
 
     def first_pass(
@@ -663,18 +671,25 @@ class _Workspace:
             )
 
 
+def _half(amplitudes: Amplitudes) -> slice:
+    """Return the places of ky >= 0; what depends on |k| alone is the same at -ky."""
+    return slice(amplitudes.grid.ny // 2 + 1)
+
+
 def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     """
-    Return the frequency of each wave in cycles a second or, on a loop, a period; (columns, ny).
+    Return the frequencies of waves with ky >= 0, which those at -ky share; (columns, ny // 2 + 1).
 
-    On a loop they are whole numbers. Their rounding to float64 is the only error of a phase.
+    They are in cycles a second or, on a loop, whole numbers of cycles in its period. Their rounding
+    to float64 is the only error of a phase.
     """
+    half = _half(amplitudes)
     if amplitudes.cycles is not None:
-        return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
-    frequency = np.empty((columns, amplitudes.grid.ny))
-    # The Nyquist column is left over.
-    for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
-        column[:] = dispersion.turns_per_second(omega)
+        return np.ascontiguousarray(amplitudes.cycles[half, :columns].T, dtype=np.float64)
+    omega = amplitudes.omega[half, :columns].T
+    frequency = np.empty(omega.shape)
+    for column, its_omega in zip(frequency, omega, strict=True):
+        column[:] = dispersion.turns_per_second(its_omega)
     return frequency
 
 

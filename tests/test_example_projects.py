@@ -48,3 +48,21 @@ def test_the_wheel_packs_every_file_of_every_project(tmp_path):
         }
         assert wanted
         assert wanted <= names
+
+
+def test_files_of_git_are_not_copied(tmp_path, monkeypatch):
+    """They are of the checkout: the user's project has its own."""
+    for name in (".gitignore", ".gitattributes", "inner/.gitkeep", "gitar.txt", ".import/x"):
+        (tmp_path / "one" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "one" / name).write_text("x")
+    monkeypatch.setattr(example_projects, "PLACES", (tmp_path,))
+    assert list(example_projects.project_files("one")) == ["gitar.txt"]
+
+
+def test_an_installed_wheel_has_its_own_projects():
+    """In the folder in the package to which the wheel packs them, and before any other."""
+    packed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]
+    folders = packed["build"]["targets"]["wheel"]["force-include"].values()
+    package = Path(example_projects.__file__).parent
+    assert example_projects.PLACES[0].parent == package
+    assert {ROOT / Path(folder).parent for folder in folders} == {example_projects.PLACES[0]}

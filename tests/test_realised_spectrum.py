@@ -45,3 +45,24 @@ def test_the_band_of_a_tile_reaches_half_a_cell_beyond_its_waves():
     dk = 2.0 * math.pi / 400.0
     expected = [math.sqrt(9.80665 * dk * cells) for cells in (0.5, 23.5)]
     assert tile_band(ocean) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_band_of_an_oblong_tile_is_that_of_both_sides(turned):
+    """The longest wave lies along the long side, the shortest along the finest samples."""
+    n, size = ((24, 48), (400.0, 100.0)) if not turned else ((48, 24), (100.0, 400.0))
+    ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=5e4), n=n, size=size)
+    longest, shortest = 0.5 * 2.0 * math.pi / 400.0, 23.5 * 2.0 * math.pi / 100.0
+    expected = [math.sqrt(9.80665 * k) for k in (longest, shortest)]
+    assert tile_band(ocean) == pytest.approx(expected)
+
+
+@pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+def test_edges_lie_between_the_frequencies_of_a_loop():
+    """Waves have whole cycles: an edge at half a cycle has none of them on it."""
+    ocean = fo.Ocean(fo.Sea.from_wind(speed=8.0, fetch=5e4), n=32, size=200.0, loop=16.0)
+    edges, energy, _, _ = realised_spectrum(ocean)
+    cycles = edges * 16.0 / (2.0 * math.pi)
+    assert np.abs(cycles - np.floor(cycles) - 0.5).max() < 1e-6
+    m = ocean.modes()
+    assert np.sum(energy) == pytest.approx(np.sum(0.5 * m.amplitude**2), rel=1e-12)

@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 import fftocean as fo
+from fftocean import report
 from fftocean.report import write_report
 
 SMALL = {"ocean.n": 16, "bake.frames": 3, "bake.pictures": []}
@@ -82,3 +83,36 @@ def test_a_changed_bake_is_said(tmp_path):
     text = Path(tmp_path / "sea.html").read_text(encoding="utf-8")
     assert "Problems: 1." in text
     assert "Every file agrees" not in text
+
+
+@pytest.fixture
+def short(monkeypatch):
+    """Leave out all sections of a report, which take seconds."""
+    for name in ("_statistics", "_spectra", "_images", "_loop", "_checks", "_files", "_job"):
+        monkeypatch.setattr(report, name, lambda *_: "")
+
+
+@pytest.mark.usefixtures("short")
+def test_a_name_is_no_markup(tmp_path):
+    """In the title and in the heading."""
+    name = '<b>"&amp;.toml'
+    (tmp_path / name).write_text("[ocean]\nn = 8\n", encoding="utf-8")
+    write_report(fo.Job.read(tmp_path / name), tmp_path / "sea.html")
+    text = (tmp_path / "sea.html").read_text(encoding="utf-8")
+    assert "<b>" not in text
+    assert text.count("&lt;b&gt;&quot;&amp;amp;.toml") == 2
+
+
+def test_energy_outside_the_tile_is_in_percent():
+    found = fo.measure(fo.Job.default().replaced({"ocean.n": 8, "ocean.size": 12.0}).ocean())
+    assert found.share_below > 0.02
+    text = report._statistics(found)
+    assert f"{100.0 * found.share_below:.2f} %" in text
+    assert f"{100.0 * found.share_above:.2f} %" in text
+
+
+def test_a_large_tile_is_not_verified_for_minutes(monkeypatch):
+    monkeypatch.setattr(report, "verify", lambda _: ())
+    job = fo.Job.default()
+    assert "Not made here" not in report._checks(job.replaced({"ocean.n": 256}))
+    assert "Not made here" in report._checks(job.replaced({"ocean.n": (512, 256)}))

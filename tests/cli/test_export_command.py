@@ -42,6 +42,10 @@ def test_components_are_a_table(run):
     ("arguments", "message"),
     [
         (("components", "-o", "a", "--steps", "2"), "--steps must not be given with components"),
+        (("components", "-o", "a", "--dt", "1"), "--dt must not be given with components"),
+        (("openfast", "-o", "a", "--steps", "2"), "--steps must not be given with openfast"),
+        (("swd", "-o", "a", "--tmax", "9"), "--tmax must not be given with swd"),
+        (("swd", "-o", "a", "--grid", "9,9,9,2,2,2"), "--grid must not be given with swd"),
         (
             ("openfast", "-o", "a", "--dt", "1"),
             "NZ must be given with openfast",

@@ -63,6 +63,15 @@ def test_tiles_are_a_cascade_with_the_settings_of_the_job(run):
     assert json.loads(Path("out/sea.json").read_text())["ticks"] == 1024
 
 
+def test_foam_is_that_of_the_job(run):
+    """Its decay and strength, and a threshold that it fixes."""
+    foam = ("bake.foam.tau=2", "bake.foam.strength=40", "bake.foam.threshold=0.6")
+    sets = [word for text in foam for word in ("--set", text)]
+    assert run("export-sea", "-o", "out", *SMALL, "--quiet", *sets)[0] == 0
+    found = json.loads(Path("out/sea.json").read_text())["foam"]
+    assert found == {"decay": 2.0, "threshold": 0.6, "strength": 40.0}
+
+
 def test_another_sea_needs_overwrite(run):
     assert run("export-sea", "-o", "out", *SMALL, "--quiet")[0] == 0
     code, out, err = run("export-sea", "-o", "out", *SMALL, "--seed", "9")

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from command_line import SWELL
 
+import fftocean as fo
+
 
 def test_notes_name_the_unresolved_energy(run):
     """
@@ -81,3 +83,32 @@ def test_foam_is_described_where_it_is_baked(run):
     assert "covers 0.29 % of the water on average; threshold 0." in " ".join(out.split())
     assert "whitecaps of 7 m/s" in " ".join(out.split())
     assert "whitecaps" not in run("info", "--n", "16")[1]
+
+
+def row(out, name):
+    """Return the rest of the line of a table that begins with a name."""
+    (line,) = (line for line in out.splitlines() if line.startswith(name))
+    return line.removeprefix(name).split()
+
+
+@pytest.mark.filterwarnings("ignore::fftocean.errors.SeaWarning")
+def test_figures_of_the_tile_and_of_the_sea_are_in_their_columns(run):
+    """As `measure` has them: specified before realised, percent, and the narrow side."""
+    flags = ("--n", "32,16", "--size", "24,16", "--set", "sea.wind.speed=12")
+    _, out, _ = run("info", *flags, "--frames", "2")
+    settings = {"ocean.n": (32, 16), "ocean.size": (24.0, 16.0), "sea.wind.speed": 12.0}
+    ocean = fo.Job.default().replaced({**settings, "bake.frames": 2}).ocean()
+    found = fo.measure(ocean, frames=2)
+    assert found.specified.tp != pytest.approx(found.tp, abs=0.02)
+    assert row(out, "peak period Tp")[::2] == [f"{found.specified.tp:.2f}", f"{found.tp:.2f}"]
+    assert row(out, "significant wave height Hs")[:3:2] == [
+        f"{found.specified.hs:.3f}",
+        f"{found.hs:.3f}",
+    ]
+    shares = row(out, "unresolved energy")
+    assert [float(shares[0]), float(shares[5])] == [
+        pytest.approx(100.0 * share, abs=0.006) for share in (found.share_below, found.share_above)
+    ]
+    assert found.share_below > 0.01
+    length, _, across, *_ = row(out, "peak wavelength")
+    assert float(across) == pytest.approx(16.0 / float(length), abs=0.06)

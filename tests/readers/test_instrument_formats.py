@@ -74,6 +74,18 @@ def test_wavewatch_text(tmp_path):
         assert (data.attrs["station"], data.attrs["sites"]) == (f"P{site}", 2)
 
 
+def test_wavewatch_text_in_degrees_is_refused(tmp_path):
+    """All directions of such a file would be turned into others."""
+    path = write_ww3_text(tmp_path / "station.spec", SPECIFIED)
+    title, *lines = path.read_text().splitlines()
+    first, count = -(-FREQUENCY.size // 8), -(-TO.size // 7)
+    assert float(lines[first].split()[0]) == pytest.approx(np.radians(TO[0]), rel=1e-8)
+    degrees = [" ".join(f"{d:.3E}" for d in TO[i : i + 7]) for i in range(0, TO.size, 7)]
+    path.write_text("\n".join([title, *lines[:first], *degrees, *lines[first + count :]]) + "\n")
+    with pytest.raises(ReaderError, match="the directions must be in radians, got 3"):
+        readers.open(path)
+
+
 def test_wavewatch_text_with_three_figures_has_equal_directions(tmp_path):
     """
     As the model writes it: 0.148E+01 rad is good to 0.3 degrees, and the directions were equally

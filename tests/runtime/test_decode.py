@@ -340,6 +340,25 @@ def test_cycles_that_are_not_those_of_the_dispersion_relation_are_refused():
     refused(build.with_file("tile0.waves", data), r"along \(mx, my\) = .* must have .* cycles")
 
 
+def test_cycles_of_both_waves_of_a_pair_may_be_off_by_one_and_no_more():
+    """They agree with each other: only the dispersion relation tells."""
+    data = build.packed().files["tile0.waves"]
+    records = list(struct.iter_unpack("<hhHff", data))
+    most = max(r[2] for r in records)
+    mx, my, cycles, *_ = next(r for r in records if 4 < r[2] < most - 4)
+    for change in (-2, -1, 1, 2):
+        changed = bytearray(data)
+        for i, (x, y, found, *_) in enumerate(records):
+            if (x, y) in ((mx, my), (-mx, -my)):
+                assert found == cycles
+                struct.pack_into("<H", changed, 14 * i + 4, cycles + change)
+        package = build.with_file("tile0.waves", bytes(changed))
+        if abs(change) == 1:
+            assert runtime.ocean_of(package).oceans[0].modes().kx.size == len(records)
+        else:
+            refused(package, rf"must have {cycles} cycles in the loop, got {cycles + change}")
+
+
 ODD = [None, True, -1, 0, 7, 0.5, 1e308, 2**70, -(2**70), "", "../x", [], {}, [[None]], [1, 2]]
 
 
@@ -392,6 +411,24 @@ def test_every_flipped_byte_of_a_container_is_noticed_or_harmless():
         assert {k: v for k, v in package.files.items() if k.endswith(".waves")} == {
             f"tile{i}.waves": build.packed().files[f"tile{i}.waves"] for i in range(3)
         }
+
+
+def test_padding_of_a_container_is_zeros():
+    """A byte between two files, and one after the last."""
+    package = runtime.pack(build.cascade(), reference=False)
+    data = runtime.to_bytes(package)
+    at, found = 16 + struct.unpack_from("<I", data, 8)[0], 0
+    for name, content in package.files.items():
+        at += len(content)
+        for place in range(at, at + -at % 16):
+            broken = bytearray(data)
+            broken[place] = 1
+            with pytest.raises(IntegrityError, match=f"{name} must be followed by zeros"):
+                runtime.from_bytes(broken)
+            found += 1
+        at += -at % 16
+    assert at == len(data)
+    assert found
 
 
 @pytest.mark.parametrize("length", [0, 3, 15, 16, 100, -1, -16])
