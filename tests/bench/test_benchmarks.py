@@ -237,16 +237,18 @@ def test_startup_answers(script, tmp_path, monkeypatch):
     assert len({cache for _, cache in cold}) == 2  # each first one had an empty cache of its own
 
 
-def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path):
+def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path, monkeypatch):
+    """And keeps modules compiled, whatever this process does."""
     import fftocean
 
     fresh = script("fresh")
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
     program = (
-        "import fftocean, json, os; "
-        "print(json.dumps([fftocean.__file__, os.environ['NUMBA_CACHE_DIR']]))"
+        "import fftocean, json, os, sys; print(json.dumps("
+        "[fftocean.__file__, os.environ['NUMBA_CACHE_DIR'], sys.dont_write_bytecode]))"
     )
     run = fresh.python("-c", program, cache=tmp_path)
-    assert run.said == [fftocean.__file__, str(tmp_path)]
+    assert run.said == [fftocean.__file__, str(tmp_path), False]
     assert run.wall > 0.0
     assert run.cpu > 0.0
     assert fresh.python("-c", "print('no json')").said is None
