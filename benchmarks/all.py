@@ -1,9 +1,9 @@
 """
 All benchmarks: results/*.json, results/*.png and RESULTS.md.
 
-Each question runs in a process of its own; all of them take about a quarter of an hour on two
-cores. On a busy machine the ratios still hold, and RESULTS.md states the load. A question that
-fails keeps its earlier answer; `--only frame` runs one again and leaves the others unchanged.
+Each question runs in a process of its own; all of them take about an hour on two cores, half of it
+`many_frames`. On a busy machine the ratios still hold, and RESULTS.md states the load. A question
+that fails keeps its earlier answer; `--only frame` runs one again and leaves the others unchanged.
 
     python benchmarks/all.py [--only frame memory] [--quick]
 """
@@ -45,6 +45,9 @@ QUICK = {  # a minute, to test that everything runs; the figures are meaningless
     "bake": ("--n", "64", "--frames", "8"),
     "second_order": ("--n", "64", "--waves", "20", "50", "--seconds", "0"),
     "series": ("--n", "32", "--hours", "0.05", "--probes", "2", "--seconds", "0"),
+    "query": ("--n", "64", "--points", "2000", "--seconds", "0"),
+    "bake_peers": ("--n", "64", "--frames", "12", "--rounds", "1"),
+    "many_frames": ("--frames", "10", "40"),
     "robots": ("--n", "16", "--points", "1", "5", "--tiles", "1", "--seconds", "0"),
 }
 

@@ -10,18 +10,20 @@ a whole number, the one nearest to n; frames a second are scaled to n * n sample
     python benchmarks/bake_peers.py [--n 512] [--frames 60] [--rounds 3]
         [--earlier NAME=PYTHON ...] [--blender PYTHON] [--json FILE] [--plot FILE]
 
-An earlier version is named by the Python that has it installed. Without such, and without a Python
-that has `bpy`, those bakes are skipped, which is said.
+An earlier version is named by the Python that has it installed, Blender by one that has `bpy`,
+such as this one. Without them, their bakes are skipped, which is said.
 """
 
 import argparse
 import subprocess
+import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import fresh
+import numpy as np
 import script
 
 from fftocean.bench.charts import bars, sheet
@@ -31,7 +33,9 @@ from fftocean.errors import ParameterError
 from fftocean.plots.theme import BLUE
 
 ASKS = "How fast is a bake, beside earlier versions and Blender's?"
-OURS = "this version"
+OURS, BLENDER = "this version", "Blender"
+SPEED = "frames a second"
+RATIO = "frames a second, this version / others"
 FIRST = 8  # frames before those that are timed
 
 CHILD = """
@@ -61,7 +65,7 @@ print(json.dumps({
 }))
 """
 
-BLENDER = """
+BLENDER_CHILD = """
 import json, sys, time
 from pathlib import Path
 import bpy
@@ -94,7 +98,9 @@ def flags(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--frames", type=int, default=60, help="in the loop (default: 60)")
     parser.add_argument("--rounds", type=int, default=3, help="bakes of each (default: 3)")
     parser.add_argument("--earlier", nargs="*", default=[], metavar="NAME=PYTHON")
-    parser.add_argument("--blender", default="", metavar="PYTHON", help="a Python that has bpy")
+    parser.add_argument(
+        "--blender", default="", metavar="PYTHON", help="a Python that has bpy (default: this one)"
+    )
 
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
@@ -106,10 +112,11 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     for one in options.earlier:
         name, _, python = one.partition("=")
         programs[name] = [python]
-    if has_bpy(options.blender):
-        programs["Blender"] = [options.blender]
+    blender = options.blender or sys.executable
+    if has_bpy(blender):
+        programs[BLENDER] = [blender]
     else:
-        say(f"Blender is skipped: no bpy in {options.blender or 'any Python (--blender)'}")
+        say(f"Blender is skipped: {blender} has no bpy; --blender names a Python that has")
     said: dict[str, list[Any]] = {name: [] for name in programs}
     with tempfile.TemporaryDirectory() as folder:
         for i in range(options.rounds):
@@ -119,15 +126,17 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
                 at.mkdir()
                 said[name].append(one_bake(name, python, options, side, at))
         for name in programs:
-            if name not in (OURS, "Blender"):
+            if name not in (OURS, BLENDER):
                 say(f"{name}: pixels")
                 compare(Path(folder, f"{OURS}-0", "bake"), Path(folder, f"{name}-0", "bake"))
-    readings = []
+    readings, own = [], np.array([one["wall"] for one in said[OURS]])
     for name, found in said.items():
-        scale = side**4 / options.n**2 if name == "Blender" else 1.0
+        scale = side**4 / options.n**2 if name == BLENDER else 1.0
         conditions = {"by": name, "n": options.n, "frames": options.frames}
+        wall = np.array([scale * one["wall"] for one in found])
         for what, unit, clock, values in (
-            ("frames a second", "1/s", "wall", [scale * one["wall"] for one in found]),
+            (SPEED, "1/s", "wall", wall),
+            *([] if name == OURS else [(RATIO, "x", "wall", own / wall)]),
             ("processor time of a frame", "ms", "cpu", [one["cpu"] / scale for one in found]),
             ("size of a frame's files", "MiB", "", [one["size"] / scale for one in found]),
         ):
@@ -148,7 +157,7 @@ def one_bake(
     name: str, python: Sequence[str], options: argparse.Namespace, side: int, folder: Path
 ) -> Any:
     """Bake in a fresh process; return what it says."""
-    code, n = (BLENDER, side) if name == "Blender" else (CHILD, options.n)
+    code, n = (BLENDER_CHILD, side) if name == BLENDER else (CHILD, options.n)
     words = ["-c", code, str(n), str(options.frames), str(folder), str(FIRST)]
     if not python:
         return fresh.python(*words).said
@@ -171,7 +180,6 @@ def compare(ours: Path, theirs: Path) -> None:
         ParameterError: a file is missing, or a pixel differs by more than two steps of a half: the
             FFT of another version may sum in another order.
     """
-    import numpy as np
     import OpenEXR
 
     for file in sorted(ours.glob("*/[0-9]*.exr"))[:: 1 + FIRST]:
@@ -192,7 +200,7 @@ def draw(result: Result, path: Path) -> None:
     with sheet(path, ASKS, result, width=11.0, height=3.6) as figure:
         for ax, what, title in zip(
             figure.subplots(1, 2),
-            ("frames a second", "processor time of a frame"),
+            (SPEED, "processor time of a frame"),
             ("Frames a second, one process", "Processor time of a frame, all threads [ms]"),
             strict=True,
         ):

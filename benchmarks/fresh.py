@@ -41,10 +41,12 @@ def python(*arguments: str, cache: Path | None = None) -> Run:
     """
     paths = [PACKAGE_HOME, *filter(None, [os.environ.get("PYTHONPATH")])]
     kept = {} if cache is None else {name: str(cache) for name in CACHES}
+    # modules are compiled once, as those of an installation are
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     start, used = time.perf_counter(), children_cpu()
     done = subprocess.run(
         [sys.executable, *arguments],
-        env={**os.environ, **kept, "PYTHONPATH": os.pathsep.join(paths)},
+        env={**environment, **kept, "PYTHONPATH": os.pathsep.join(paths)},
         capture_output=True,
         text=True,
         check=False,

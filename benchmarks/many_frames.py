@@ -120,13 +120,31 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
             )
             for key, (what, unit) in WHAT.items()
         ]
-    return readings
+    return [*readings, *growth(readings)]
+
+
+def growth(readings: Sequence[Reading]) -> list[Reading]:
+    """Return the ratios of the times of a frame at the most frames to those at the fewest."""
+    counts = sorted(int(r.at["frames"]) for r in readings if r.what == WHAT["bake"][0])
+    found = []
+    for what, unit in WHAT.values():
+        if unit == "ms" and len(counts) > 1:
+            few, many = (
+                next(r for r in readings if r.what == what and r.at["frames"] == count)
+                for count in (counts[0], counts[-1])
+            )
+            ratio = many.median / few.median
+            at = {"frames": counts[-1], "n": many.at["n"]}
+            found.append(
+                Reading.single(f"{what}, of the most / the fewest", "x", ratio, at, clock="cpu")
+            )
+    return found
 
 
 def draw(result: Result, path: Path) -> None:
     """Draw times and memory over the number of frames."""
     counts = result.settings["frames"]
-    with sheet(path, ASKS, result, width=11.0, height=4.6) as figure:
+    with sheet(path, ASKS, result, width=11.0, height=5.6) as figure:
         times, memory = figure.subplots(1, 2)
         for ax, unit in ((times, "ms"), (memory, "MiB")):
             for what, its_unit in WHAT.values():
@@ -137,7 +155,8 @@ def draw(result: Result, path: Path) -> None:
             ax.set_yscale("log")
             ax.set_xlabel("frames")
             ax.set_ylabel("processor time of a frame [ms]" if unit == "ms" else "memory [MiB]")
-            ax.legend()
+            # below: lines that rise and fall by turns leave no room among them
+            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=1, frameon=False)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 RESULTS, REPORT = HERE / "results", HERE / "RESULTS.md"
 QUESTIONS = (
     *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
-    *("series", "robots"),
+    *("series", "robots", "query", "bake_peers", "many_frames"),
 )
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
@@ -181,6 +181,29 @@ def goals() -> list[Goal]:
     what = "`kinematics.at`, 200 points, waves of 3 m and more on 3 tiles of 128 x 128"
     at = {"n": 128, "tiles": 3, "points": 200}
     found.append(Goal(what, "<=", 5.0, "robots", "below the surface", at))
+    for mode, bound in (("bilinear", 2e6), ("bicubic", 1e6)):
+        what = f"query: {mode} heights over 4 km, 3 tiles, points a second of a core"
+        at = {"by": "fftocean", "where": "random over 4 km", "mode": mode, "fields": "heights"}
+        found.append(Goal(what, ">=", bound, "query", "points a second", at))
+    for other, what, bound in (
+        ("Blender", "Blender's bake of its Ocean modifier", 4.0),
+        ("0.1.0", "version 0.1.0", 2.0),
+    ):
+        what = f"bake at 512, 3 maps: frames a second / those of {what}"
+        reading = "frames a second, this version / others"
+        found.append(Goal(what, ">=", bound, "bake_peers", reading, {"n": 512, "by": other}))
+    many: dict[str, Condition] = {"n": 16, "frames": 100_000}
+    for time in ("time of a frame", "time to check a frame", "time to resume, a frame"):
+        what = f"bake of 100,000 frames of 16 x 16: {time} / that of 1,000"
+        reading = f"{time}, of the most / the fewest"
+        found.append(Goal(what, "<=", 1.25, "many_frames", reading, many))
+    # 260 and 470 bytes a frame at most; a row of manifest.json has 600, as plain data 1,500
+    for reading, bound in (
+        ("peak memory of the bake", 25.0),
+        ("peak memory with resuming, manifest and check", 45.0),
+    ):
+        what = f"bake of 100,000 frames of 16 x 16: {reading}"
+        found.append(Goal(what, "<=", bound, "many_frames", reading, many))
     return found
 
 

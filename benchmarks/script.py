@@ -16,6 +16,9 @@ from fftocean.errors import FFTOceanError
 
 Say = Callable[[str], None]
 
+PLACES = ("json", "plot", "folder", "blender", "earlier")
+"""Flags for files and programs of this machine, which are no settings of a result."""
+
 
 def run(
     question: str,
@@ -55,7 +58,7 @@ def run(
         )
 
     before = machine.moment()
-    settings = {key: value for key, value in vars(options).items() if key not in ("json", "plot")}
+    settings = {key: value for key, value in vars(options).items() if key not in PLACES}
     try:
         result = answer(question, asks, measure(options, say), settings, before)
         Console(width=150 if not sys.stdout.isatty() else None, highlight=False).print(

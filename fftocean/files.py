@@ -21,6 +21,7 @@ from typing import Any
 from fftocean.errors import JobError, OutputError, described
 
 MAX_JSON = 4 * 2**20  # bytes: several times the description of the largest job file
+GATHERED = 2**16  # bytes that are written at a time, of a file that is made in small parts
 MAX_FILE = 2**37  # bytes: a container of a long sequence
 PATIENCE = 2.0 if sys.platform == "win32" else 0.0  # [s], for others to close a file
 AS_BYTES = getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
@@ -89,6 +90,18 @@ def write_parts(path: Path, parts: Iterable[bytes | memoryview]) -> str:
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}") from error
     return sha256.hexdigest()
+
+
+def gathered(parts: Iterable[bytes]) -> Iterator[bytes]:
+    """Yield the bytes of small parts in larger ones, each for one call of the system."""
+    whole = bytearray()
+    for part in parts:
+        whole += part
+        if len(whole) >= GATHERED:
+            yield bytes(whole)
+            whole.clear()
+    if whole:
+        yield bytes(whole)
 
 
 def _rename(temporary: Path, path: Path) -> None:

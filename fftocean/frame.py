@@ -10,6 +10,11 @@ from fftocean.grid import Grid
 
 Own = TypeVar("Own", bound="_Arrays")
 
+Layout = tuple[tuple[int, int], str]
+"""
+Shape and precision of arrays that can be written to, each C-contiguous and with memory of its own.
+"""
+
 
 class _FieldProperty(property):
     """A field as an attribute, with the caption and unit of its row of `FIELDS`."""
@@ -32,13 +37,14 @@ class _FieldProperty(property):
 class _Arrays:
     """Time, grid and named arrays, with the fields that mean the same in all frames."""
 
-    __slots__ = ("_arrays", "choppiness", "grid", "t")
+    __slots__ = ("_arrays", "_layout", "choppiness", "grid", "t")
 
     def __init__(self, t: float, grid: Grid, choppiness: float, arrays: Mapping[str, Real]) -> None:
         self.t = t  # [s]
         self.grid = grid
         self.choppiness = choppiness
         self._arrays = dict(arrays)
+        self._layout: Layout | None = None
 
     @property
     def fields(self) -> tuple[str, ...]:

@@ -556,12 +556,17 @@ class Ocean:
         frame = Frame(t, self.grid, self.choppiness, arrays)
         if out is not None:
             out._become(frame)  # its t and fields are the new ones
-            return out
+            frame = out
+        frame._layout = self._synthesis.shape, self.dtype
         return frame
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:
         """Return the arrays to write to: new ones, or those of an earlier frame."""
         plane = self._synthesis.shape
+        if out is not None and type(out) is Frame and out._layout == (plane, self.dtype):
+            found = out._arrays
+            if all(name in found and found[name].flags.writeable for name in fields):
+                return {name: found[name] for name in fields}
         shapes = {name: (*plane, 3) if name == "normal" else plane for name in fields}
         if out is None:
             return {name: aligned_empty(shape, self.dtype) for name, shape in shapes.items()}

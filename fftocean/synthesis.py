@@ -28,10 +28,12 @@ row share the rounding errors of its transform, a power of two first makes them 
 
 import contextlib
 import math
+import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,7 +54,10 @@ Source = tuple[str, int]
 SOURCES: tuple[Source, ...] = (("height", 0), ("height", 1), ("potential", 0), ("potential", 1))
 """The sources, in the order that `kernels.whole_passes` has them."""
 
-GRADIENTS = np.array([tuple(FIELDS).index(name) for name in GEOMETRY], np.int64)
+NUMBERS = {name: number for number, name in enumerate(FIELDS)}
+"""Places of the fields in their table."""
+
+GRADIENTS = np.array([NUMBERS[name] for name in GEOMETRY], np.int64)
 """Places of the gradients among the fields."""
 
 STREAMED_FROM = 2**22
@@ -285,7 +290,7 @@ class Synthesis:
             if bound is not None and len(bound.waves)
             else None
         )
-        k = grid.k.T[: self.columns]
+        k = grid.k[_half(amplitudes), : self.columns].T
         self._potential = np.ascontiguousarray(potential_factor(k, amplitudes.depth), dtype=dtype)
         self._omega: Real | None = None
         self._buffer = np.zeros(0, dtype=COMPLEX_OF[dtype])
@@ -333,7 +338,8 @@ class Synthesis:
         rates = any(spectrum.source[1] for spectrum in plan.half_spectra)
         if self._omega is None and rates:
             self._omega = np.ascontiguousarray(
-                self._amplitudes.running_omega.T[: self.columns], dtype=self._dtype
+                self._amplitudes.running_omega[_half(self._amplitudes), : self.columns].T,
+                dtype=self._dtype,
             )
         first = _First(
             single=True if self._dtype == np.float32 else None,
@@ -355,9 +361,18 @@ class Synthesis:
             streamed=_are_streamed(outputs),
         )
         if self._workspaces[0].compiled:
-            blocks = np.zeros((2, 16), np.int64)  # on a cache line each
-            self._in_threads(lambda workspace: workspace.first_pass(blocks[0], first, between))
-            self._in_threads(lambda workspace: workspace.second_pass(blocks[1], second, between))
+            blocks = np.zeros((3, 16), np.int64)  # counters on a cache line each
+
+            def both_passes(workspace: _Workspace) -> None:
+                try:
+                    workspace.first_pass(blocks[0], blocks[1], first, between)
+                except BaseException:
+                    blocks[1, 0] = workspace.blocks  # else the other threads would wait for ever
+                    raise
+                _wait_for(blocks[1], workspace.blocks)
+                workspace.second_pass(blocks[2], second, between)
+
+            self._in_threads(both_passes)
             return
         self._run_blocks(
             self.columns,
@@ -408,9 +423,11 @@ class Synthesis:
 
     def _sum_bound_waves(self, plan: Plan, moment: Moment) -> whole_passes.Bound | None:
         """Compute the second-order height spectra that a plan needs, if there are any."""
-        rates = [dt for of, dt in plan.sources if of == "height"]
         bound = self._bound
-        if bound is None or not rates:
+        if bound is None:
+            return None
+        rates = [dt for of, dt in plan.sources if of == "height"]
+        if not rates:
             return None
         bound.advance(moment, rates)
         self._run_blocks(bound.parts, 1, lambda _, part: bound.sum(part.start, rates))
@@ -441,7 +458,6 @@ class Synthesis:
     def _tables_of(self, plan: Plan) -> _Tables:
         """Return the tables of a plan."""
         number = {source: i for i, source in enumerate(SOURCES)}
-        place = {name: i for i, name in enumerate(FIELDS)}
         used = np.zeros(len(SOURCES), np.int64)
         for of, dt in plan.sources:
             used[number[of, dt]] = 1
@@ -463,7 +479,7 @@ class Synthesis:
         for p, row in enumerate(plan.rows):
             one, two = row.pair[0], row.pair[-1]
             only = 1 if two not in needed or one == two else 2 if one not in needed else 0
-            table[p] = row.plus, row.minus, place[one], place[two], only
+            table[p] = row.plus, row.minus, NUMBERS[one], NUMBERS[two], only
         plus, minus = (
             aligned_numbers((len(factors), 2 * self.columns), self._dtype) for _ in range(2)
         )
@@ -500,8 +516,7 @@ class Synthesis:
         return self._buffer[:size].view(self._dtype)
 
 
-@dataclass(frozen=True, slots=True)
-class _First:
+class _First(NamedTuple):
     """Arguments of the first pass."""
 
     single: bool | None
@@ -512,8 +527,7 @@ class _First:
     spectra: whole_passes.Spectra
 
 
-@dataclass(frozen=True, slots=True)
-class _Second:
+class _Second(NamedTuple):
     """Arguments of the second pass."""
 
     spectra: int
@@ -542,16 +556,19 @@ class _Workspace:
         self._plans = [row_plan(n, dtype, self.backend, planning) for n in (ny, nx)]
         self.compiled = all(self._plans)
         width = self._width = TILE if self.compiled else WIDTH
-        self._tiles = -(-columns // TILE)
+        self.blocks = self._tiles = -(-columns // TILE)  # blocks of the first pass
         most = sum(len(_half_spectra(pair)) for pair in row_pairs())
         stride = -(-ny // TILE) * TILE  # each row starts on a cache line
         rows = 1 if self.compiled else width
-        cycles = aligned_numbers((1, ny), np.float64)
-        cosine, sine = (aligned_numbers((1, ny), dtype) for _ in range(2))
+        cycles = aligned_numbers((1, ny // 2 + 1), np.float64)
+        cosine, sine, factor = (aligned_numbers((1, ny), dtype) for _ in range(3))
         parts = aligned_numbers((len(SOURCES), 2, 1, ny), dtype)
         source = aligned((1 if self.compiled else most * width, stride), dtype)
         self._results = aligned((most * width, stride), dtype)
-        self._columns = (cycles, cosine, sine, parts, _parts(source), _parts(self._results))
+        self._columns = (
+            *(cycles, cosine, sine, factor, parts),
+            *(_parts(source), _parts(self._results)),
+        )
         self._scratch = aligned_numbers((len(FIELDS), rows * nx), dtype)
         self._scratch_places = np.array([(row.ctypes.data, 0) for row in self._scratch], np.int64)
         self._unit = aligned_numbers((3 * nx,), dtype)
@@ -575,17 +592,24 @@ class _Workspace:
     def _places(self, outputs: Mapping[str, Real]) -> Integer:
         """Return the places of the linear fields, as `kernels.whole_passes` has them."""
         places = self._scratch_places.copy()
-        for field, name in enumerate(FIELDS):
-            if name in outputs:
-                places[field] = outputs[name].__array_interface__["data"][0], 1
+        for name, array in outputs.items():
+            if name in NUMBERS:
+                place = NUMBERS[name]
+                places[place, 0], places[place, 1] = array.__array_interface__["data"][0], 1
         return places
 
     def first_pass(
-        self, counter: Integer, first: _First, between: Real, end: int | None = None
+        self,
+        counter: Integer,
+        done: Integer,
+        first: _First,
+        between: Real,
+        end: int | None = None,
     ) -> None:
         """Do blocks of the first pass until none is left, or up to block `end`."""
         whole_passes.first_pass(
             counter,
+            done,
             self._tiles if end is None else end,
             self._width,
             first.single,
@@ -625,7 +649,7 @@ class _Workspace:
         """Do a block of the first pass, with transforms called from Python."""
         count, width = block.stop - block.start, self._width
         number = block.start // width
-        self.first_pass(np.array([number]), first, between, number + 1)
+        self.first_pass(np.array([number]), np.zeros(1, np.int64), first, between, number + 1)
         spectra = first.spectra[1].shape[0]
         for s in range(spectra):
             rows = slice(s * width, s * width + count)
@@ -663,18 +687,33 @@ class _Workspace:
             )
 
 
+def _wait_for(done: Integer, count: int) -> None:
+    """Wait until all blocks of the first pass are done."""
+    pause = 0.0
+    while not whole_passes.are_done(done, count):
+        time.sleep(pause)  # leaves the processor to the thread that is waited for
+        pause = min(pause + 1e-5, 1e-3)
+
+
+def _half(amplitudes: Amplitudes) -> slice:
+    """Return the places of ky >= 0; what depends on |k| alone is the same at -ky."""
+    return slice(amplitudes.grid.ny // 2 + 1)
+
+
 def _frequencies(amplitudes: Amplitudes, columns: int) -> Real:
     """
-    Return the frequency of each wave in cycles a second or, on a loop, a period; (columns, ny).
+    Return the frequencies of waves with ky >= 0, which those at -ky share; (columns, ny // 2 + 1).
 
-    On a loop they are whole numbers. Their rounding to float64 is the only error of a phase.
+    They are in cycles a second or, on a loop, whole numbers of cycles in its period. Their rounding
+    to float64 is the only error of a phase.
     """
+    half = _half(amplitudes)
     if amplitudes.cycles is not None:
-        return np.ascontiguousarray(amplitudes.cycles.T[:columns], dtype=np.float64)
-    frequency = np.empty((columns, amplitudes.grid.ny))
-    # The Nyquist column is left over.
-    for column, omega in zip(frequency, amplitudes.omega.T, strict=False):
-        column[:] = dispersion.turns_per_second(omega)
+        return np.ascontiguousarray(amplitudes.cycles[half, :columns].T, dtype=np.float64)
+    omega = amplitudes.omega[half, :columns].T
+    frequency = np.empty(omega.shape)
+    for column, its_omega in zip(frequency, omega, strict=True):
+        column[:] = dispersion.turns_per_second(its_omega)
     return frequency
 
 

@@ -272,8 +272,8 @@ def test_unknown_fields_and_other_types_are_refused():
     [
         (25.0, 48, 120.0),
         (40.0, 32, 600.0),
-        (25.0, (96, 32), 120.0),  # samples of other lengths along x and y
-        (25.0, (32, 96), (120.0, 90.0)),
+        (40.0, (128, 16), 400.0),  # samples of other lengths along x and y
+        (40.0, (16, 128), 400.0),
     ],
 )
 def test_a_storm_on_few_samples_is_as_exact(speed, n, size):

@@ -22,6 +22,14 @@ def test_there_is_an_error_of_each_kind():
     assert sum(not m.equivalent for m in table) >= 150
 
 
+def test_code_compiled_from_a_module_is_that_of_its_importers():
+    """Machine code holds constants and functions of other modules; that of a top one, its own."""
+    assert {"passes", "whole_passes", "query"} <= set(mutate.kernels_above("fftocean/arrays.py"))
+    assert mutate.kernels_above("fftocean/kernels/whole_passes.py") == ("whole_passes",)
+    assert mutate.kernels_above("fftocean/report.py") == ()
+    assert all(mutate.kernels_above(m.module) is not None for m in mutate.read_table())
+
+
 @pytest.fixture
 def tree(tmp_path):
     """Return the root of a small tree with the tool, a module, an error in it, and two tests."""

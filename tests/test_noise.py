@@ -1,5 +1,8 @@
 """Random numbers as a function of (seed, mx, my), and their distribution."""
 
+import cmath
+import math
+
 import numpy as np
 import pytest
 
@@ -24,6 +27,39 @@ def test_philox_known_answers(counter, key, answer):
     """The generator's authors publish these three for philox4x32-10 (Random123, kat_vectors)."""
     words = noise.philox(tuple(np.array([c], dtype=np.uint64) for c in counter), key)
     assert tuple(int(w[0]) for w in words) == answer
+
+
+def philox_in_integers(counter, key):
+    """Philox 4x32-10 as Salmon et al. (2011) write it, in Python's integers."""
+    a, b, c, d = counter
+    low, high = key
+    for _ in range(10):
+        first, second = 0xD2511F53 * a, 0xCD9E8D57 * c
+        a, b, c, d = (
+            (second >> 32) ^ b ^ low,
+            second % 2**32,
+            (first >> 32) ^ d ^ high,
+            first % 2**32,
+        )
+        low, high = (low + 0x9E3779B9) % 2**32, (high + 0xBB67AE85) % 2**32
+    return a, b, c, d
+
+
+@pytest.mark.parametrize("seed", [0, 7, 2**32, 2**64 - 1])
+@pytest.mark.parametrize("wave", [(1, 0), (0, 1), (-3, 5), (70_000, -70_001)])
+def test_a_seed_is_the_same_sea_for_ever(seed, wave):
+    """
+    Box & Muller's pair of 53 bits each, of the four words in order: a unit of the last place in
+    each of four functions, and in the angle up to 2 pi.
+    """
+    words = philox_in_integers((wave[0] % 2**32, wave[1] % 2**32, 0, 0), (seed % 2**32, seed >> 32))
+    first, second = (words[i] << 32 | words[i + 1] for i in (0, 2))
+    radius, cycles = ((first >> 11) + 1) / 2**53, (second >> 11) / 2**53
+    phasor = cmath.exp(2j * math.pi * cycles)
+    mx, my = (np.array([m]) for m in wave)
+    assert noise.unit_phasors(seed, mx, my)[0] == pytest.approx(phasor, abs=1e-14)
+    expected = math.sqrt(-2.0 * math.log(radius)) * phasor
+    assert noise.complex_normals(seed, mx, my)[0] == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.fixture(scope="module")

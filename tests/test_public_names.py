@@ -35,11 +35,15 @@ def test_type_checkers_see_all_public_names():
 
 
 @pytest.mark.parametrize("name", fo.__all__)
-def test_a_public_name_is_the_object_that_type_checkers_see(name):
+def test_a_public_name_is_the_object_that_type_checkers_see(name, monkeypatch):
+    """Looked up anew: an import elsewhere sets a module's name, too."""
     module, there = names_for_type_checkers()[name]
     scope = {}
     exec(f"from {module} import {there} as found", scope)
+    monkeypatch.delitem(vars(fo), name, raising=False)
     assert getattr(fo, name) is scope["found"]
+    if inspect.ismodule(scope["found"]):
+        assert scope["found"].__name__ == f"{module}.{there}"
 
 
 def test_dir_lists_the_public_names():

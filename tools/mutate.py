@@ -302,7 +302,7 @@ def kernels_above(module: str) -> tuple[str, ...]:
     numba compares the time of the file that a function stands in, and of no other. So the code of
     the importers, with their constants and the functions that they call, is compiled anew.
     """
-    name = ".".join(Path(module).with_suffix("").parts[1:]).removesuffix(".__init__")
+    name = ".".join(part for part in Path(module).with_suffix("").parts[1:] if part != "__init__")
     reached = {name} | reach(_importers(), name)
     sources = modules_in(PACKAGE)
     return tuple(sorted(m.rpartition(".")[2] for m in reached if "@compiled" in sources[m]))

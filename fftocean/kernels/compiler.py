@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 import numba as nb
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.runtime.nrt import rtsys
 
 from fftocean import forks
 
@@ -50,8 +51,13 @@ class _Cache(FunctionCache):
         self._cache_file = _Files(file._cache_path, self._impl.filename_base, file._source_stamp)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
+        # Numba's own first loads all that can be compiled, which takes longer than anything else
+        # before the first frame. Machine code needs the symbols of numba's run-time library alone;
+        # a compilation loads the rest itself.
         try:
-            return super().load_overload(sig, target_context)
+            rtsys.initialize(target_context)
+            with self._guard_against_spurious_io_errors():
+                return self._load_overload(sig, target_context)
         except Exception:  # of a damaged or foreign file: as if there were none
             return None
 

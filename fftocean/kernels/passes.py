@@ -17,6 +17,7 @@ from fftocean.kernels.vectors import (
     LANES,
     TILE,
     prefetch,
+    reverse,
     scale,
     scale_reversed,
     split,
@@ -86,6 +87,32 @@ def phases_in_fine_loop(cycles: Real, step: int, count: int, out: Real) -> None:
 
 
 @compiled
+def mirror(row: Real, half: int) -> None:
+    """
+    Write the numbers at ky < 0 from those at ky > 0, where waves at ky and -ky have the same.
+
+    Args:
+        row: numbers in the order of transforms, ky from 0 up and then the negative ones.
+        half: how many are there, those at ky >= 0; at -ky there is neither 0 nor, of an even
+            number, Nyquist's.
+    """
+    missing = row.size - half
+    whole = missing - missing % LANES
+    for i in range(0, whole, LANES):
+        reverse(row, missing - i - LANES + 1, row, half + i)
+    for i in range(whole, missing):
+        row[half + i] = row[missing - i]
+
+
+@compiled
+def unfold(half: Real, out: Real) -> None:
+    """Write a row of all ky from the numbers at ky >= 0; see `mirror`."""
+    for j in range(half.size):
+        out[j] = half[j]
+    mirror(out, half.size)
+
+
+@compiled
 def phases(kind: int, moment: float, count: float, frequency: Real, out: Real) -> None:
     """
     Write the phases at one time, in cycles, by one of the three loops above.
@@ -107,7 +134,7 @@ def phases(kind: int, moment: float, count: float, frequency: Real, out: Real) -
 @compiled
 def phasors(cycles: Real, cosine: Real, sine: Real) -> None:
     """
-    Write cosine and sine of phases in cycles, |cycles| <= 1/2.
+    Write cosine and sine of phases in cycles, |cycles| <= 1/2; their rows may be longer.
 
     By Taylor series of half the angle, which is then doubled: no branch, no table. Half the angle
     is at most pi/2, where the first term left out is 1e-18 of the sine and 2e-17 of the cosine.

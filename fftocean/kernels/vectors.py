@@ -40,6 +40,11 @@ def scale_reversed(factors: Real, f: int, source: Real, s: int, out: Real, o: in
     out[o : o + LANES] = factors[f : f + LANES] * pairs.reshape(LANES)
 
 
+def reverse(source: Real, s: int, out: Real, o: int) -> None:
+    """Write `LANES` numbers in reversed order."""
+    out[o : o + LANES] = source[s : s + LANES][::-1]
+
+
 def split(
     pairs: Real,
     p: int,
@@ -160,6 +165,19 @@ def _scaling(arguments: tuple[Any, ...], backwards: bool) -> Any:
 
 
 @_intrinsic
+def _reverse(_: Any, source: Any, s: Any, out: Any, o: Any) -> Any:
+    signature = types.void(source, types.intp, out, types.intp)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, a: Any) -> Any:
+        make = _Builder(context, builder, signature)
+        numbers = make.load(a, 0, a[1], ir.VectorType(make.element(0), LANES))
+        make.store(make.shuffle(numbers, numbers, list(reversed(range(LANES)))), a, 2, a[3])
+        return context.get_dummy_value()
+
+    return signature, generate
+
+
+@_intrinsic
 def _split(
     _: Any,
     pairs: Any,
@@ -263,6 +281,11 @@ def _compiled_scale(factors: Any, f: Any, source: Any, s: Any, out: Any, o: Any)
 @overload(scale_reversed, strict=False)
 def _compiled_scale_reversed(factors: Any, f: Any, source: Any, s: Any, out: Any, o: Any) -> Any:
     return lambda factors, f, source, s, out, o: _scale_reversed(factors, f, source, s, out, o)
+
+
+@overload(reverse, strict=False)
+def _compiled_reverse(source: Any, s: Any, out: Any, o: Any) -> Any:
+    return lambda source, s, out, o: _reverse(source, s, out, o)
 
 
 @overload(split, strict=False)

@@ -14,13 +14,14 @@ its rate, 2 and 3 for the potential.
 from fftocean.arrays import Integer, Real
 from fftocean.kernels.bound import add_folded
 from fftocean.kernels.compiler import compiled
-from fftocean.kernels.native import execute, numbers_at, take
+from fftocean.kernels.native import execute, numbers_at, take, taken
 from fftocean.kernels.passes import (
     SIZE,
     derive,
     height_rates,
     heights,
     imaginary_part,
+    mirror,
     mix,
     pack,
     phases,
@@ -30,12 +31,17 @@ from fftocean.kernels.passes import (
     scaled,
     split_row,
     tile,
+    unfold,
 )
 from fftocean.kernels.surface import jacobian_row, normal_row
 from fftocean.kernels.vectors import LANES, TILE
 
 Waves = tuple[Real, Real, Real]
-"""Frequencies, (columns, ny); waves, (columns, 4 ny); the factor of the potential."""
+"""
+Frequencies, (columns, ny // 2 + 1); waves, (columns, 4 ny); factors of the potential.
+
+Frequencies and factors are those at ky >= 0, which `passes.unfold` gives the other half.
+"""
 
 Moment = tuple[int, float, float]
 """The kind of phases, the time or step, and the number of steps: see `passes.phases`."""
@@ -53,10 +59,10 @@ source or -1, and 1 where real and imaginary part change places; the powers of k
 the signs of both parts, (spectra, 2).
 """
 
-Columns = tuple[Real, Real, Real, Real, Real, Real]
+Columns = tuple[Real, Real, Real, Real, Real, Real, Real]
 """
-Buffers of a thread: cycles, cosine, sine, (1, ny); real and imaginary parts of the four sources,
-(4, 2, 1, ny); rows to transform, and transformed ones.
+Buffers of a thread: cycles, (1, ny // 2 + 1); cosine, sine, and a factor, (1, ny); real and
+imaginary parts of the four sources, (4, 2, 1, ny); rows to transform, and transformed ones.
 """
 
 Call = tuple[int, int, int, int]
@@ -72,9 +78,23 @@ first is wanted, 2 where only the second; factors at +k and -k, and the one that
 # that of a buffer and 0, for the rows of one block only.
 
 
+WATCHED = 2000
+"""Times that a thread looks whether others are done: a microsecond or two."""
+
+
+@compiled
+def are_done(done: Integer, count: int) -> bool:
+    """Watch a short time until a number of blocks are done; return whether they are."""
+    looks = 0
+    while taken(done) < count and looks < WATCHED:
+        looks += 1
+    return looks < WATCHED
+
+
 @compiled
 def first_pass(
     counter: Integer,
+    done: Integer,
     end: int,
     width: int,
     single: bool | None,
@@ -96,6 +116,7 @@ def first_pass(
 
     Args:
         counter, end: the number of the next block, and the one after the last.
+        done: the number of blocks that are done.
         width: columns in a block; 8 where there is a function to call.
         single: None in double precision.
         omega: None where no rate is needed.
@@ -104,9 +125,9 @@ def first_pass(
     """
     frequency, table, potential = waves
     used, sources, powers, signs = spectra
-    cycles, cosine, sine, parts, source, results = buffers
+    cycles, cosine, sine, factor, parts, source, results = buffers
     function, plan, from_address, to_address = call
-    columns, ny = frequency.shape
+    columns, ny = frequency.shape[0], table.shape[1] // 4
     tiles, count = (columns + TILE - 1) // TILE, sources.shape[0]
     row_bytes = source.shape[1] * source.itemsize
     transformed = results[: count * width].reshape(count * width * results.shape[1])
@@ -121,15 +142,19 @@ def first_pass(
                 phasors(cycles, cosine, sine)
             else:
                 phasors_single(cycles, cosine, sine)
+            mirror(cosine[0], cycles.shape[1])
+            mirror(sine[0], cycles.shape[1])
             if used[0]:
                 heights(table[x : x + 1], cosine, sine, parts[0, 0], parts[0, 1])
             if omega is not None:
-                rates = omega[x : x + 1]
-                height_rates(table[x : x + 1], cosine, sine, rates, parts[1, 0], parts[1, 1])
+                unfold(omega[x], factor[0])
+                height_rates(table[x : x + 1], cosine, sine, factor, parts[1, 0], parts[1, 1])
+            if used[2] or used[3]:
+                unfold(potential[x], factor[0])
             for rate in range(2):
                 if used[2 + rate]:
-                    scaled(parts[rate, 0], potential[x : x + 1], parts[2 + rate, 0])
-                    scaled(parts[rate, 1], potential[x : x + 1], parts[2 + rate, 1])
+                    scaled(parts[rate, 0], factor, parts[2 + rate, 0])
+                    scaled(parts[rate, 1], factor, parts[2 + rate, 1])
             if bound is not None:  # after the potentials, which have no second order
                 own, scale, real_sum, imag_sum, real_rate, imag_rate, gain = bound
                 if used[0]:
@@ -151,6 +176,7 @@ def first_pass(
                     execute(function, plan, from_address, to_address + row * row_bytes)
         if function != 0:
             tile(transformed, 0, width, count, ny, block, tiles, between, streamed)
+        take(done)
 
 
 @compiled

@@ -19,7 +19,7 @@ from fftocean.bench.results import Reading, answer, read
 FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
 QUESTIONS = (
     *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
-    *("series", "robots"),
+    *("series", "robots", "query", "bake_peers", "many_frames"),
 )
 HELPERS = ("gpu", "script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -237,16 +237,18 @@ def test_startup_answers(script, tmp_path, monkeypatch):
     assert len({cache for _, cache in cold}) == 2  # each first one had an empty cache of its own
 
 
-def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path):
+def test_a_fresh_process_uses_this_package_and_the_cache_it_is_given(script, tmp_path, monkeypatch):
+    """And keeps modules compiled, whatever this process does."""
     import fftocean
 
     fresh = script("fresh")
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
     program = (
-        "import fftocean, json, os; "
-        "print(json.dumps([fftocean.__file__, os.environ['NUMBA_CACHE_DIR']]))"
+        "import fftocean, json, os, sys; print(json.dumps("
+        "[fftocean.__file__, os.environ['NUMBA_CACHE_DIR'], sys.dont_write_bytecode]))"
     )
     run = fresh.python("-c", program, cache=tmp_path)
-    assert run.said == [fftocean.__file__, str(tmp_path)]
+    assert run.said == [fftocean.__file__, str(tmp_path), False]
     assert run.wall > 0.0
     assert run.cpu > 0.0
     assert fresh.python("-c", "print('no json')").said is None
@@ -439,6 +441,7 @@ def test_every_question_is_asked_by_the_one_command_and_has_its_picture(
     is there.
     """
     everything = script("all")
+    machine.describe()  # runs `uname` once, by the `subprocess` that is replaced below
     ran = []
 
     class Done:
@@ -509,3 +512,138 @@ def test_series_answer(script, tmp_path):
         assert result.find("direct sum", loop=loop).median > 0.0
         error = result.find("largest error / largest height", loop=loop)
         assert 0.0 <= error.median < 1e-9
+
+
+def test_queries_answer(script, tmp_path):
+    flags = ("--n", "16", "--points", "400", "--seconds", "0")
+    result, picture = asked(script, "query", tmp_path, *flags)
+    assert picture[:8] == PNG
+    for where in ("random over 4 km", "a grid over 500 m"):
+        for mode in ("bilinear", "bicubic"):
+            at = {"where": where, "mode": mode, "fields": "heights"}
+            ours = result.find("points a second", by="fftocean", **at)
+            assert (ours.unit, ours.clock) == ("1/s", "cpu")
+            assert ours.low <= ours.median <= ours.high
+            assert result.find("points a second", by="SciPy", **at).median > 0.0
+            assert result.find("SciPy / fftocean", **at).unit == "x"
+    assert result.find("a call, a new time", mode="exact").at["points"] == 4
+    held_goals(script, result, points=None, n=None)
+
+
+def held_goals(script, result, **sizes):
+    """Every goal of a result's question has its reading; sizes replace those of the goals."""
+    found = [goal for goal in script("report").goals() if goal.question == result.question]
+    assert found
+    for goal in found:
+        at = {key: sizes.get(key, value) for key, value in goal.at.items()}
+        assert len(result.all(goal.reading, clock=goal.clock, **at)) == 1, goal
+
+
+def test_times_of_points_become_rates(script):
+    query = script("query")
+    reading = Reading("points a second", "ms", 2.0, 1.0, 4.0, 5, "cpu", {"mode": "bicubic"})
+    rate = query.in_points(reading, 1000)
+    assert (rate.low, rate.median, rate.high) == (250e3, 500e3, 1e6)
+    assert (rate.unit, rate.clock, rate.count, rate.at) == ("1/s", "cpu", 5, {"mode": "bicubic"})
+
+
+def test_other_heights_of_points_are_not_timed(script, monkeypatch, capsys):
+    """Of water a tenth of a second later, and of another kind of interpolation."""
+    query = script("query")
+    monkeypatch.setattr(query, "race", lambda *_, **__: pytest.fail("it was timed"))
+    real = query.with_scipy
+
+    def later(cascade, x, y, mode, residual=1e-3):
+        with monkeypatch.context() as patch:
+            patch.setattr(query, "MOMENT", query.MOMENT + 0.1)
+            return real(cascade, x, y, mode, residual)
+
+    monkeypatch.setattr(query, "with_scipy", later)
+    flags = ["--n", "16", "--points", "400", "--seconds", "0"]
+    assert query.main(flags) == 2
+    assert "bilinear heights of fo.Query and of SciPy differ by" in capsys.readouterr().err
+    monkeypatch.setattr(query, "with_scipy", real)
+    monkeypatch.setattr(query, "ORDERS", {"bilinear": 3})
+    assert query.main(flags) == 2
+
+
+@pytest.mark.process
+def test_bakes_of_peers_answer(script, tmp_path, capsys):
+    """Without `bpy` in this Python that bake is skipped, which is said, unless it is installed."""
+    flags = ("--n", "16", "--frames", "12", "--rounds", "2", "--blender", "/no/such/python")
+    result, picture = asked(script, "bake_peers", tmp_path, *flags)
+    assert picture[:8] == PNG
+    assert result.find("frames a second", by="this version").count == 2
+    assert {r.at["by"] for r in result.readings} == {"this version"}
+    assert "Blender is skipped: /no/such/python has no bpy" in capsys.readouterr().err
+    assert "/no/such/python" not in (tmp_path / "bake_peers.json").read_text()
+
+
+def test_peers_are_compared_by_frames_of_one_size(script, tmp_path, monkeypatch):
+    """
+    Figures that we choose: Blender's side for n = 512 is 23 x 23 = 529, so its 10 frames a second
+    count as 10.675; ratios are taken round by round.
+    """
+    peers = script("bake_peers")
+    speeds = {"this version": iter([40.0, 60.0]), "Blender": iter([10.0, 20.0])}
+    seen = []
+
+    def bake(name, python, _, side, __):
+        seen.append((name, side, list(python)))
+        return {"wall": next(speeds[name]), "cpu": 30.0, "size": 2.0}
+
+    monkeypatch.setattr(peers, "one_bake", bake)
+    monkeypatch.setattr(peers, "has_bpy", lambda _: True)
+    result, _ = asked(script, "bake_peers", tmp_path, "--rounds", "2", "--blender", "other")
+    scale = (23 * 23 / 512) ** 2
+    assert result.find("frames a second", by="Blender").median == pytest.approx(15.0 * scale)
+    ratio = result.find("frames a second, this version / others", by="Blender")
+    assert ratio.median == pytest.approx((4.0 + 3.0) / 2.0 / scale)
+    cpu = result.find("processor time of a frame", by="Blender").median
+    assert cpu == pytest.approx(30.0 / scale)
+    assert seen == [("this version", 23, []), ("Blender", 23, ["other"])] * 2
+    goals = [goal for goal in script("report").goals() if goal.question == "bake_peers"]
+    for goal in goals:
+        at = {**goal.at, "by": "Blender"}
+        assert len(result.all(goal.reading, clock=goal.clock, **at)) == 1
+
+
+def test_other_pixels_of_a_peer_are_refused(script, tmp_path):
+    """Frames of another seed; and the same frames pass."""
+    pytest.importorskip("OpenEXR")
+    peers = script("bake_peers")
+    job = fo.Job.default().replaced(
+        {"ocean.n": 8, "bake.frames": 2, "bake.maps": ["displacement"], "bake.pictures": []}
+    )
+    for name, seed in (("ours", 7), ("same", 7), ("other", 8)):
+        fo.bake(job.replaced({"ocean.seed": seed}), tmp_path / name, executor="serial")
+    peers.compare(tmp_path / "ours", tmp_path / "same")
+    with pytest.raises(fo.ParameterError, match=r"0000\.exr of displacement differs by"):
+        peers.compare(tmp_path / "ours", tmp_path / "other")
+
+
+@pytest.mark.process
+def test_many_frames_answer(script, tmp_path):
+    result, picture = asked(script, "many_frames", tmp_path, "--frames", "4", "12", "--n", "8")
+    assert picture[:8] == PNG
+    for frames in (4, 12):
+        assert result.find("time of a frame", frames=frames).clock == "cpu"
+        journal = result.find("size of the journal", frames=frames).median
+        assert 0.0 < journal < result.find("size of the manifest", frames=frames).median
+    held_goals(script, result, frames=12, n=8)
+
+
+def test_growth_is_that_from_the_fewest_frames_to_the_most(script):
+    many = script("many_frames")
+    readings = [
+        Reading.single(what, unit, value * factor, {"frames": frames, "n": 16})
+        for what, unit in many.WHAT.values()
+        for frames, value in ((1000, 2.0), (10, 1.0), (100, 7.0))
+        for factor in ({"time of a frame": 3.0}.get(what, 1.0),)
+    ]
+    found = many.growth(readings)
+    assert [(r.what, r.median, r.at["frames"]) for r in found] == [
+        (f"{what}, of the most / the fewest", 2.0, 1000)
+        for what in ("time of a frame", "time to check a frame", "time to resume, a frame")
+    ]
+    assert many.growth([r for r in readings if r.at["frames"] == 10]) == []

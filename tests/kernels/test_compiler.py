@@ -85,3 +85,48 @@ def test_a_full_disk_costs_the_cache_and_nothing_else(tmp_path):
     (tmp_path / "script.py").write_text(LITTLE_SPACE + FUNCTION)
     assert run(tmp_path) == 0
     assert files(tmp_path, ".nbc") == []
+
+
+PAIR = """
+import math, sys
+import numpy as np
+from fftocean.kernels.compiler import compiled
+
+@compiled
+def waved(x):
+    return np.sin(x) + math.hypot(x[0], 2.0)
+
+@compiled
+def twice(x):
+    return 2.0 * waved(x)
+
+x = np.arange(3.0)
+for kernel, factor in ((waved, 1.0), (twice, 2.0)):
+    off = kernel(x) - factor * (np.sin(x) + 2.0)
+    assert np.max(np.abs(off)) < 1e-15 * 8, off  # a few roundings of numbers up to 6
+    print(sum(getattr(kernel, "_cache_hits", {}).values()), "numba.np.linalg" in sys.modules)
+"""
+
+
+def test_kernels_are_loaded_without_the_compiler_and_compile_with_one_that_was(tmp_path):
+    """
+    Of two kernels the second calls the first: both from the cache load nothing that only compiling
+    needs; with the second's file gone, the first is loaded, and then the second compiled.
+    """
+    (tmp_path / "script.py").write_text(PAIR)
+    os.utime(tmp_path / "script.py", (1e9, 1e9))
+
+    def hits() -> list[str]:
+        env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+        env.pop("NUMBA_DISABLE_JIT", None)
+        command = [sys.executable, "-W", "error", str(tmp_path / "script.py")]
+        done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=600)
+        assert done.returncode == 0, done.stderr
+        return done.stdout.split("\n")[:2]
+
+    assert hits() == ["0 True", "0 True"]
+    assert hits() == ["1 False", "1 False"]
+    for file in files(tmp_path, ".nbc"):
+        if "twice" in file.name:
+            file.unlink()
+    assert hits() == ["1 False", "0 True"]

@@ -1,5 +1,7 @@
 """Compiled loops against their NumPy twins, and the phases at any time."""
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
@@ -190,6 +192,23 @@ def test_pack_and_split(nx):
         assert np.array_equal(alone, [first, second])
 
 
+@pytest.mark.parametrize(
+    ("kind", "count", "most"),
+    [(1, 1, 50), (1, 24, 50), (1, 2**26, 50), (2, 24, 63), (2, 2**32 - 5, 63), (2, 2**32, 63)],
+)
+def test_phases_of_a_loop_lie_within_half_a_cycle(kind, count, most):
+    """cycles step / count less the nearest whole number, by fractions; to the last division."""
+    cycles = np.array([[0.0, 1.0, 2.0, 3.0, *np.floor(2.0 ** RNG.uniform(1, most, 50))]])
+    out = np.empty_like(cycles)
+    for step in {0, 1, count // 2, count // 3, count - 1}:
+        passes.phases(kind, float(step), float(count), cycles, out)
+        assert np.max(np.abs(out)) <= 0.5
+        for c, phase in zip(cycles[0], out[0], strict=True):
+            whole = Fraction(int(c) * step, count)
+            off = (whole - Fraction(phase) + Fraction(1, 2)) % 1 - Fraction(1, 2)
+            assert abs(off) <= Fraction(1, 2**53)
+
+
 @pytest.mark.parametrize("t", [0.0, 3.7, -1e6, 1e7, 123456789.123, 1e9, 1e12])
 def test_turns_are_exact_at_any_time(t):
     """
@@ -208,11 +227,22 @@ def test_turns_are_exact_at_any_time(t):
             assert abs(apart - mpmath.nint(apart)) < 1e-15 + 2.0**-27 * f * abs(t) * 2.2e-16
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("ny", [*range(1, 9), 33, 34, 64, 65, 100, 129, 150])
+def test_what_depends_on_the_wavenumber_is_given_for_ky_from_0(ny, dtype):
+    """By the frequencies of numpy's transforms: |ky|, and the row before and after stay."""
+    k = np.abs(np.fft.fftfreq(ny, 1 / ny)).astype(dtype)
+    out = np.full((3, ny), -1, dtype)
+    passes.unfold(k[: ny // 2 + 1], out[1])
+    assert np.array_equal(out[1], k)
+    assert np.all(out[::2] == -1)
+
+
 def test_frequencies_are_the_nearest_doubles():
     amplitudes = place_modes([(1, 1, 1.0, 0.0)], Grid.of((9, 6), (30.0, 50.0)), depth=4.0)
     frequency = _frequencies(amplitudes, 5)
     with mpmath.workdps(40):
-        for omega, f in zip(amplitudes.omega.T.ravel(), frequency.ravel(), strict=True):
+        for omega, f in zip(amplitudes.omega[:4].T.ravel(), frequency.ravel(), strict=True):
             assert float(mpmath.mpf(float(omega)) / (2 * mpmath.pi)) == pytest.approx(
                 f, rel=2.3e-16, abs=0.0
             )

@@ -16,7 +16,7 @@ from typing import Any
 
 from fftocean.baking.folder.rows import PackedRows
 from fftocean.errors import OutputError
-from fftocean.files import AS_BYTES, digest, opened, read_whole, write_parts
+from fftocean.files import AS_BYTES, digest, gathered, opened, read_whole, write_parts
 
 MAX_BYTES = 2**33  # a million frames of all maps, each about two thousand
 
@@ -44,7 +44,7 @@ class Journal:
         self.path = path
         # the first line's key is part of the format of the journal
         lines = map(_line, itertools.chain([{"claim": identity}], entries))
-        write_parts(path, lines)  # without lines that were cut or changed
+        write_parts(path, gathered(lines))  # without lines that were cut or changed
         try:
             self._descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | AS_BYTES)
         except OSError as error:

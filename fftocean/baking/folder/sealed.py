@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from fftocean.baking.folder.rows import PackedRows, RowList
+from fftocean.baking.folder.rows import BLOCK, PackedRows, RowList
 from fftocean.errors import IntegrityError, OutputError
-from fftocean.files import as_json, digest, opened, write_parts
+from fftocean.files import as_json, digest, gathered, opened, write_parts
 
 CHECK = "check"
 """The key that holds the SHA-256 of all the others."""
@@ -48,7 +48,7 @@ def write_sealed(path: Path, tree: Mapping[str, Any]) -> dict[str, Any]:
         sha256.update(b"\n" + _END)
         yield b",\n" + _check(sha256.hexdigest()) + _END
 
-    write_parts(path, parts())
+    write_parts(path, gathered(parts()))
     return {**tree, CHECK: sha256.hexdigest()}
 
 
@@ -95,14 +95,10 @@ def _body(tree: Mapping[str, Any]) -> Iterator[bytes]:
         yield before + (entry if rows is None else entry.removesuffix(b"]"))
         before = b",\n"
         if rows is not None:
-            for place, row in enumerate(rows):
-                yield (b",\n    " if place else b"\n    ") + _indented(row)
+            for place in range(0, len(rows), BLOCK):
+                text = as_json(rows[place : place + BLOCK])  # "[\n  {...},\n  {...}\n]\n"
+                yield (b"," if place else b"") + text[1:-3].replace(b"\n", b"\n  ")
             yield b"\n  ]"
-
-
-def _indented(row: Any) -> bytes:
-    """Return the JSON of an entry of a list that is an entry of the whole."""
-    return as_json(row).rstrip(b"\n").replace(b"\n", b"\n    ")
 
 
 def _check(sha256: str) -> bytes:
