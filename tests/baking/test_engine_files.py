@@ -202,6 +202,13 @@ def test_video_memory_is_that_of_all_frames_without_compression(form, maps, texe
     assert held["bytes_with_all_levels"] == 2 * (256 + 64 + 16 + 4 + 1) * texel
 
 
+def test_video_memory_of_an_oblong_tile_is_that_of_its_levels(tmp_path):
+    """16 x 8, 8 x 4, 4 x 2, 2 x 1 and 1 x 1 texels."""
+    held = bake(job("three", ocean__n=(16, 8)), tmp_path)["video_memory"]
+    assert held["bytes"] == 2 * 128 * 8
+    assert held["bytes_with_all_levels"] == 2 * (128 + 32 + 8 + 2 + 1) * 8
+
+
 def test_video_memory_has_the_mip_levels_that_the_files_have(tmp_path):
     held = bake(job("three", "ktx2", bake__mips=True), tmp_path)["video_memory"]
     assert held["bytes"] == held["bytes_with_all_levels"] == 2 * 341 * 8

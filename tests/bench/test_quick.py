@@ -2,6 +2,7 @@
 
 import io
 import re
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
@@ -110,6 +111,18 @@ def test_a_part_of_the_direct_sum_is_scaled_to_the_whole(monkeypatch):
 
 def seen_points(readings):
     return next(r.at["points"] for r in readings if r.what == "eight fields, direct sum")
+
+
+def test_a_direct_sum_of_some_points_is_marked():
+    """Measured at all points, scaled from some of them, or extrapolated as the fourth power."""
+
+    def result(points):
+        row = Reading.single("eight fields, direct sum", "ms", 5.0, {"n": 32, "points": points})
+        return SimpleNamespace(all=lambda what: [row] if what == row.what else [])
+
+    assert quick_report.direct_sum(result(1024), 32) == (5.0, True)
+    assert quick_report.direct_sum(result(102), 32) == (5.0, False)
+    assert quick_report.direct_sum(result(1024), 96) == (pytest.approx(5.0 * 81.0), False)
 
 
 def test_the_crossing_is_that_of_the_ratios():
