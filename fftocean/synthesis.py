@@ -28,6 +28,7 @@ row share the rounding errors of its transform, a power of two first makes them 
 
 import contextlib
 import math
+import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -360,9 +361,18 @@ class Synthesis:
             streamed=_are_streamed(outputs),
         )
         if self._workspaces[0].compiled:
-            blocks = np.zeros((2, 16), np.int64)  # on a cache line each
-            self._in_threads(lambda workspace: workspace.first_pass(blocks[0], first, between))
-            self._in_threads(lambda workspace: workspace.second_pass(blocks[1], second, between))
+            blocks = np.zeros((3, 16), np.int64)  # counters on a cache line each
+
+            def both_passes(workspace: _Workspace) -> None:
+                try:
+                    workspace.first_pass(blocks[0], blocks[1], first, between)
+                except BaseException:
+                    blocks[1, 0] = workspace.blocks  # else the other threads would wait for ever
+                    raise
+                _wait_for(blocks[1], workspace.blocks)
+                workspace.second_pass(blocks[2], second, between)
+
+            self._in_threads(both_passes)
             return
         self._run_blocks(
             self.columns,
@@ -546,7 +556,7 @@ class _Workspace:
         self._plans = [row_plan(n, dtype, self.backend, planning) for n in (ny, nx)]
         self.compiled = all(self._plans)
         width = self._width = TILE if self.compiled else WIDTH
-        self._tiles = -(-columns // TILE)
+        self.blocks = self._tiles = -(-columns // TILE)  # blocks of the first pass
         most = sum(len(_half_spectra(pair)) for pair in row_pairs())
         stride = -(-ny // TILE) * TILE  # each row starts on a cache line
         rows = 1 if self.compiled else width
@@ -589,11 +599,17 @@ class _Workspace:
         return places
 
     def first_pass(
-        self, counter: Integer, first: _First, between: Real, end: int | None = None
+        self,
+        counter: Integer,
+        done: Integer,
+        first: _First,
+        between: Real,
+        end: int | None = None,
     ) -> None:
         """Do blocks of the first pass until none is left, or up to block `end`."""
         whole_passes.first_pass(
             counter,
+            done,
             self._tiles if end is None else end,
             self._width,
             first.single,
@@ -633,7 +649,7 @@ class _Workspace:
         """Do a block of the first pass, with transforms called from Python."""
         count, width = block.stop - block.start, self._width
         number = block.start // width
-        self.first_pass(np.array([number]), first, between, number + 1)
+        self.first_pass(np.array([number]), np.zeros(1, np.int64), first, between, number + 1)
         spectra = first.spectra[1].shape[0]
         for s in range(spectra):
             rows = slice(s * width, s * width + count)
@@ -669,6 +685,14 @@ class _Workspace:
                 second.streamed,
                 nx,
             )
+
+
+def _wait_for(done: Integer, count: int) -> None:
+    """Wait until all blocks of the first pass are done."""
+    pause = 0.0
+    while not whole_passes.are_done(done, count):
+        time.sleep(pause)  # leaves the processor to the thread that is waited for
+        pause = min(pause + 1e-5, 1e-3)
 
 
 def _half(amplitudes: Amplitudes) -> slice:

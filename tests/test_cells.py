@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy import integrate
+from scipy import integrate, optimize
 
 import fftocean as fo
 from fftocean import cells
@@ -312,6 +312,28 @@ def test_the_proof_passes_on_long_crested_seas():
         check.passed
         for check in verify(fo.Ocean(sea_of(fo.LongCrested(), 20.0), n=32, size=300.0, loop=40.0))
     )
+
+
+def test_a_band_of_ripples_is_where_the_surface_tension_puts_it():
+    """
+    Ripples of 20 to 22 Hz, with jumps at both ends, in water with surface tension: all their
+    energy lies between the wavenumbers that the dispersion relation gives, solved by bisection.
+    """
+    edges = 2.0 * np.pi * np.array([20.0, 22.0])
+    box = fo.TabulatedSpectrum([20.0, 22.0], [1e-9, 1e-9], tail=None)
+    tension = 0.074
+    system = fo.WaveSystem(spectrum=box, spreading=fo.CosinePower(s=2.0))
+    sea = fo.Sea(system, surface_tension=tension)
+
+    def misfit(k, omega):
+        return 9.80665 * k + tension / 1025.0 * k**3 - omega**2
+
+    low, high = (optimize.brentq(misfit, 1.0, 1e4, args=(omega,)) for omega in edges)
+    ocean = fo.Ocean(sea, n=128, size=0.25)
+    assert ocean.amplitudes.variance == pytest.approx(2e-9, rel=1e-3)
+    k = ocean.grid.k[ocean.amplitudes.variance_forward > 0.0]
+    half = 0.5 * math.hypot(ocean.grid.dkx, ocean.grid.dky)
+    assert low - half < np.min(k) < np.max(k) < high + half
 
 
 def test_cells_are_covered_without_remainder():

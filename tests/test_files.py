@@ -1,5 +1,6 @@
 """Whole files on systems where an open file keeps its name, and a folder cannot be opened."""
 
+import hashlib
 import os
 from pathlib import Path
 
@@ -56,3 +57,46 @@ def test_a_folder_is_no_file(tmp_path, monkeypatch):
     assert files.read_whole(tmp_path) is None
     with pytest.raises(OutputError, match="a cannot be read: Permission denied"):
         files.read_whole(tmp_path / "a")
+
+
+def test_a_write_that_takes_a_part_goes_on(tmp_path, monkeypatch):
+    """As a pipe does, a network drive, or a write of more than 2 GiB on Linux."""
+    real, taken = os.fdopen, []
+
+    class Slow:
+        def __init__(self, file):
+            self.file = file
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            self.file.close()
+
+        def fileno(self):
+            return self.file.fileno()
+
+        def write(self, data):
+            taken.append(len(data))
+            return self.file.write(data[:3])
+
+    monkeypatch.setattr(files.os, "fdopen", lambda *a, **k: Slow(real(*a, **k)))
+    sha256 = files.write_parts(tmp_path / "a", [b"0123456789", memoryview(b"ab"), b""])
+    monkeypatch.undo()
+    assert (tmp_path / "a").read_bytes() == b"0123456789ab"
+    assert sha256 == hashlib.sha256(b"0123456789ab").hexdigest()
+    assert taken == [10, 7, 4, 1, 2]
+
+
+@pytest.mark.parametrize("read", [files.read_whole, files.digest_whole])
+def test_a_file_that_is_too_large_is_not_read(read, tmp_path):
+    """Not a byte of it, however large: a sparse file of a terabyte takes no room."""
+    path = tmp_path / "a"
+    path.write_bytes(b"123")
+    assert read(path, 3) is not None
+    with pytest.raises(OutputError, match="a must have at most 2 bytes, and has 3"):
+        read(path, 2)
+    with path.open("wb") as file:
+        file.truncate(2**40)
+    with pytest.raises(OutputError, match=f"and has {2**40}"):
+        read(path)

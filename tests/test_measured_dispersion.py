@@ -38,6 +38,7 @@ def test_energy_of_a_loop_lies_at_each_wave_s_wavenumber_and_frequency(given):
     assert np.sum(mine) == pytest.approx(sum(a**2 / 2 for *_, a, _ in WAVES))
     assert measured.on_curve == pytest.approx(1.0, abs=1e-12)
     assert measured.tolerance == pytest.approx(np.pi / 25.0)
+    assert np.diff(measured.k) == pytest.approx(2.0 * np.pi / 90.0)  # the finer of two cells
 
 
 @pytest.mark.parametrize("loop", [None, 3600.0])

@@ -392,6 +392,12 @@ def test_bad_calls_are_refused(call, rule):
 BAD = [math.nan, math.inf, -math.inf, -1, 0, "5", True, None, 1e308, 1e-308]
 
 
+@pytest.mark.parametrize("band", [(1.0, 1.0), (2.0, 1.0)])
+def test_a_band_without_waves_is_refused(band):
+    with pytest.raises(fo.ParameterError, match=rf"band must rise, got {band[0]:g} to 1 rad/m"):
+        ocean(band=band)
+
+
 def tried(make):
     """Return the result and "", or None and the message of the error."""
     try:

@@ -148,7 +148,7 @@ def test_second_order_is_that_of_kinematics(depth):
     one number, in whatever order: 1e-9 m are roundings. Slopes by central differences, 1e-6.
     """
     sea = fo.Sea.from_wind(speed=10.0, fetch=100e3, depth=depth)
-    tile = {"n": 24, "size": 90.0, "seed": 3, "loop": 40.0, "dtype": "float64"}
+    tile = {"n": 24, "size": (90.0, 110.0), "seed": 3, "loop": 40.0, "dtype": "float64"}
     water = fo.Ocean(sea, order=2, bound=60, **tile)
     linear = fo.series(water.linear(), X, Y, [0.0])["height"]
     for t in (0.25 * np.arange(160), 3.0 + 0.1 * math.pi * np.arange(50), np.array([2.0, -7.7])):

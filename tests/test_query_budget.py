@@ -66,6 +66,12 @@ def test_waves_that_are_left_are_those_of_the_source(budget, shortest):
     all_waves, some = waves(source, shortest), waves(left, shortest)
     assert 0 < len(some) < len(all_waves)
     assert all(some[key] == pytest.approx(all_waves[key], rel=1e-12) for key in some)
+    for i, kx, ky in all_waves:  # none that fewer samples hold is left out
+        if i < len(left.oceans):
+            grid = left.oceans[i].grid
+            mx, my = kx * grid.lx / (2.0 * math.pi), ky * grid.ly / (2.0 * math.pi)
+            held = abs(mx) < grid.nx / 2 - 0.1 and abs(my) < grid.ny / 2 - 0.1
+            assert ((i, kx, ky) in some) == held
     asked, there = (0.5 * sum(a * a for a in w.values()) for w in (all_waves, some))
     assert report.variance_left_out == pytest.approx(1.0 - there / asked, abs=1e-12)
     assert report.significant_wave_height == pytest.approx(4.0 * math.sqrt(there))
@@ -73,6 +79,20 @@ def test_waves_that_are_left_are_those_of_the_source(budget, shortest):
     shortest_left = min(2.0 * math.pi / math.hypot(kx, ky) for _, kx, ky in some)
     assert report.shortest == pytest.approx(shortest_left)
     assert not report.is_whole
+
+
+@pytest.mark.parametrize("samples", [(64, 48), (64, 24), (32, 48), (32, 24), (16, 24)])
+def test_waves_of_fewer_than_four_samples_count_as_lost(samples):
+    """As a share of all, along x and y of an oblong tile; the waves themselves, one by one."""
+    ocean = fo.Ocean(SEA, n=(64, 48), size=(31.0, 90.0), seed=2)
+    modes, grid = ocean.modes(), ocean.grid
+    along = samples[0] * 2.0 * math.pi / grid.lx / np.maximum(np.abs(modes.kx), 1e-9)
+    across = samples[1] * 2.0 * math.pi / grid.ly / np.maximum(np.abs(modes.ky), 1e-9)
+    few = np.minimum(along, across) < 4.0 - 1e-9
+    expected = np.sum(modes.amplitude[few] ** 2) / np.sum(modes.amplitude**2)
+    tail = query_budget._Tail(ocean, 0.0)
+    assert 0.0 < expected < 1.0
+    assert tail.without(samples) / tail.total == pytest.approx(expected, rel=1e-9)
 
 
 def test_each_step_costs_the_least_variance():

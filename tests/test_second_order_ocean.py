@@ -294,6 +294,21 @@ def test_capillary_ripples_have_no_bound_waves():
     assert 0 < parents.kx.size == np.count_nonzero(k * 0.1 <= 2.0 * np.pi)
 
 
+def test_sums_beyond_an_oblong_grid_are_those_of_the_grid_turned():
+    """x and y change places: sums beyond 15 along one axis, beyond 5 along the other."""
+    modes = [(9, 1, 0.3, 0.1), (8, -1, 0.2, 0.4), (4, 4, 0.3, 2.0), (3, 3, 0.2, 1.0)]
+    given = {"size": 100.0, "choppiness": 0.0, "order": 2, "bound": 10}
+    water, turned = (
+        fo.Ocean.from_modes([(m[x], m[1 - x], *m[2:]) for m in modes], n=n, **given)
+        for x, n in ((0, (32, 12)), (1, (12, 32)))
+    )
+    dropped = water.bound_waves.report.dropped
+    assert 0.01 < dropped < 0.99
+    assert turned.bound_waves.report.dropped == pytest.approx(dropped, rel=1e-9)
+    wide = fo.Ocean.from_modes(modes, n=(32, 32), **given)
+    assert 0.0 < wide.bound_waves.report.dropped < dropped
+
+
 def test_sums_beyond_the_grid_are_reported():
     assert ocean().bound_waves.report.dropped < 1e-4
     assert ocean(n=24, bound=400).bound_waves.report.dropped > 0.01

@@ -248,6 +248,36 @@ def test_wavelengths_of_peak_and_samples():
     assert peak_wavelength(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0)) == 0.0
 
 
+def test_a_frame_of_opposite_systems_scatters_more():
+    """
+    Waves at +k and -k share a coefficient: of two equal systems that run against each other, the
+    variance of a frame scatters sqrt(2) times as much as the energy of the waves does.
+    """
+    spectrum = fo.JONSWAP.from_sea_state(hs=1.0, tp=6.0)
+    narrow = fo.CosinePower(s=60.0)
+    one, other = (
+        fo.WaveSystem(spectrum=spectrum, spreading=narrow, direction=d) for d in (20.0, 200.0)
+    )
+    both = fo.measure(fo.Ocean(fo.Sea(one, other), n=32, size=300.0))
+    assert both.snapshot_error / both.sampling_error == pytest.approx(math.sqrt(2.0), rel=1e-6)
+    alone = fo.measure(fo.Ocean(fo.Sea(one), n=32, size=300.0))
+    assert alone.snapshot_error / alone.sampling_error == pytest.approx(1.0, rel=1e-2)
+
+
+@pytest.mark.parametrize("gamma", [1.0, 3.3])
+def test_peak_period_is_weighted_by_the_fourth_power(gamma):
+    """2 pi int S^4 / int omega S^4 (Young 1995), to the bins of 6 %, within which S bends."""
+    from fftocean.statistics import peak_period
+
+    s = fo.JONSWAP(peak=0.8, gamma=gamma)
+    omega = np.linspace(0.3, 8.0, 200_001)
+    fourth = s(omega) ** 4
+    expected = 2.0 * math.pi * np.sum(fourth) / np.sum(omega * fourth)
+    square = 2.0 * math.pi * np.sum(s(omega) ** 2) / np.sum(omega * s(omega) ** 2)
+    assert abs(square - expected) > 0.02 * expected
+    assert peak_period(s(omega), omega) == pytest.approx(expected, rel=5e-3)
+
+
 @pytest.mark.parametrize("omega", [0.3, 0.8, 2.5])
 def test_peak_period_of_one_and_of_two_lines(omega):
     """

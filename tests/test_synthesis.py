@@ -261,6 +261,41 @@ def test_an_interrupted_thread_waits_for_the_others():
     assert not still_at_it
 
 
+@pytest.mark.parametrize("failing", [0, 1])
+def test_a_thread_that_fails_keeps_no_other_waiting(failing, monkeypatch):
+    """Its blocks of the first pass will never be done; the error is raised, and all goes on."""
+    ocean = fo.Ocean(SEA, n=64, size=100.0, threads=2)
+    usual = ocean.frame(2.0)
+    fails = ocean._synthesis._workspaces[failing]
+    first_pass = type(fails).first_pass
+
+    def broken(workspace, counter, *rest):
+        if workspace is fails:
+            counter[0] += 1  # takes a block, and leaves it
+            raise MemoryError("no room")
+        while not counter[0]:
+            time.sleep(1e-3)  # so that the other takes one
+        first_pass(workspace, counter, *rest)
+
+    monkeypatch.setattr(type(fails), "first_pass", broken)
+    with pytest.raises(MemoryError, match="no room"):
+        ocean.frame(2.0)
+    monkeypatch.undo()
+    assert all(np.array_equal(ocean.frame(2.0)[name], usual[name]) for name in usual.fields)
+
+
+def test_the_second_pass_waits_for_blocks_that_others_are_at():
+    """However long they take: the pauses between two looks grow, to a thousandth of a second."""
+    done = np.zeros(1, np.int64)
+    waiting = threading.Thread(target=synthesis._wait_for, args=(done, 3))
+    waiting.start()
+    waiting.join(0.1)
+    assert waiting.is_alive()
+    done[0] = 3
+    waiting.join(60.0)
+    assert not waiting.is_alive()
+
+
 @pytest.mark.parametrize("threads", [0, -1, 1.5, "2", True])
 def test_bad_thread_counts_are_refused(threads):
     with pytest.raises(fo.ParameterError, match="threads must be"):

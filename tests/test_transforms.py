@@ -10,6 +10,7 @@ import pytest
 
 import fftocean as fo
 from fftocean import transforms, wisdom
+from fftocean.kernels import native
 from fftocean.transforms import inverse_rows
 
 
@@ -53,6 +54,25 @@ def test_accuracy(n, dtype, backend):
     assert error <= eps * (0.5 + 1.5 * hard * math.sqrt(math.log2(n)))
     assert transform.result.dtype == rows.dtype
     assert transform.backend == backend
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("n", [1, 8, 31, 256])
+def test_plans_that_compiled_code_calls(n, dtype, backend):
+    """The same transform of one row, by the address of a function; tolerance as above."""
+    plan = transforms.row_plan(n, dtype, backend, "estimate")
+    if plan is None:
+        assert backend == "scipy" or transforms.loaded(backend) is not None
+        return
+    rows = noise((1, n), dtype)
+    source, result = (transforms.aligned((1, n), dtype) for _ in range(2))
+    source[:] = rows
+    native.execute(plan.function, plan.plan, source.ctypes.data, result.ctypes.data)
+    exact = by_long_double(rows)
+    error = np.linalg.norm((result - exact).astype(complex)) / np.linalg.norm(exact.astype(complex))
+    eps = np.finfo(dtype).eps
+    assert error <= 1.5 * eps * math.sqrt(math.log2(n)) + 0.5 * eps
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

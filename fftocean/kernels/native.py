@@ -1,6 +1,7 @@
 """Functions and arrays at given addresses, and shared counters, for compiled code."""
 
 import ctypes
+import threading
 from typing import Any
 
 import numba
@@ -13,6 +14,7 @@ from fftocean.arrays import Integer, Real
 
 _intrinsic: Any = numba.extending.intrinsic
 _carray: Any = numba.carray  # type: ignore[attr-defined]
+_taking = threading.Lock()  # where nothing is compiled
 _EXECUTE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)
 
 
@@ -48,11 +50,12 @@ def take(counter: Integer) -> int:
     """
     Return the first number of an array, and add 1 to it.
 
-    In compiled code no other thread can come in between, so threads that take numbers in turns get
-    each once.
+    No other thread can come in between, so threads that take numbers in turns get each once. Who
+    sees the new number sees all that was written before it, past the caches too.
     """
-    number = int(counter[0])
-    counter[0] += 1
+    with _taking:
+        number = int(counter[0])
+        counter[0] += 1
     return number
 
 
@@ -68,7 +71,29 @@ def _take(context: Any, counter: Any) -> Any:
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
         kind = signature.args[0]
         data = context.make_array(kind)(context, builder, arguments[0]).data
-        return builder.atomic_rmw("add", data, ir.IntType(64)(1), "monotonic")
+        return builder.atomic_rmw("add", data, ir.IntType(64)(1), "acq_rel")
+
+    return signature, generate
+
+
+def taken(counter: Integer) -> int:
+    """Return the first number of an array, which other threads `take` meanwhile."""
+    return int(counter[0])
+
+
+@overload(taken, strict=False)
+def _compiled_taken(counter: Any) -> Any:
+    return lambda counter: _taken(counter)
+
+
+@_intrinsic
+def _taken(context: Any, counter: Any) -> Any:
+    signature = types.int64(counter)
+
+    def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+        kind = signature.args[0]
+        data = context.make_array(kind)(context, builder, arguments[0]).data
+        return builder.load_atomic(data, "acquire", 8)
 
     return signature, generate
 

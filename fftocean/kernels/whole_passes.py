@@ -14,7 +14,7 @@ its rate, 2 and 3 for the potential.
 from fftocean.arrays import Integer, Real
 from fftocean.kernels.bound import add_folded
 from fftocean.kernels.compiler import compiled
-from fftocean.kernels.native import execute, numbers_at, take
+from fftocean.kernels.native import execute, numbers_at, take, taken
 from fftocean.kernels.passes import (
     SIZE,
     derive,
@@ -78,9 +78,23 @@ first is wanted, 2 where only the second; factors at +k and -k, and the one that
 # that of a buffer and 0, for the rows of one block only.
 
 
+WATCHED = 2000
+"""Times that a thread looks whether others are done: a microsecond or two."""
+
+
+@compiled
+def are_done(done: Integer, count: int) -> bool:
+    """Watch a short time until a number of blocks are done; return whether they are."""
+    looks = 0
+    while taken(done) < count and looks < WATCHED:
+        looks += 1
+    return looks < WATCHED
+
+
 @compiled
 def first_pass(
     counter: Integer,
+    done: Integer,
     end: int,
     width: int,
     single: bool | None,
@@ -102,6 +116,7 @@ def first_pass(
 
     Args:
         counter, end: the number of the next block, and the one after the last.
+        done: the number of blocks that are done.
         width: columns in a block; 8 where there is a function to call.
         single: None in double precision.
         omega: None where no rate is needed.
@@ -161,6 +176,7 @@ def first_pass(
                     execute(function, plan, from_address, to_address + row * row_bytes)
         if function != 0:
             tile(transformed, 0, width, count, ny, block, tiles, between, streamed)
+        take(done)
 
 
 @compiled

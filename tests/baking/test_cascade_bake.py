@@ -19,6 +19,7 @@ from builders import tree
 import fftocean as fo
 from fftocean import statistics
 from fftocean.baking import cascade_setup as water
+from fftocean.baking import repair as mending
 from fftocean.baking.cascade import bake_tiles, estimate_tiles
 from fftocean.baking.folder import layout
 from fftocean.baking.folder.lock import locked
@@ -497,6 +498,17 @@ def test_another_manifest_of_the_same_tile_is_found(copy):
     path.write_bytes(as_json(sealed(manifest)))
     assert fo.check(copy / "tile1") == ()
     assert told(copy) == {("manifest", "tile1/manifest.json")}
+
+
+def test_a_repair_that_gives_another_list_is_an_error(copy, monkeypatch):
+    """The bytes of the first bake are promised, or nothing."""
+    flip(copy / "tile0/height/0001.exr")
+    real = mending.bake_tiles
+    monkeypatch.setattr(
+        mending, "bake_tiles", lambda *a, **k: {**real(*a, **k), "version": "another"}
+    )
+    with pytest.raises(fo.IntegrityError, match=r"its cascade\.json differs from the first one"):
+        fo.repair(copy, executor="serial")
 
 
 def test_a_cascade_that_says_nothing_of_itself_is_not_repaired(copy):

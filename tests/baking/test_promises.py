@@ -329,6 +329,7 @@ def test_no_thread_writes_after_the_end(tmp_path, monkeypatch):
 
 def test_the_rest_of_a_dead_worker_s_task():
     """Frames that are finished are not given out again; a task that finishes none is the cause."""
+    assert 2 <= ATTEMPTS <= 5  # one accident is survived, and a cause does not return for hours
     task = Task("frame", (4, 5, 6, 7))
     assert _remaining(task, 1, {4, 6}, -9) == [(Task("frame", (5, 7)), 1)]
     assert _remaining(task, ATTEMPTS, {4}, -9) == [(Task("frame", (5, 6, 7)), 1)]
@@ -428,3 +429,32 @@ def test_a_cluster_gives_each_entry_once(monkeypatch):
     entries = list(cluster.run(plan_of("out", "token"), tasks))
     assert sorted(entry["row"]["frame"] for entry in entries) == [0, 1, 2, 3]
     assert set(told) == {str(Path.cwd() / "out")}
+
+
+def test_only_unchanged_parts_of_a_container_are_taken_out_of_it(tmp_path, monkeypatch):
+    """The others are baked again; so are all, where the container is too damaged to be divided."""
+    scene = SimpleNamespace(
+        job=SimpleNamespace(maps=("height",)), form=containers.formats.FORMATS["bin"]
+    )
+    parts = [b"first", b"second", b"third"]
+    rows = [
+        {"frame": 2 * i, "files": {"height": {"sha256": containers.digest(part)}}}
+        for i, part in enumerate(parts)
+    ]
+    (tmp_path / "height.bin").write_bytes(b"whole")
+    found = [parts[0], b"sEcond", parts[2]]
+    monkeypatch.setattr(containers, "payloads_in", lambda *_: found)
+    containers.unpack(tmp_path, scene, {"frames": rows})
+    assert tree(tmp_path) == {
+        "height.bin": b"whole",
+        ".work/height/0000.part": b"first",
+        ".work/height/0004.part": b"third",
+    }
+
+    def damaged(*_):
+        raise IntegrityError("damaged")
+
+    monkeypatch.setattr(containers, "payloads_in", damaged)
+    containers.unpack(tmp_path / "none", scene, {"frames": rows})
+    containers.unpack(tmp_path, scene, {"frames": rows})
+    assert len(tree(tmp_path)) == 3

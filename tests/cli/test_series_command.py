@@ -36,6 +36,7 @@ def test_fields_at_depths_of_tiles(run):
     [
         (("--at", "0,0", "-o", "a.mat"), "must be written to a file that ends in .csv"),
         (("--at", "0", "-o", "a.csv"), "must be X,Y such as"),
+        (("--at", "0,1,2", "-o", "a.csv"), "must be X,Y such as 120,35.5, got '0,1,2'"),
         (("--at", "0,x", "-o", "a.csv"), "must be numbers such as"),
         (("--at", "0,0", "-o", "a.csv", "--fields", "depth"), "fields must be of height"),
         (("--at", "0,0", "-o", "a.csv", "--rate", "0"), "--rate must be"),

@@ -442,6 +442,14 @@ def test_names_and_shapes_that_no_format_has():
         require("jpeg", (1, 2, 2, 1))
     with pytest.raises(ParameterError, match="format must be one of"):
         decode("jpeg", b"")
+    with pytest.raises(
+        ParameterError, match=r"format r16 holds maps of 1 channels, got 3; choose one of exr, "
+    ):
+        require("r16", (1, 2, 2, 3))
+    with pytest.raises(ParameterError, match="format png16 holds maps of 1 or 3 channels, got 4"):
+        require("png16", (1, 2, 2, 4))
+    with pytest.raises(ParameterError, match=r"holds maps of 1 or 3 or 4 channels, got 2$"):
+        require("exr", (1, 2, 2, 2))
     with pytest.raises(ParameterError, match="at least one frame, row, column and channel"):
         require("exr", (0, 2, 2, 1))
     with pytest.raises(ParameterError, match=r"\(rows, columns, channels\), got shape \(2, 2\)"):

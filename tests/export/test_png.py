@@ -124,3 +124,13 @@ def test_a_stream_without_its_end_is_refused():
         else:
             with pytest.raises(IntegrityError, match="and nothing after them"):
                 png.read(data, (3, 4, 1))
+
+
+def test_any_flipped_bit_is_found():
+    """Also one in a checksum itself, or in the header, of which the pixels do not tell."""
+    data = png.encode(words((3, 5, 1)))
+    for at in range(len(data)):
+        bent = bytearray(data)
+        bent[at] ^= 1 << at % 8
+        with pytest.raises(IntegrityError):
+            png.read(bytes(bent))

@@ -59,6 +59,19 @@ def test_the_records_are_the_waves_of_the_ocean(cascade):
             assert h0 == pytest.approx(0.5 * amplitude * np.exp(-1j * phase), rel=1.2e-7)
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_wavenumbers_of_oblong_tiles_have_their_sign(turned):
+    """Up to the largest along each side, which is not the other's."""
+    places = [(7, 1), (-7, -3), (6, -3), (-5, 2), (0, 3)]
+    n, size = (16, 8), (60.0, 40.0)
+    if turned:
+        places, n, size = [place[::-1] for place in places], n[::-1], size[::-1]
+    waves = [(mx, my, 0.01, 0.3) for mx, my in places]
+    ocean = fo.Ocean.from_modes(waves, n=n, size=size, loop=64.0)
+    _, files = read_container(runtime.to_bytes(runtime.pack(ocean)))
+    assert {(mx, my) for mx, my, _, _ in read_waves(files["tile0.waves"])} == set(places)
+
+
 def test_records_follow_the_rows_of_the_plane(cascade):
     package = runtime.pack(cascade, reference=False)
     for tile, data in zip(package.document["tiles"], package.files.values(), strict=True):

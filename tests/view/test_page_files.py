@@ -12,7 +12,7 @@ from fftocean.errors import OutputError
 from fftocean.runtime import pack
 from fftocean.view import parameters, protocol
 from fftocean.view.one_file import one_script
-from fftocean.view.page_files import PARTS, TYPES, built_page
+from fftocean.view.page_files import PARTS, TYPES, built_page, served_files
 from fftocean.view.state import State
 from fftocean.view.static_page import about_sea, make_exact
 
@@ -34,6 +34,19 @@ def built():
 def test_the_list_is_that_of_the_files(built):
     """The files are those that are served, and the two entries of pages that are one file."""
     assert set(built) == {*TYPES, "static.js", "widget.js"}
+
+
+def test_each_file_has_the_type_of_its_ending(tmp_path):
+    """Browsers run no script and apply no style of another type where sniffing is forbidden."""
+    for name in TYPES:
+        (tmp_path / name).write_text(name)
+    served = served_files(tmp_path)
+    types = {"html": "text/html", "js": "text/javascript", "css": "text/css"}
+    assert set(served) == {"/", *(f"/{name}" for name in TYPES if name != "index.html")}
+    for name in TYPES:
+        file = served["/" if name == "index.html" else f"/{name}"]
+        assert file.type == f"{types[name.rpartition('.')[2]]}; charset=utf-8"
+        assert file.data == name.encode()
 
 
 def test_what_shows_the_sea_is_small(built):

@@ -19,11 +19,12 @@ from serving import Running, opened, sea_viewer, small_state
 from websockets.exceptions import ConnectionClosed
 
 import fftocean as fo
+from fftocean.errors import JobError
 from fftocean.view.client import MOST_ANSWERS, MOST_FRAMES, Client
 from fftocean.view.playback import open_bake
 from fftocean.view.protocol import BakedFrame, Verify
-from fftocean.view.server import MOST_BAD, MOST_CLIENTS, WRITE_LIMIT
-from fftocean.view.viewer import Viewer, safe_name, shown_name
+from fftocean.view.server import MOST_BAD, MOST_CLIENTS, MOST_UNFINISHED, WRITE_LIMIT
+from fftocean.view.viewer import Viewer, _dropped_job, safe_name, shown_name
 
 REFERENCES = (
     "displace_x", "displace_y", "height", "stretch_xy", "slope_x", "slope_y", "stretch_xx",
@@ -282,6 +283,14 @@ def test_names_of_dropped_files(name, shown, safe):
     assert (shown_name(name), safe_name(name)) == (shown, safe)
 
 
+def test_a_dropped_job_names_no_file_of_this_machine():
+    """The page of another user, or a file from elsewhere, does not read what is here."""
+    text = '[[sea.systems]]\nmeasured = "/etc/passwd"\n'
+    with pytest.raises(JobError, match=r"sea\.systems\[0\]\.measured must not be in a job that is"):
+        _dropped_job(text, "a.toml")
+    assert _dropped_job("[ocean]\nn = 16\n", "a.toml").settings["ocean.n"] == 16
+
+
 def test_twenty_bad_messages_close_the_socket(running):
     with running.connect() as other:
         other.exact()
@@ -314,6 +323,15 @@ def test_the_seventeenth_client_is_refused(running):
         time.sleep(0.01)
     with running.connect() as client:
         client.next("state")
+
+
+def test_the_oldest_of_many_silent_connections_are_given_up(running):
+    """The server keeps account of so many and no more, and answers those that speak."""
+    with ExitStack() as idle:
+        for _ in range(MOST_UNFINISHED + 20):
+            idle.enter_context(socket.create_connection(("127.0.0.1", running.port), timeout=60.0))
+        assert running.request("/")[0] == 200
+        assert len(running._server._unfinished) <= MOST_UNFINISHED
 
 
 @pytest.mark.slow
