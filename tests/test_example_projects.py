@@ -51,7 +51,7 @@ def test_the_wheel_packs_every_file_of_every_project(tmp_path):
 
 
 def test_files_of_git_are_not_copied(tmp_path, monkeypatch):
-    """They are of the checkout: the user's project has its own."""
+    """Those are of the checkout: the user's project has its own."""
     for name in (".gitignore", ".gitattributes", "inner/.gitkeep", "gitar.txt", ".import/x"):
         (tmp_path / "one" / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "one" / name).write_text("x")

@@ -100,3 +100,13 @@ def test_a_file_that_is_too_large_is_not_read(read, tmp_path):
         file.truncate(2**40)
     with pytest.raises(OutputError, match=f"and has {2**40}"):
         read(path)
+
+
+def test_a_temporary_file_is_made_anew(tmp_path, monkeypatch):
+    """Never one that is there: another process may be writing it."""
+    monkeypatch.setattr(files.os, "urandom", bytes)
+    other = tmp_path / f".a.{os.getpid()}-00000000.tmp"
+    other.write_bytes(b"somebody's")
+    with pytest.raises(OutputError, match="a could not be written: File exists"):
+        files.write_whole(tmp_path / "a", b"ours")
+    assert not (tmp_path / "a").exists()

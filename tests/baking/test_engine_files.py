@@ -260,7 +260,7 @@ def test_settings_that_godot_made_itself_are_the_users(tmp_path):
 
 @pytest.mark.parametrize("overwrite", [False, True])
 def test_a_link_to_nowhere_is_a_file_of_somebody(overwrite, tmp_path):
-    """It is neither replaced nor written through."""
+    """Such a link is neither replaced nor written through."""
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "index.html").symlink_to(tmp_path / "nowhere")
     with pytest.raises(OutputError, match=r"(contains|holds) index\.html"):

@@ -549,4 +549,5 @@ def test_each_name_is_an_executor():
     assert choose_executor("serial", 3, -1).name == "serial"
     assert isinstance(choose_executor("processes", 3, -1), Processes)
     assert choose_executor("dask", 3, -1).name == "dask"
+    assert choose_executor("tcp://127.0.0.1:8786", 3, -1).name == "dask"
     assert set(choice.EXECUTORS) == {"auto", "serial", "processes", "dask"}

@@ -305,7 +305,7 @@ def test_progress_of_tiles_and_previews_is_said():
 @pytest.mark.parametrize("tiles", [(), ("--tiles", "16:100,16:15")])
 @pytest.mark.parametrize(("stop", "code"), [(KeyboardInterrupt(), 130), (SystemExit(143), 143)])
 def test_an_interrupted_bake_says_how_far_it_is(run, stop, code, tiles, monkeypatch):
-    """It leaves with the code of the signal, never as if it were finished."""
+    """The code is that of the signal, never that of a finished bake."""
 
     def fail(*_, **__):
         raise stop

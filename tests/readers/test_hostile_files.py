@@ -291,7 +291,7 @@ def attribute(length, name=b"history"):
 
 
 def test_a_long_attribute_is_not_read(tmp_path):
-    """It would be read and thrown away: 4 MiB at most, though the file has more."""
+    """Of what is only thrown away 4 MiB are read at most, though the file has more."""
     path = tmp_path / "a.nc"
     path.write_bytes(attribute(5 * 2**20))
     refused(path, "attribute history must be at most 4 MiB, got 5242880 bytes")

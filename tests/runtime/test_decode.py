@@ -341,7 +341,7 @@ def test_cycles_that_are_not_those_of_the_dispersion_relation_are_refused():
 
 
 def test_cycles_of_both_waves_of_a_pair_may_be_off_by_one_and_no_more():
-    """They agree with each other: only the dispersion relation tells."""
+    """Both agree with each other: only the dispersion relation tells."""
     data = build.packed().files["tile0.waves"]
     records = list(struct.iter_unpack("<hhHff", data))
     most = max(r[2] for r in records)

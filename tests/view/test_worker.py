@@ -33,7 +33,7 @@ def test_results_and_errors_go_to_who_waits():
 
 
 def test_a_worker_at_work_has_not_ended():
-    """It is not waited for; it ends after the function that runs."""
+    """Nobody waits for it; its end comes after the function that runs."""
     begun, go = threading.Event(), threading.Event()
 
     async def ask(worker):
