@@ -148,7 +148,7 @@ class Encino:
 def draw(result: Result, path: Path) -> None:
     """Draw both costs at each n."""
     with sheet(path, ASKS, result, width=11.0, height=2.6) as figure:
-        panels = figure.subplots(1, len(result.settings["n"]), squeeze=False)[0]
+        panels = np.atleast_1d(figure.subplots(1, len(result.settings["n"])))
         for ax, n in zip(panels, result.settings["n"], strict=True):
             times = [(what, result.find(what, n=n).median) for what in (OURS, THEIRS)]
             colours = (BLUE, "#56707a")
