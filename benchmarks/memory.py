@@ -6,10 +6,10 @@ its memory. Then it makes an ocean and three full frames in the same arrays, and
 and its memory after them. Compiled kernels come from the cache, as usual. The figures are the
 process's own pages in memory (Linux: VmHWM and VmRSS), above those after the imports.
 
-A sample of a tile takes 86 bytes: 28 in the frame's seven arrays, 20 in the half-spectra between
+A sample of a tile takes 83 bytes: 28 in the frame's seven arrays, 20 in the half-spectra between
 the two passes, 16 in the amplitudes of double precision, 8 in their variances, 8 in the waves of
-single precision that frames are made from, 4 in frequencies, 2 in the factors of potentials. That
-is 344 MiB at 2048 x 2048; making the ocean takes less.
+single precision that frames are made from, 2 in frequencies, 1 in the factors of potentials. That
+is 332 MiB at 2048 x 2048, and loaded kernels come to it; making the ocean takes less.
 
     python benchmarks/memory.py [--n 256 512] [--json FILE] [--plot FILE]
 """

@@ -20,6 +20,9 @@ QUESTIONS = (
     *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
     *("series", "robots", "query", "bake_peers", "many_frames"),
 )
+ON_REQUEST = ("encino_waves",)
+"""Questions that need another program's sources: they are asked by hand, and reported with all."""
+
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
         "full frame",
@@ -77,12 +80,17 @@ def goals() -> list[Goal]:
                     {"n": n, "backend": backend},
                 )
             )
+    at: dict[str, Condition]
+    for n, bound in ((256, 3.5), (1024, 3.0)):
+        at = {"n": n, "backend": "pyfftw", "threads": 1}
+        reading = "EncinoWaves / full frame"
+        found.append(Goal(f"{reading}, {n} x {n}", ">=", bound, "encino_waves", reading, at))
     # The bounds are EncinoWaves (C++, FFTW planned with MEASURE, with its normals) over 3.5 at 256
     # and over 3 beyond, on a two-core Sapphire Rapids: it took 2.5 and 2.1 times as long as eight
     # raw c2r with FFTW and a copy there, and 17 and 18 times as long as a copy of the outputs.
     for backend in ("pyfftw", "mkl"):
         for n, bound, copies in ((256, 0.72, 0.2), (512, 0.7, 0.17), (1024, 0.7, 0.17)):
-            at: dict[str, Condition] = {"n": n, "backend": backend}
+            at = {"n": n, "backend": backend}
             what = f"full frame / eight raw c2r and a copy, {n} x {n}, {backend}"
             if backend == "mkl":  # its raw transforms are faster themselves
                 bound = 1.0
@@ -216,7 +224,7 @@ def report(results: Mapping[str, Result]) -> str:
                 *_goals(results),
                 *(
                     line
-                    for name in QUESTIONS
+                    for name in (*QUESTIONS, *ON_REQUEST)
                     if name in results
                     for line in _section(results[name])
                 ),
@@ -239,7 +247,7 @@ def _head(results: Mapping[str, Result]) -> list[str]:
     ]
     if not results:
         return [*lines, "Not measured yet."]
-    result = next(results[name] for name in QUESTIONS if name in results)
+    result = next(results[name] for name in (*QUESTIONS, *ON_REQUEST) if name in results)
     m = result.machine
     caches = ", ".join(f"{level} {size}" for level, size in m["caches"].items())
     versions = ", ".join(f"{name} {version}" for name, version in m["packages"].items())
@@ -254,7 +262,7 @@ def _head(results: Mapping[str, Result]) -> list[str]:
         f"| packages | {versions} |",
         f"| FFT libraries | {libraries}; by default {m['fft_default']} |",
     ]
-    for name in QUESTIONS:
+    for name in (*QUESTIONS, *ON_REQUEST):
         if name in results:
             before, after = results[name].before, results[name].after
             busy = [r.median for r in results[name].all("wall time / CPU time")]
@@ -341,7 +349,7 @@ def gather(folder: Path = RESULTS) -> dict[str, Result]:
     """Return the results in a folder, in the sequence of the questions."""
     return {
         name: read(folder / f"{name}.json")
-        for name in QUESTIONS
+        for name in (*QUESTIONS, *ON_REQUEST)
         if (folder / f"{name}.json").exists()
     }
 

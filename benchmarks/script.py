@@ -16,7 +16,7 @@ from fftocean.errors import FFTOceanError
 
 Say = Callable[[str], None]
 
-PLACES = ("json", "plot", "folder", "blender", "earlier")
+PLACES = ("json", "plot", "folder", "blender", "earlier", "source", "compiler")
 """Flags for files and programs of this machine, which are no settings of a result."""
 
 

@@ -1,5 +1,6 @@
 """Benchmarks at small sizes: each answers its question, and the report has only answers."""
 
+import ctypes
 import importlib
 import json
 import os
@@ -21,7 +22,7 @@ QUESTIONS = (
     *("frame", "direct_sum", "scaling", "memory", "startup", "seeding", "bake", "second_order"),
     *("series", "robots", "query", "bake_peers", "many_frames"),
 )
-HELPERS = ("gpu", "script", "fresh", "report", "all")
+HELPERS = ("gpu", "encino_waves", "script", "fresh", "report", "all")
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
@@ -42,6 +43,60 @@ def asked(script, name, tmp_path, *flags):
     files = tmp_path / f"{name}.json", tmp_path / f"{name}.png"
     assert script(name).main([*flags, "--json", str(files[0]), "--plot", str(files[1])]) == 0
     return read(files[0]), files[1].read_bytes()
+
+
+def test_encino_waves_needs_its_sources(script, tmp_path, capsys):
+    assert script("encino_waves").main(["--source", str(tmp_path)]) == 2
+    assert f"{tmp_path} is no checkout of EncinoWaves" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_compiler_that_fails_says_why(script, tmp_path, capsys):
+    header = tmp_path / "src" / "EncinoWaves" / "Propagation.h"
+    header.parent.mkdir(parents=True)
+    header.touch()
+    flags = ["--source", str(tmp_path), "--compiler", "no-such-compiler"]
+    assert script("encino_waves").main(flags) == 2
+    assert "no-such-compiler could not be run" in capsys.readouterr().err
+
+
+class InventedEncino:
+    """Fields of one wave along x, as the library of EncinoWaves gives them."""
+
+    def __init__(self, n, turned=1.0):
+        x = 2.0 * np.pi * np.arange(n + 1) / n * np.ones((n + 1, 1))
+        normals = np.zeros((n + 1, n + 1, 3))
+        normals[..., 2] = 1.0
+        fields = np.cos(x), turned * np.sin(x), 0.0 * x, 0.0 * x, normals
+        self._fields = [np.ascontiguousarray(field, np.float32) for field in fields]
+        self.times = []
+
+    def sea_new(self, power, threads):
+        assert threads == 1
+        return 2**power
+
+    def sea_free(self, sea):
+        pass
+
+    def sea_frame(self, _, t):
+        self.times.append(t)
+
+    def sea_field(self, _, number):
+        kind = ctypes.POINTER(ctypes.c_float)
+        return self._fields[number].ctypes.data_as(kind)
+
+
+def test_encino_waves_must_be_waves(script):
+    """Displacements of another sign are another work; so is a frame at the same time again."""
+    encino = script("encino_waves")
+    library = InventedEncino(16)
+    theirs = encino.Encino(library, 16)
+    theirs.require_waves()
+    theirs()
+    assert library.times[0] != library.times[1]
+    with pytest.raises(fo.ParameterError, match="displacement 1 of EncinoWaves is off by"):
+        encino.Encino(InventedEncino(16, turned=-1.0), 16).require_waves()
+    with pytest.raises(fo.ParameterError, match="power of two samples a side, got 12"):
+        encino.Encino(library, 12)
 
 
 def test_frame_answers(script, tmp_path, capsys):

@@ -1,0 +1,7 @@
+// oneTBB has no mutex of its own any more.
+#pragma once
+#include <mutex>
+
+namespace tbb {
+typedef std::mutex mutex;
+}
