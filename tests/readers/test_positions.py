@@ -19,7 +19,8 @@ def test_triaxys_has_degrees_and_minutes(text, lon, lat, tmp_path):
     """Two digits of degrees of latitude, the rest are minutes; south and west are negative."""
     path = write_triaxys(tmp_path / "a.DIRSPEC", sea())
     title, *rest = path.read_text().splitlines()
-    path.write_text("\n".join([f"{title} {text}", *rest]) + "\n")
+    before = title.rpartition(" - ")[0]  # the last part is a position
+    path.write_text("\n".join([f"{before} - {text}", *rest]) + "\n")
     data = readers.open(path)
     assert float(data.lon) == pytest.approx(lon, abs=1e-9)
     assert float(data.lat) == pytest.approx(lat, abs=1e-9)
