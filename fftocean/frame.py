@@ -76,12 +76,8 @@ class _Arrays:
 
     def _become(self: Own, other: Own) -> None:
         """Take over the time and arrays of another frame."""
-        self.t, self.grid, self.choppiness, self._arrays = (
-            other.t,
-            other.grid,
-            other.choppiness,
-            other._arrays,
-        )
+        self.t, self.grid, self.choppiness = other.t, other.grid, other.choppiness
+        self._arrays, self._layout = other._arrays, other._layout
 
     def _repr_html_(self) -> str:
         """Return the fields and an image of the height for notebooks."""

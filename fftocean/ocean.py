@@ -554,10 +554,10 @@ class Ocean:
         with no_fork(), self._locked():
             self._synthesis.run(moment, arrays, self.choppiness)
         frame = Frame(t, self.grid, self.choppiness, arrays)
+        frame._layout = self._synthesis.shape, self.dtype
         if out is not None:
             out._become(frame)  # its t and fields are the new ones
-            frame = out
-        frame._layout = self._synthesis.shape, self.dtype
+            return out
         return frame
 
     def _outputs(self, fields: Sequence[str], out: Frame | None) -> dict[str, Real]:

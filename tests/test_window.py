@@ -225,3 +225,17 @@ def test_more_samples_than_there_is_memory_for_are_refused(cascade, monkeypatch)
     ):
         fo.Window(cascade, n=4096)
     fo.Window(cascade, n=64)
+
+
+def test_a_frame_that_a_window_has_filled_is_checked_again_by_an_ocean(cascade):
+    """A window puts arrays of its own into the frame, which may be smaller than the ocean's."""
+    ocean = fo.Ocean(SEA, n=64, size=100.0, dtype="float64")
+    window = fo.Window(cascade, n=16, size=30.0)
+    out = ocean.frame(0.0, ("height",))
+    assert window.frame(1.0, ("height",), out=out).height.shape == (16, 16)
+    with pytest.raises(fo.ParameterError, match=r"of shape \(64, 64\), got float64 \(16, 16\)"):
+        ocean.frame(1.0, ("height",), out=out)
+    same = fo.Window(cascade, n=64, size=30.0)
+    same.frame(1.0, ("height",), out=out)
+    expected = ocean.frame(2.0, ("height",)).height
+    assert np.array_equal(ocean.frame(2.0, ("height",), out=out).height, expected)
