@@ -8,13 +8,17 @@ without 1/n, on one thread.
 import contextlib
 import ctypes
 import importlib
+import importlib.machinery
 import importlib.metadata
+import importlib.util
 import math
+import os
 import sys
 import threading
 import weakref
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol
 
@@ -397,6 +401,7 @@ def _pyfftw() -> ModuleType | None:
         hide = "pyfftw" not in sys.modules and "dask.array" not in sys.modules
         if hide:
             sys.modules["dask.array"] = None  # type: ignore[assignment]
+        _bind_fftw()
         try:
             return importlib.import_module("pyfftw")
         except ImportError:
@@ -404,6 +409,22 @@ def _pyfftw() -> ModuleType | None:
         finally:
             if hide:
                 sys.modules.pop("dask.array", None)
+
+
+def _bind_fftw() -> None:
+    """
+    Load pyfftw's library so that FFTW finds its own functions first.
+
+    MKL gives functions of the same names to the whole process. FFTW, loaded after MKL has computed,
+    would call those with plans of its own.
+    """
+    if not hasattr(os, "RTLD_DEEPBIND"):
+        return  # names are those of a library there
+    spec = importlib.util.find_spec("pyfftw")
+    for folder in (spec and spec.submodule_search_locations) or ():
+        for suffix in importlib.machinery.EXTENSION_SUFFIXES:
+            with contextlib.suppress(OSError):  # no such file: as it is without this
+                ctypes.CDLL(str(Path(folder, f"pyfftw{suffix}")), os.RTLD_NOW | os.RTLD_DEEPBIND)
 
 
 def loaded(backend: str) -> Any:

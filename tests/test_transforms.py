@@ -1,5 +1,6 @@
 """Every backend computes the same unscaled inverse transform, as accurately as an FFT can."""
 
+import itertools
 import json
 import math
 import subprocess
@@ -289,3 +290,19 @@ threads = [threading.Thread(target=ask) for _ in range(8)]
 assert found == [True] * 8 and sys.modules.get("dask.array", 1) is not None, found
 """
     subprocess.run([sys.executable, "-c", script], check=True, timeout=600)
+
+
+def test_libraries_of_the_same_names_do_not_mix():
+    """In each order, in a process of its own: MKL and FFTW name their functions alike."""
+    backends = [name for name in transforms.BACKENDS if transforms.library(name)]
+    for order in itertools.permutations(backends):
+        code = (
+            "import fftocean as fo\n"
+            "ocean = lambda b, d: fo.Ocean.from_modes([(1, 2, 0.5, 0.1)], n=32, size=9.0, "
+            "backend=b, dtype=d)\n"
+            f"frames = [ocean(b, d).frame(0.3) for b in {order} for d in ('float64', 'float32')]\n"
+            "print(max(abs(f.height - frames[0].height).max() for f in frames))"
+        )
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        assert done.returncode == 0, (order, done.stderr[-500:])
+        assert float(done.stdout) < 1e-6, order
