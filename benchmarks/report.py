@@ -23,6 +23,8 @@ QUESTIONS = (
 ON_REQUEST = ("encino_waves",)
 """Questions that need another program's sources: they are asked by hand, and reported with all."""
 
+REPORTED_QUESTIONS = (*QUESTIONS, *ON_REQUEST)
+
 REPORTED: Mapping[str, tuple[str, ...]] = {
     "frame": (
         "full frame",
@@ -224,7 +226,7 @@ def report(results: Mapping[str, Result]) -> str:
                 *_goals(results),
                 *(
                     line
-                    for name in (*QUESTIONS, *ON_REQUEST)
+                    for name in REPORTED_QUESTIONS
                     if name in results
                     for line in _section(results[name])
                 ),
@@ -247,7 +249,7 @@ def _head(results: Mapping[str, Result]) -> list[str]:
     ]
     if not results:
         return [*lines, "Not measured yet."]
-    result = next(results[name] for name in (*QUESTIONS, *ON_REQUEST) if name in results)
+    result = next(results[name] for name in REPORTED_QUESTIONS if name in results)
     m = result.machine
     caches = ", ".join(f"{level} {size}" for level, size in m["caches"].items())
     versions = ", ".join(f"{name} {version}" for name, version in m["packages"].items())
@@ -262,7 +264,7 @@ def _head(results: Mapping[str, Result]) -> list[str]:
         f"| packages | {versions} |",
         f"| FFT libraries | {libraries}; by default {m['fft_default']} |",
     ]
-    for name in (*QUESTIONS, *ON_REQUEST):
+    for name in REPORTED_QUESTIONS:
         if name in results:
             before, after = results[name].before, results[name].after
             busy = [r.median for r in results[name].all("wall time / CPU time")]
@@ -349,7 +351,7 @@ def gather(folder: Path = RESULTS) -> dict[str, Result]:
     """Return the results in a folder, in the sequence of the questions."""
     return {
         name: read(folder / f"{name}.json")
-        for name in (*QUESTIONS, *ON_REQUEST)
+        for name in REPORTED_QUESTIONS
         if (folder / f"{name}.json").exists()
     }
 

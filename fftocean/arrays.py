@@ -17,6 +17,9 @@ Complex = npt.NDArray[np.complexfloating[Any, Any]]
 Integer = npt.NDArray[np.int64]
 """Signed integers, 64 bit."""
 
+CACHE_LINE = 64
+"""Bytes in a cache line, and in the widest vector register."""
+
 RealLike = npt.ArrayLike
 """An argument of `np.asarray(..., float)`: a number, a list, an array."""
 

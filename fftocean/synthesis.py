@@ -38,12 +38,12 @@ from typing import NamedTuple
 import numpy as np
 
 from fftocean.amplitudes import Amplitudes
-from fftocean.arrays import COMPLEX_OF, Complex, Integer, Real
+from fftocean.arrays import CACHE_LINE, COMPLEX_OF, Complex, Integer, Real
 from fftocean.bound_waves import BoundSpectrum, Shown
 from fftocean.computation import Computation
 from fftocean.fields import FIELDS, GEOMETRY, POINTWISE, Field, potential_factor
 from fftocean.kernels import passes, whole_passes
-from fftocean.kernels.vectors import CACHE_LINE, TILE
+from fftocean.kernels.vectors import TILE
 from fftocean.phases import Moment
 from fftocean.physics import dispersion
 from fftocean.transforms import aligned, aligned_numbers, chosen_backend, inverse_rows, row_plan

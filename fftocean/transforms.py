@@ -25,7 +25,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from fftocean import forks, wisdom
-from fftocean.arrays import COMPLEX_OF, Complex
+from fftocean.arrays import CACHE_LINE, COMPLEX_OF, Complex
 from fftocean.errors import ParameterError
 
 PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "FFTW_PATIENT"}
@@ -34,7 +34,6 @@ PLANNING = {"estimate": "FFTW_ESTIMATE", "measure": "FFTW_MEASURE", "patient": "
 FLAGS = {"estimate": 64, "measure": 0, "patient": 32}
 """The same in C."""
 
-ALIGNMENT = 64  # bytes: a cache line, and the widest vector register
 # FFTW's planner is shared by all plans. A plan can be collected while its thread makes another, so
 # the lock can be taken twice.
 _planner = threading.RLock()
@@ -160,8 +159,8 @@ def _aligned(
     """Return an array on a cache line, in memory that is made by a function of NumPy."""
     kind = np.dtype(kind)
     size = math.prod(shape) * kind.itemsize
-    raw = make(size + ALIGNMENT, dtype=np.uint8)
-    start = -raw.ctypes.data % ALIGNMENT
+    raw = make(size + CACHE_LINE, dtype=np.uint8)
+    start = -raw.ctypes.data % CACHE_LINE
     numbers: np.ndarray[Any, np.dtype[Any]] = raw[start : start + size].view(kind)
     return numbers.reshape(shape)
 

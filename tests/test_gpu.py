@@ -9,9 +9,11 @@ import signal
 import threading
 import warnings
 
+import gpu_water
 import numpy as np
 import pytest
 from builders import require
+from gpu_water import ALL, GALE, apart, pair
 
 import fftocean as fo
 from fftocean.fields import EIGHT, FIELDS
@@ -20,20 +22,10 @@ from fftocean.gpu import kernels
 
 pytestmark = pytest.mark.client
 
-ALL = (*FIELDS, "normal", "jacobian")
 # Relative error in the L2 norm. A field in single precision loses 6e-8 in each of its 10 to 24
 # steps, and the rounding errors of those add up at random.
 CLOSE = 5e-7
-GALE = fo.Sea.from_wind(speed=14.0, fetch=200e3, depth=40.0, direction=30.0)
-TILES = {
-    "usual": {"n": 64, "size": 200.0},
-    "oblong": {"n": (128, 32), "size": (250.0, 90.0)},
-    "least": {"n": (2, 16), "size": (40.0, 200.0)},
-    "longest-line-in-one-step": {"n": (512, 8), "size": (500.0, 20.0)},
-    "two-steps-along-x": {"n": (1024, 8), "size": (900.0, 15.0)},
-    "two-steps-along-y": {"n": (8, 2048), "size": (15.0, 1500.0)},
-    "two-steps-along-both": {"n": 1024, "size": 1000.0},
-}
+TILES = {**gpu_water.TILES, "two-steps-along-both": {"n": 1024, "size": 1000.0}}
 TIMES = [0.0, 12.345, -1e9 - 1.0 / 3.0, 1e12]
 
 
@@ -52,22 +44,6 @@ def _quiet():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", fo.SeaWarning)
         yield
-
-
-def pair(**given):
-    """Return an ocean of the graphics processor, and the same one in double precision."""
-    given = {"seed": 7, "choppiness": 0.9, **given}
-    return fo.Ocean(GALE, backend="gpu", **given), fo.Ocean(GALE, dtype="float64", **given)
-
-
-def apart(seen, frame, fields=ALL):
-    """Return the largest relative error of a field; fields without waves must be exactly 0."""
-    found = 0.0
-    for name in fields:
-        size = np.linalg.norm(frame[name])
-        error = np.linalg.norm(seen[name] - frame[name])
-        found = max(found, error / size if size > 0.0 else np.inf if error > 0.0 else 0.0)
-    return found
 
 
 @pytest.mark.parametrize("loop", [None, 64.0])

@@ -38,7 +38,7 @@ from fftocean.baking.folder.ownership import (
     require_same_bake,
 )
 from fftocean.baking.folder.plan import Plan, frames_of, tasks_of
-from fftocean.baking.folder.rows import PackedRows, RowList
+from fftocean.baking.folder.rows import PackedRows, RowList, unpacked
 from fftocean.baking.folder.sealed import write_sealed
 from fftocean.baking.previews import previews
 from fftocean.baking.scene import maps
@@ -119,7 +119,7 @@ def bake(
         listen=listen,
         scene=scene,
     )
-    return {**manifest, "frames": list(manifest["frames"])}
+    return unpacked(manifest)
 
 
 def bake_packed(

@@ -15,6 +15,7 @@ from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
 from fftocean.baking.folder.identity import HEADER, differences
 from fftocean.baking.folder.journal import Listen, Progress
+from fftocean.baking.folder.rows import unpacked
 from fftocean.baking.folder.sealed import CHECK, read_sealed, sealed
 from fftocean.errors import IntegrityError, OutputError, SeaWarning
 from fftocean.files import as_json, path_of, remove, write_whole
@@ -105,7 +106,7 @@ def repair(
     if manifest is not None and {**again, CHECK: None} != {**manifest, CHECK: None}:
         changes = differences(manifest, again) or "checksums of frames"
         raise IntegrityError(f"{folder} was repaired, and differs from the first bake: {changes}")
-    return {**again, "frames": list(again["frames"])}
+    return unpacked(again)
 
 
 def _within(path: str, name: str) -> bool:

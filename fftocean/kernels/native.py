@@ -69,9 +69,8 @@ def _take(context: Any, counter: Any) -> Any:
     signature = types.int64(counter)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        kind = signature.args[0]
-        data = context.make_array(kind)(context, builder, arguments[0]).data
-        return builder.atomic_rmw("add", data, ir.IntType(64)(1), "acq_rel")
+        first = _first_number(context, builder, signature, arguments)
+        return builder.atomic_rmw("add", first, ir.IntType(64)(1), "acq_rel")
 
     return signature, generate
 
@@ -91,11 +90,15 @@ def _taken(context: Any, counter: Any) -> Any:
     signature = types.int64(counter)
 
     def generate(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
-        kind = signature.args[0]
-        data = context.make_array(kind)(context, builder, arguments[0]).data
-        return builder.load_atomic(data, "acquire", 8)
+        first = _first_number(context, builder, signature, arguments)
+        return builder.load_atomic(first, "acquire", 8)
 
     return signature, generate
+
+
+def _first_number(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> Any:
+    """Return the address of the first number of the only argument, an array."""
+    return context.make_array(signature.args[0])(context, builder, arguments[0]).data
 
 
 def numbers_at(address: int, count: int, like: Real) -> Real:

@@ -15,7 +15,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import overload
 
-from fftocean.arrays import Real
+from fftocean.arrays import CACHE_LINE, Real
 
 _intrinsic: Any = numba.extending.intrinsic
 
@@ -24,9 +24,6 @@ TILE = 8
 
 LANES = 2 * TILE
 """Real numbers in a row of a tile."""
-
-CACHE_LINE = 64
-"""Bytes in a cache line."""
 
 
 def scale(factors: Real, f: int, source: Real, s: int, out: Real, o: int) -> None:

@@ -11,6 +11,7 @@ from fftocean.arrays import Real, RealLike, shortened
 from fftocean.baking.finished.contents import Contents
 from fftocean.baking.finished.manifest import read_manifest
 from fftocean.baking.folder import layout, listing
+from fftocean.baking.folder.rows import unpacked
 from fftocean.baking.scene.maps import MAPS
 from fftocean.errors import IntegrityError, JobError
 from fftocean.files import digest, path_of
@@ -183,8 +184,8 @@ def _bake(
     loaded = {name: read_frames(contents, name, places, verify) for name in wanted}
     rows = contents.manifest["frames"]
     times = np.array([rows[place]["t"] for place in places])
-    manifest = {**contents.manifest, "frames": list(rows)}
-    return Bake(loaded, times, tuple(contents.frames[place] for place in places), manifest)
+    frames = tuple(contents.frames[place] for place in places)
+    return Bake(loaded, times, frames, unpacked(contents.manifest))
 
 
 def read_frames(contents: Contents, name: str, places: Sequence[int], verify: bool = True) -> Real:

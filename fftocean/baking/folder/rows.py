@@ -87,6 +87,11 @@ class PackedRows(Mapping[int, Row]):
         return block
 
 
+def unpacked(manifest: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a manifest with its rows, which may be a `RowList`, as plain data."""
+    return {**manifest, "frames": list(manifest["frames"])}
+
+
 class RowList(Sequence[Row]):
     """Rows of all frames as a sequence that equals the list of them."""
 
