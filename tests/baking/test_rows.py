@@ -19,6 +19,7 @@ from fftocean.baking.folder import rows as rows_module
 from fftocean.baking.folder.plan import Task, tasks_of
 from fftocean.baking.folder.rows import BLOCK, PackedRows, RowList
 from fftocean.baking.folder.sealed import CHECK, read_sealed, sealed, write_sealed
+from fftocean.baking.workers import local
 from fftocean.errors import IntegrityError
 from fftocean.files import as_json
 from fftocean.statistics import SeaState
@@ -174,6 +175,8 @@ def test_frames_cost_a_bake_little_memory(tmp_path, monkeypatch):
     """
     monkeypatch.setattr(rows_module, "OPEN", 1)
     monkeypatch.setattr(os, "fsync", lambda _: None)
+    # Encoders hold 350 kB each: how many are at work at a time is chance.
+    monkeypatch.setattr(local, "cores", lambda: 1)
     still = fo.measure(fo.Ocean.from_modes([(1, 0, 0.5, 0.0)], n=8, size=50.0))
     specified = SeaState(m0=0.1, hs=1.26, tp=5.0, mean_direction=0.0, spread=30.0)
     monkeypatch.setattr(baker, "measure", lambda _: dataclasses.replace(still, specified=specified))
