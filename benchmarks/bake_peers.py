@@ -26,6 +26,7 @@ import fresh
 import numpy as np
 import script
 
+from fftocean import limits
 from fftocean.bench.charts import bars, sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
@@ -107,6 +108,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     """Bake with each program in turn; compare the pixels of the versions of this package."""
     if options.frames < FIRST + 4:
         raise ParameterError(f"--frames must be at least {FIRST + 4}, got {options.frames}")
+    limits.Count("", 1, 1000).check("--rounds", options.rounds)
     side = round(options.n**0.5)
     programs: dict[str, list[str]] = {OURS: []}
     for one in options.earlier:
@@ -161,12 +163,10 @@ def one_bake(
     words = ["-c", code, str(n), str(options.frames), str(folder), str(FIRST)]
     if not python:
         return fresh.python(*words).said
-    done = subprocess.run(
-        [*python, *words],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-    )
+    try:
+        done = subprocess.run([*python, *words], capture_output=True, text=True, cwd=folder)
+    except OSError as error:
+        raise ParameterError(f"{name} could not be run: {error}") from None
     if done.returncode:
         raise ParameterError(f"{name} failed with {done.returncode}: {done.stderr[-400:]}")
     return fresh.last_json(done.stdout)

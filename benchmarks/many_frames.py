@@ -18,6 +18,7 @@ from pathlib import Path
 import fresh
 import script
 
+from fftocean import limits
 from fftocean.bench.charts import sheet
 from fftocean.bench.results import Reading, Result
 from fftocean.bench.timing import summary
@@ -107,7 +108,7 @@ def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     if not Path("/proc/self/status").exists():
         raise ParameterError("memory is measured on Linux only: there is no /proc/self/status here")
     readings = []
-    for count in options.frames:
+    for count in [limits.FRAMES.check("--frames", count) for count in options.frames]:
         say(f"{count} frames")
         said = fresh.python("-c", CHILD, str(count), str(options.n), options.folder).said
         readings += [

@@ -22,7 +22,7 @@ import script
 from scipy import ndimage
 
 import fftocean as fo
-from fftocean import host
+from fftocean import host, limits
 from fftocean.bench.charts import bars, sheet
 from fftocean.bench.results import Entry, Pair, Reading, Result, race
 from fftocean.errors import ParameterError
@@ -119,6 +119,8 @@ def places(points: int) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
 
 def measure(options: argparse.Namespace, say: script.Say) -> list[Reading]:
     """Run the races of each set of points, then those of single calls."""
+    # so few that the heights which are compared have no standard deviation are no measurement
+    limits.Count("", 5 * ENOUGH, 10**8).check("--points", options.points)
     say("cascade")
     cascade, readings = cascade_of(options.n), []
     for where, x, y in places(options.points):

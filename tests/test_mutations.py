@@ -117,3 +117,10 @@ def test_a_test_that_fails_without_the_error_proves_nothing(tree):
     ran(tree, OBLONG)
     broken = ("oblong", "area.area(2, 3) == 7")
     assert ran(tree, broken, SQUARE) == ([], 1, "baseline")
+
+
+def test_a_pattern_that_nothing_matches_is_an_error(capsys):
+    with pytest.raises(SystemExit) as left:
+        mutate.main(["--check", "--only", "kind:8", "--only", "no-such-module"])
+    assert left.value.code == 2
+    assert "no error's name or kind is 'no-such-module'" in capsys.readouterr().err

@@ -506,6 +506,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     patterns = given.only or ["*"]
     mutations = [m for m in read_table() if any(_matches(m, p) for p in patterns)]
+    for pattern in patterns:
+        if not any(_matches(m, pattern) for m in mutations):
+            parser.error(f"--only: no error's name or kind is {pattern!r}")
     wrong = faults(mutations)
     for line in wrong:
         print(f"error: {line}")

@@ -45,6 +45,27 @@ def asked(script, name, tmp_path, *flags):
     return read(files[0]), files[1].read_bytes()
 
 
+@pytest.mark.parametrize(
+    ("name", "flags", "says"),
+    [
+        ("many_frames", ["--frames", "0"], "--frames must be a whole number between 1 and"),
+        ("query", ["--points", "0"], "--points must be a whole number between 100 and"),
+        ("bake_peers", ["--rounds", "0"], "--rounds must be a whole number between 1 and"),
+        ("bake_peers", ["--frames", "3"], "--frames must be at least 12, got 3"),
+    ],
+)
+def test_wrong_numbers_are_refused_by_name(script, capsys, name, flags, says):
+    assert script(name).main(flags) == 2
+    assert says in " ".join(capsys.readouterr().err.split())
+
+
+def test_an_earlier_version_that_cannot_run_is_named(script, tmp_path, capsys):
+    missing = str(tmp_path / "python")
+    flags = ["--n", "16", "--frames", "12", "--rounds", "1", "--earlier", f"old={missing}"]
+    assert script("bake_peers").main(flags) == 2
+    assert "old could not be run" in capsys.readouterr().err
+
+
 def test_encino_waves_needs_its_sources(script, tmp_path, capsys):
     assert script("encino_waves").main(["--source", str(tmp_path)]) == 2
     assert f"{tmp_path} is no checkout of EncinoWaves" in " ".join(capsys.readouterr().err.split())
