@@ -822,6 +822,32 @@ class Torn:
 
 
 @pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("error", [OutputError("no room"), KeyboardInterrupt()])
+def test_what_a_dead_worker_left_half_written_goes_with_the_bake(tmp_path, monkeypatch, error):
+    """In every folder of a map, when the bake fails and when it is finished."""
+    left = []
+
+    def die(executor, plan, *rest):
+        for folder in (tmp_path / "out", tmp_path / "out" / "height"):
+            folder.mkdir(exist_ok=True)
+            left.append(folder / ".0001.exr.12345.tmp")
+            left[-1].write_bytes(b"torn")
+        if not fails:
+            return write(executor, plan, *rest)
+        raise error
+
+    write = baker._write
+    monkeypatch.setattr(baker, "_write", die)
+    for fails in (True, False):
+        if fails:
+            with pytest.raises(type(error)):
+                fo.bake(job(), tmp_path / "out")
+        else:
+            fo.bake(job(), tmp_path / "out")
+        assert not any(path.exists() for path in left)
+    assert len(left) == 4
+
+
 @pytest.mark.parametrize(
     ("kind", "error"),
     [
