@@ -486,6 +486,7 @@ def test_a_measured_bake_is_repaired_by_its_job(measured):
     ("how", "key"),
     [
         ({"frames": "0:3"}, "subset: all there, 0:3:1 here"),
+        ({"frames": "0:4:2"}, "subset: all there, 0:3:2 here"),
         ({"downsample": 2}, "downsample: 1 there, 2 here"),
     ],
 )
